@@ -18,6 +18,7 @@ class TraxTargetMachine;
 /// Selects machine instructions.
 FunctionPass *createTraxISelDag(TraxTargetMachine &TM, CodeGenOptLevel OptLevel);
 /// Writes va_arg instructions out as loads, for every type.
+FunctionPass *createTraxLowerFloatsPass();
 FunctionPass *createTraxLowerVAArgPass();
 /// Splits branches on double words, and lets phis take values that branches have compared.
 FunctionPass *createTraxBranchesPass();
@@ -39,6 +40,7 @@ void expandTraxLongJmp(MachineInstr &MI, const TargetInstrInfo &TII);
 void initializeTraxBranchesPass(PassRegistry &);
 void initializeTraxDAGToDAGISelLegacyPass(PassRegistry &);
 void initializeTraxLowerAtomicsPass(PassRegistry &);
+void initializeTraxLowerFloatsPass(PassRegistry &);
 void initializeTraxLowerVAArgPass(PassRegistry &);
 void initializeTraxShrinkWrapPass(PassRegistry &);
 

@@ -39,6 +39,9 @@ def TraxAsmWriter : AsmWriter {
 // Code for programs linked with -mstack=global (docs/abi.md, "Program start").
 def FeatureGlobalStack
     : SubtargetFeature<"global-stack", "HasGlobalStack", "true", "The stack is in global memory">;
+// Code for both.
+def FeatureEitherStack
+    : SubtargetFeature<"either-stack", "HasEitherStack", "true", "The stack may be in local or in global memory">;
 
 // -ffixed-rN.
 foreach i = 4-31 in

@@ -1,12 +1,15 @@
 //===- TraxAsmPrinter.cpp - Functions to MC ------------------------------===//
 #include "LLVMTrax.h"
 #include "MCTargetDesc/TraxInstPrinter.h"
+#include "MCTargetDesc/TraxTargetStreamer.h"
 #include "TargetInfo/TraxTargetInfo.h"
 #include "Trax.h"
 #include "TraxMCInstLower.h"
+#include "TraxSubtarget.h"
 #include "TraxTargetMachine.h"
 #include "llvm/CodeGen/AsmPrinter.h"
 #include "llvm/CodeGen/MachineInstr.h"
+#include "llvm/IR/DiagnosticInfo.h"
 #include "llvm/IR/Module.h"
 #include "llvm/MC/MCContext.h"
 #include "llvm/MC/MCExpr.h"
@@ -27,6 +30,7 @@ public:
 
   StringRef getPassName() const override { return "TRaX assembly printer"; }
 
+  void emitStartOfAsmFile(Module &M) override;
   void emitInstruction(const MachineInstr *MI) override;
   void emitEndOfAsmFile(Module &M) override;
   bool PrintAsmOperand(const MachineInstr *MI, unsigned OpNo, const char *ExtraCode, raw_ostream &OS) override;
@@ -43,6 +47,14 @@ private:
 } // namespace
 
 #include "TraxGenMCPseudoLowering.inc"
+
+/// Says where the functions expect the stack: the linker compares it.
+void TraxAsmPrinter::emitStartOfAsmFile(Module &M) {
+  auto &Streamer = static_cast<TraxTargetStreamer &>(*OutStreamer->getTargetStreamer());
+  for (const Function &F : M)
+    if (!F.isDeclarationForLinker() && !Streamer.setStack(TM.getSubtarget<TraxSubtarget>(F).getStack()))
+      M.getContext().diagnose(DiagnosticInfoUnsupported(F, "the functions of one file expect the stack in one place"));
+}
 
 /// Tells the linker that the jalr to come is a jump within the function, not a call in tail position.
 void TraxAsmPrinter::emitJumpMarker() {

@@ -213,7 +213,7 @@ SDValue TraxTargetLowering::LowerCall(CallLoweringInfo &CLI, SmallVectorImpl<SDV
     if (!Out.Flags.isByVal())
       continue;
     unsigned Size = Out.Flags.getByValSize();
-    if (Size > TRAX_LOCAL_SIZE && !Subtarget.hasGlobalStack()) {
+    if (Size > TRAX_LOCAL_SIZE && Subtarget.getStack() != TRAX_EF_STACK_GLOBAL) {
       unsupported(DAG, DL, "an argument of " + Twine(Size) + " bytes does not fit the local memory; -mstack=global has room for it");
       Out.Flags.setByValSize(4);
       Size = 4;

@@ -96,7 +96,7 @@ void TraxFrameLowering::emitPrologue(MachineFunction &MF, MachineBasicBlock &MBB
   MachineBasicBlock::iterator MBBI = MBB.begin();
   DebugLoc DL; // none: the debugger takes the first line behind the prologue
   uint64_t StackSize = MFI.getStackSize();
-  if (StackSize > TRAX_LOCAL_SIZE && !MF.getSubtarget<TraxSubtarget>().hasGlobalStack()) {
+  if (StackSize > TRAX_LOCAL_SIZE && MF.getSubtarget<TraxSubtarget>().getStack() != TRAX_EF_STACK_GLOBAL) {
     DiagnosticInfoStackSize Diag(MF.getFunction(), StackSize, TRAX_LOCAL_SIZE, DS_Warning);
     MF.getFunction().getContext().diagnose(Diag);
     MF.getFunction().getContext().diagnose(StackAnswer());

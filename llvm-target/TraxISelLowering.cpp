@@ -75,11 +75,6 @@ TraxTargetLowering::TraxTargetLowering(const TargetMachine &TM, const TraxSubtar
                       ISD::LROUND, ISD::LLROUND, ISD::LRINT, ISD::LLRINT},
                      MVT::f32, Expand);
   setOperationAction({ISD::FP_TO_SINT_SAT, ISD::FP_TO_UINT_SAT}, MVT::i32, Custom);
-  setOperationAction({ISD::STRICT_FADD, ISD::STRICT_FSUB, ISD::STRICT_FMUL, ISD::STRICT_FDIV, ISD::STRICT_FMINNUM,
-                      ISD::STRICT_FMAXNUM},
-                     MVT::f32, Legal);
-  setOperationAction({ISD::STRICT_FP_TO_SINT, ISD::STRICT_FP_TO_UINT, ISD::STRICT_SINT_TO_FP, ISD::STRICT_UINT_TO_FP},
-                     MVT::i32, Legal);
   for (MVT VT : {MVT::f16, MVT::bf16}) {
     setLoadExtAction(ISD::EXTLOAD, MVT::f32, VT, Expand);
     setTruncStoreAction(MVT::f32, VT, Expand);
@@ -236,7 +231,7 @@ bool TraxTargetLowering::isLegalAddressingMode(const DataLayout &, const AddrMod
 }
 
 bool llvm::isLocalMemory(const MemSDNode *N, const SelectionDAG &DAG) {
-  const bool StackIsLocal = !DAG.getSubtarget<TraxSubtarget>().hasGlobalStack();
+  const bool StackIsLocal = DAG.getSubtarget<TraxSubtarget>().getStack() == TRAX_EF_STACK_LOCAL;
   SDValue Base = N->getBasePtr();
   while (Base.getOpcode() == ISD::ADD || Base.getOpcode() == ISD::OR)
     Base = Base.getOperand(0);
@@ -456,6 +451,8 @@ Register TraxTargetLowering::getRegisterByName(const char *Name, LLT, const Mach
 TargetLowering::ConstraintType TraxTargetLowering::getConstraintType(StringRef Constraint) const {
   if (Constraint.size() == 1)
     switch (Constraint[0]) {
+    case 'f': // a float, in a register as any
+      return C_RegisterClass;
     case 'I': // signed 16-bit immediate
     case 'J': // 0
     case 'K': // unsigned 16-bit immediate
@@ -468,7 +465,7 @@ TargetLowering::ConstraintType TraxTargetLowering::getConstraintType(StringRef C
 
 std::pair<unsigned, const TargetRegisterClass *>
 TraxTargetLowering::getRegForInlineAsmConstraint(const TargetRegisterInfo *TRI, StringRef Constraint, MVT VT) const {
-  if (Constraint == "r") {
+  if (Constraint == "r" || Constraint == "f") {
     // A double word takes two: %0 names the lower word's, %H0 the upper word's.
     if (VT != MVT::Other && VT.getSizeInBits() > 64)
       return {0U, nullptr};

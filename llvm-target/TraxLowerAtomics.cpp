@@ -134,7 +134,7 @@ static bool isOnlyCounted(const Value &Pointer) {
 static bool isPrivate(const Value *Address, const TraxSubtarget &Subtarget) {
   const Value *Object = getUnderlyingObject(Address);
   if (isa<AllocaInst>(Object))
-    return !Subtarget.hasGlobalStack();
+    return Subtarget.getStack() == TRAX_EF_STACK_LOCAL;
   const auto *Global = dyn_cast<GlobalVariable>(Object);
   return Global && Global->isThreadLocal();
 }
@@ -143,8 +143,9 @@ static bool isPrivate(const Value *Address, const TraxSubtarget &Subtarget) {
 static bool isLockFree(const Value *Address, const TraxSubtarget &Subtarget) {
   const Value *Object = getUnderlyingObject(Address);
   const auto *Global = dyn_cast<GlobalVariable>(Object);
-  return isPrivate(Address, Subtarget) ||
-         ((isa<AllocaInst>(Object) || (Global && Global->hasLocalLinkage())) && isOnlyCounted(*Object));
+  const bool HasVisibleUses = isa<AllocaInst>(Object) ? Subtarget.getStack() == TRAX_EF_STACK_GLOBAL // else ainc faults
+                                                      : Global && Global->hasLocalLinkage();
+  return isPrivate(Address, Subtarget) || (HasVisibleUses && isOnlyCounted(*Object));
 }
 
 static void fenceBefore(Instruction &I, AtomicOrdering Ordering) {

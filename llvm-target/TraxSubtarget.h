@@ -6,6 +6,7 @@
 #include "TraxISelLowering.h"
 #include "TraxInstrInfo.h"
 #include "TraxRegisterInfo.h"
+#include "trax/abi.h"
 #include "llvm/CodeGen/SelectionDAGTargetInfo.h"
 #include "llvm/CodeGen/TargetSubtargetInfo.h"
 #include <bitset>
@@ -22,7 +23,7 @@ class TraxSubtarget : public TraxGenSubtargetInfo {
   TraxInstrInfo InstrInfo;
   TraxTargetLowering TLInfo;
   SelectionDAGTargetInfo TSInfo;
-  bool HasGlobalStack = false;
+  bool HasGlobalStack = false, HasEitherStack = false;
   std::bitset<32> ReservedRegisters;
 
 public:
@@ -37,8 +38,9 @@ public:
   const TraxTargetLowering *getTargetLowering() const override { return &TLInfo; }
   const SelectionDAGTargetInfo *getSelectionDAGInfo() const override { return &TSInfo; }
 
-  /// Whether automatic objects are in global memory, where other threads can reach them.
-  bool hasGlobalStack() const { return HasGlobalStack; }
+  /// Where automatic objects are: TRAX_EF_STACK_LOCAL; TRAX_EF_STACK_GLOBAL, where other threads can reach them; or 0,
+  /// in either.
+  unsigned getStack() const { return HasEitherStack ? 0 : HasGlobalStack ? TRAX_EF_STACK_GLOBAL : TRAX_EF_STACK_LOCAL; }
 
   /// -ffixed-rN: whether the program keeps the register for itself.
   bool isReserved(MCRegister Register) const { return ReservedRegisters[InstrInfo.getRegisterInfo().getEncodingValue(Register)]; }

@@ -23,6 +23,7 @@ void LLVMInitializeTraxTarget() {
   initializeTraxBranchesPass(PR);
   initializeTraxDAGToDAGISelLegacyPass(PR);
   initializeTraxLowerAtomicsPass(PR);
+  initializeTraxLowerFloatsPass(PR);
   initializeTraxLowerVAArgPass(PR);
   initializeTraxShrinkWrapPass(PR);
 }
@@ -82,6 +83,7 @@ public:
   TraxTargetMachine &getTraxTargetMachine() const { return getTM<TraxTargetMachine>(); }
 
   void addIRPasses() override {
+    addPass(createTraxLowerFloatsPass());
     addPass(createTraxLowerVAArgPass());
     addPass(createAtomicExpandLegacyPass());
     addPass(createTraxLowerAtomicsPass());

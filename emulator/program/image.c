@@ -44,8 +44,9 @@ static trax_status check_header(const trax_image *image, const Elf32_Ehdr *heade
     return trax_fail(error, "%s: ELF type %u; an executable is %u", image->path, header->e_type, ET_EXEC);
   if (header->e_version != EV_CURRENT)
     return trax_fail(error, "%s: ELF header version %u; %u is known", image->path, header->e_version, EV_CURRENT);
-  if (header->e_flags != 0)
-    return trax_fail(error, "%s: e_flags is 0x%x; no flag is defined", image->path, header->e_flags);
+  if (header->e_flags > TRAX_EF_STACK_GLOBAL)
+    return trax_fail(error, "%s: e_flags is 0x%x; 0 to %d are defined", image->path, header->e_flags,
+                     TRAX_EF_STACK_GLOBAL);
   if (header->e_ehsize != sizeof(Elf32_Ehdr))
     return trax_fail(error, "%s: ELF header of %u bytes; it has %zu", image->path, header->e_ehsize,
                      sizeof(Elf32_Ehdr));
@@ -318,6 +319,16 @@ trax_status trax_image_read(const char *path, uint8_t **bytes, size_t *size, tra
   return status;
 }
 
+/* The flags say where the code expects the stack, the symbol where it is. */
+static trax_status check_stack(const trax_image *image, uint32_t flags, trax_error *error) {
+  const bool is_global = trax_image_symbol(image, "__trax_stack_size");
+  if (flags != 0 && is_global != (flags == TRAX_EF_STACK_GLOBAL))
+    return trax_fail(error, "%s: is for stacks in %s", image->path,
+                     is_global ? "local memory, but has a symbol __trax_stack_size"
+                               : "global memory, but has no symbol __trax_stack_size: was the symbol table removed?");
+  return TRAX_OK;
+}
+
 static trax_status check_image(trax_image *image, trax_error *error) {
   if (check_identification(image, error) != TRAX_OK)
     return TRAX_ERROR;
@@ -330,7 +341,7 @@ static trax_status check_image(trax_image *image, trax_error *error) {
   if (check_header(image, header, error) != TRAX_OK || read_segments(image, header, error) != TRAX_OK ||
       check_entry(image, error) != TRAX_OK)
     return TRAX_ERROR;
-  return read_symbols(image, header, error);
+  return read_symbols(image, header, error) == TRAX_OK ? check_stack(image, header->e_flags, error) : TRAX_ERROR;
 }
 
 /* The image takes the bytes. */

@@ -3,6 +3,7 @@
 #include "MCTargetDesc/TraxBaseInfo.h"
 #include "MCTargetDesc/TraxMCExpr.h"
 #include "MCTargetDesc/TraxMCTargetDesc.h"
+#include "MCTargetDesc/TraxTargetStreamer.h"
 #include "TargetInfo/TraxTargetInfo.h"
 #include "trax/abi.h"
 #include "llvm/ADT/StringSwitch.h"
@@ -152,9 +153,7 @@ class TraxAsmParser : public MCTargetAsmParser {
   bool ParseInstruction(ParseInstructionInfo &Info, StringRef Name, SMLoc NameLoc, OperandVector &Operands) override;
   bool MatchAndEmitInstruction(SMLoc IDLoc, unsigned &Opcode, OperandVector &Operands, MCStreamer &Out,
                                uint64_t &ErrorInfo, bool MatchingInlineAsm) override;
-  ParseStatus parseDirective(AsmToken) override {
-    return ParseStatus::NoMatch;
-  }
+  ParseStatus parseDirective(AsmToken Directive) override;
 
   bool parseOperand(OperandVector &Operands, StringRef Mnemonic);
   bool parseMemoryBase(OperandVector &Operands);
@@ -307,6 +306,25 @@ bool TraxAsmParser::ParseInstruction(ParseInstructionInfo &, StringRef Name, SML
       return true;
   } while (parseOptionalToken(AsmToken::Comma));
   return parseToken(AsmToken::EndOfStatement, "expected ',' or the end of the line");
+}
+
+/// .stack local, .stack global: where the file's code expects the stack.
+ParseStatus TraxAsmParser::parseDirective(AsmToken Directive) {
+  if (Directive.getIdentifier() != ".stack")
+    return ParseStatus::NoMatch;
+  const SMLoc Loc = getTok().getLoc();
+  const StringRef Name = getTok().is(AsmToken::Identifier) ? getTok().getIdentifier() : "";
+  const unsigned Place =
+      StringSwitch<unsigned>(Name).Case("local", TRAX_EF_STACK_LOCAL).Case("global", TRAX_EF_STACK_GLOBAL).Default(0);
+  if (Place == 0)
+    return Error(Loc, "expected local or global");
+  Lex();
+  if (Parser.parseEOL())
+    return ParseStatus::Failure;
+  if (!static_cast<TraxTargetStreamer &>(*getStreamer().getTargetStreamer()).setStack(Place))
+    return Error(Loc,
+                 "the stack is already in " + Twine(Place == TRAX_EF_STACK_LOCAL ? "global" : "local") + " memory");
+  return ParseStatus::Success;
 }
 
 void TraxAsmParser::emit(MCInst Inst, SMLoc Loc, MCStreamer &Out) {

@@ -4,6 +4,7 @@
 #include "TargetInfo/TraxTargetInfo.h"
 #include "TraxInstPrinter.h"
 #include "TraxMCAsmInfo.h"
+#include "TraxTargetStreamer.h"
 #include "llvm/MC/MCDwarf.h"
 #include "llvm/MC/MCInstrAnalysis.h"
 #include "llvm/MC/MCInstrInfo.h"
@@ -77,11 +78,6 @@ static MCInstrAnalysis *createTraxMCInstrAnalysis(const MCInstrInfo *Info) {
   return new TraxMCInstrAnalysis(Info);
 }
 
-/// Directives need no target streamer of our own, but AsmPrinter and parser expect one to exist.
-static MCTargetStreamer *createNullTargetStreamer(MCStreamer &S) {
-  return new MCTargetStreamer(S);
-}
-
 void LLVMInitializeTraxTargetMC() {
   Target &T = getTheTraxTarget();
   TargetRegistry::RegisterMCAsmInfo(T, createTraxMCAsmInfo);
@@ -92,5 +88,5 @@ void LLVMInitializeTraxTargetMC() {
   TargetRegistry::RegisterMCInstrAnalysis(T, createTraxMCInstrAnalysis);
   TargetRegistry::RegisterMCCodeEmitter(T, createTraxMCCodeEmitter);
   TargetRegistry::RegisterMCAsmBackend(T, createTraxAsmBackend);
-  TargetRegistry::RegisterNullTargetStreamer(T, createNullTargetStreamer);
+  registerTraxTargetStreamers(T);
 }

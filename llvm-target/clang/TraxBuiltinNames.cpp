@@ -19,9 +19,11 @@ using namespace clang;
 
 namespace {
 
-const char *const Names[] = {
-#define BUILTIN(ID, NAME, TYPE, ATTRIBUTES) "__builtin_trax_" #NAME,
+// Name and label.
+const char *const Labels[][2] = {
+#define BUILTIN(ID, NAME, TYPE, ATTRIBUTES) {"__builtin_trax_" #NAME, "__builtin_trax_" #NAME},
 #include "TraxBuiltins.def"
+    {"__builtin_debugtrap", "llvm.debugtrap"},
 };
 
 class LabelBuiltins final : public ASTConsumer {
@@ -34,13 +36,32 @@ public:
     return true;
   }
   void HandleInlineFunctionDefinition(FunctionDecl *) override { label(); }
-  void HandleTranslationUnit(ASTContext &) override { label(); }
+  void HandleTranslationUnit(ASTContext &) override {
+    label();
+    refuseHalf();
+  }
 
 private:
   ASTContext *Context = nullptr;
 
+  /// Clang refuses _Float16 where it is written, but not the builtins that take it. Their declarations are at their
+  /// first use.
+  void refuseHalf() {
+    DiagnosticsEngine &Diags = Context->getDiagnostics();
+    const unsigned ID =
+        Diags.getCustomDiagID(DiagnosticsEngine::Error, "'%0' is not supported on this target: it takes '_Float16'");
+    for (const Decl *Declared : Context->getTranslationUnitDecl()->noload_decls())
+      if (const auto *Function = dyn_cast<FunctionDecl>(Declared);
+          Function && Function->isImplicit() && Function->getBuiltinID())
+        if (Function->getReturnType()->isHalfType() || Function->getReturnType()->isFloat16Type() ||
+            llvm::any_of(Function->parameters(), [](const ParmVarDecl *P) {
+              return P->getType()->isHalfType() || P->getType()->isFloat16Type();
+            }))
+          Diags.Report(Function->getLocation(), ID) << Function->getName();
+  }
+
   void label() {
-    for (const char *Name : Names) {
+    for (const auto &[Name, Label] : Labels) {
       auto Identifier = Context->Idents.find(Name);
       if (Identifier == Context->Idents.end())
         continue;
@@ -50,7 +71,7 @@ private:
           continue;
         for (FunctionDecl *Redeclared : Function->redecls())
           if (!Redeclared->hasAttr<AsmLabelAttr>())
-            Redeclared->addAttr(AsmLabelAttr::CreateImplicit(*Context, Name, /*IsLiteralLabel=*/true));
+            Redeclared->addAttr(AsmLabelAttr::CreateImplicit(*Context, Label, /*IsLiteralLabel=*/true));
       }
     }
   }

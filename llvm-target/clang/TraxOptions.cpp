@@ -38,9 +38,9 @@ void trax::addOptions() {
   static std::vector<OptTable::Info> Extended(Rows.begin(), Rows.end());
   // The table is searched from where a name would stand in the alphabet to its end: there these are found, too.
   Extended.push_back(joined(options::OPT_mstack_EQ, "-mstack=", "<place>",
-                            "trax: where stacks are: 'local' (512 bytes of local memory, default) or 'global' (global "
-                            "memory, for programs that need more)",
-                            OPT_m_Group, TargetSpecific, "local,global"));
+                            "trax: where stacks are: 'local' (512 bytes of local memory, default), 'global' (global "
+                            "memory, for programs that need more) or 'either' (objects for both)",
+                            OPT_m_Group, TargetSpecific, "local,global,either"));
   Extended.push_back(joined(options::OPT_mstack_size_EQ, "-mstack-size=", "<bytes>",
                             "trax: bytes of each stack with -mstack=global; 'k' and 'M' are understood (default: 64k)",
                             OPT_m_Group));

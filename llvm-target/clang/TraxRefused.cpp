@@ -106,8 +106,8 @@ void trax::refuseOptions(const Driver &D, const llvm::Triple &Triple, const ArgL
         RefuseValue(*Given, ("is '" + Only + "' only").str());
     }
   if (const Arg *Stack = Args.getLastArg(OPT_mstack_EQ))
-    if (!llvm::is_contained({StringRef("local"), StringRef("global")}, Stack->getValue()))
-      RefuseValue(*Stack, "are 'local' and 'global'");
+    if (!llvm::is_contained({StringRef("local"), StringRef("global"), StringRef("either")}, Stack->getValue()))
+      RefuseValue(*Stack, "are 'local', 'global' and 'either'");
   for (const Arg *Given : Args)
     if (isFixedRegister(*Given)) {
       Given->claim();

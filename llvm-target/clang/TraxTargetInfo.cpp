@@ -39,6 +39,10 @@ const Builtin::Info Builtins[] = {
 #define BUILTIN(ID, NAME, TYPE, ATTRIBUTES)                                                                            \
   {"__builtin_trax_" #NAME, TYPE, ATTRIBUTES "F", nullptr, HeaderDesc::NO_HEADER, ALL_LANGUAGES},
 #include "TraxBuiltins.def"
+    // Clang looks the intrinsics of generic builtins up by an architecture that it knows. This row, a call of a
+    // function
+    // that TraxBuiltinNames.cpp gives the intrinsic's name, takes the place of clang's own.
+    {"__builtin_debugtrap", "v", "nF", nullptr, HeaderDesc::NO_HEADER, ALL_LANGUAGES},
 };
 
 class TraxTargetInfo final : public TargetInfo {
@@ -86,6 +90,9 @@ public:
     case 'K': // as lui takes it
       Info.setRequiresImmediate(0, 65535);
       return true;
+    case 'f': // floats have no registers of their own
+      Info.setAllowsRegister();
+      return true;
     case 's': // a symbol, gcc's for all machines
       return true;
     default:
@@ -108,7 +115,7 @@ public:
   bool setCPU(const std::string &Name) override { return isValidCPUName(Name); }
   bool isValidFeatureName(StringRef Name) const override {
     unsigned Register;
-    return Name == "global-stack" ||
+    return Name == "global-stack" || Name == "either-stack" ||
            (Name.consume_front("reserve-r") && !Name.getAsInteger(10, Register) && Register >= 4 && Register < 32);
   }
   bool hasFeature(StringRef Name) const override { return Name == "global-stack" && HasGlobalStack; }

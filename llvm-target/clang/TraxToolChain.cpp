@@ -34,8 +34,8 @@ unsigned parseSize(StringRef Text) {
   return unsigned(llvm::alignTo(Number * Unit, 64));
 }
 
-bool hasGlobalStack(const ArgList &Args) {
-  return Args.getLastArgValue(OPT_mstack_EQ) == "global";
+StringRef stack(const ArgList &Args) {
+  return Args.getLastArgValue(OPT_mstack_EQ, "local");
 }
 
 /// Not claimed: without stacks in global memory it is unused.
@@ -111,7 +111,7 @@ public:
     const bool Relocatable = Args.hasArg(OPT_r);
     const bool NoLibraries = Args.hasArg(OPT_nostdlib, OPT_nodefaultlibs, OPT_nolibc) || Relocatable;
     const bool NoStartFile = Args.hasArg(OPT_nostdlib, OPT_nostartfiles) || Relocatable;
-    const bool GlobalStack = hasGlobalStack(Args);
+    const bool GlobalStack = stack(Args) == "global";
     ArgStringList Out{"-o", Output.getFilename()};
     if (!Relocatable)
       Out.push_back("--gc-sections");
@@ -222,10 +222,10 @@ void trax::ToolChain::addClangTargetOptions(const ArgList &Args, ArgStringList &
   auto AddFeature = [&](const llvm::Twine &Feature) {
     CC1Args.append({"-target-feature", Args.MakeArgString("+" + Feature)});
   };
-  if (hasGlobalStack(Args)) {
-    AddFeature("global-stack");
+  if (stack(Args) != "local")
+    AddFeature(stack(Args) + "-stack");
+  if (stack(Args) == "global")
     Args.ClaimAllArgs(OPT_mstack_size_EQ);
-  }
   for (const unsigned Number : fixedRegisters(Args))
     AddFeature("reserve-r" + llvm::Twine(Number));
 }

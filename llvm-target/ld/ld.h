@@ -238,6 +238,7 @@ struct ld_object {
   const Elf32_Word *raw_shndx; /* SHT_SYMTAB_SHNDX or NULL */
   const char *strings;
   size_t strings_size;
+  uint32_t stack;             /* TRAX_EF_STACK_LOCAL, TRAX_EF_STACK_GLOBAL, or 0 for either */
   bool taken;                 /* its definitions count: named on the command line, or extracted */
   const ld_symbol *taken_for; /* of an archive member: the symbol it was extracted for, or NULL */
   const ld_object *taken_by;  /* and the first object that needs it, NULL for the command line */
@@ -429,6 +430,7 @@ struct ld_context {
   LD_VECTOR(ld_output *) outputs; /* in the order of the image */
   LD_VECTOR(ld_segment) segments; /* R-X, R--, RW-, and more where sections have addresses of their own */
   ld_bounds bounds;
+  uint32_t stack;      /* of all objects, as of one */
   uint32_t local_size; /* bytes of local memory that thread-local data takes */
   uint32_t entry;
 

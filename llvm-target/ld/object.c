@@ -35,7 +35,7 @@ static bool check_header(ld_context *ctx, const char *name, const uint8_t *bytes
              header->e_type == ET_EXEC  ? "an executable"
              : header->e_type == ET_DYN ? "a shared object"
                                         : "an ELF file of another type");
-  } else if (header->e_flags != 0) {
+  } else if (header->e_flags > TRAX_EF_STACK_GLOBAL) {
     ld_error(ctx, "%s: has unknown e_flags 0x%x", name, header->e_flags);
   } else if (header->e_shoff != 0 && header->e_shentsize != sizeof(Elf32_Shdr)) {
     ld_error(ctx, "%s: section headers of %u bytes, expected %zu", name, header->e_shentsize, sizeof(Elf32_Shdr));
@@ -146,6 +146,7 @@ ld_object *ld_object_open(ld_context *ctx, const char *name, const uint8_t *byte
     return NULL;
   ld_object *object = ld_alloc(ctx, sizeof *object);
   object->name = name;
+  object->stack = ((const Elf32_Ehdr *)bytes)->e_flags;
   object->elf = elf_memory((char *)bytes, size);
   if (!object->elf || elf_getshdrnum(object->elf, &object->section_count) != 0) {
     ld_error(ctx, "%s: %s", name, elf_errmsg(-1));

@@ -129,6 +129,7 @@ static void put_file_header(const ld_context *ctx, size_t section_headers, size_
                        .e_entry = ctx->entry,
                        .e_phoff = sizeof(Elf32_Ehdr),
                        .e_shoff = (uint32_t)section_headers,
+                       .e_flags = ctx->stack,
                        .e_ehsize = sizeof(Elf32_Ehdr),
                        .e_phentsize = sizeof(Elf32_Phdr),
                        .e_phnum = (Elf32_Half)ctx->segments.count,

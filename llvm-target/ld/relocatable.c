@@ -279,6 +279,7 @@ static void put_parts(writer *writer) {
                        .e_machine = TRAX_EM,
                        .e_version = EV_CURRENT,
                        .e_shoff = (uint32_t)headers,
+                       .e_flags = ctx->stack,
                        .e_ehsize = sizeof(Elf32_Ehdr),
                        .e_shentsize = sizeof(Elf32_Shdr),
                        .e_shnum = (Elf32_Half)writer->parts.count,

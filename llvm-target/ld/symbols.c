@@ -276,6 +276,11 @@ static const struct {
 } boundaries[] = {
     {"__executable_start", offsetof(ld_bounds, executable_start)},
     {"_end", offsetof(ld_bounds, end)},
+    {"end", offsetof(ld_bounds, end)},
+    {"_etext", offsetof(ld_bounds, text_end)},
+    {"etext", offsetof(ld_bounds, text_end)},
+    {"_edata", offsetof(ld_bounds, bss_start)},
+    {"edata", offsetof(ld_bounds, bss_start)},
     {"__text_start", offsetof(ld_bounds, text_start)},
     {"__text_end", offsetof(ld_bounds, text_end)},
     {"__init_array_start", offsetof(ld_bounds, init_array_start)},

@@ -1,5 +1,6 @@
 //===- Listing.cpp - Headers, symbols, relocations, contents -------------===//
 #include "Listing.h"
+#include "trax/abi.h"
 #include "llvm/ADT/STLExtras.h"
 #include "llvm/Support/Format.h"
 #include "llvm/Support/raw_ostream.h"
@@ -23,7 +24,10 @@ static void printFileHeader(const ElfFile &File, raw_ostream &OS) {
                      : Header.e_type == ELF::ET_EXEC ? "executable"
                                                      : "other kind of ELF file";
   OS << "architecture: trax\n"
-     << "type: " << Type << format(", flags 0x%08x\n", unsigned(Header.e_flags))
+     << "type: " << Type << format(", flags 0x%08x", unsigned(Header.e_flags))
+     << (Header.e_flags == TRAX_EF_STACK_LOCAL    ? ": stack in local memory\n"
+         : Header.e_flags == TRAX_EF_STACK_GLOBAL ? ": stack in global memory\n"
+                                                  : "\n")
      << format("start address: 0x%08x\n", unsigned(Header.e_entry));
 }
 

@@ -2,6 +2,8 @@
 #ifndef TRAX_INTTYPES_H
 #define TRAX_INTTYPES_H
 
+#define __need_wchar_t
+#include <stddef.h>
 #include <stdint.h>
 
 #define PRId8 __INT8_FMTd__
@@ -172,6 +174,8 @@ intmax_t imaxabs(intmax_t x);
 imaxdiv_t imaxdiv(intmax_t n, intmax_t d);
 intmax_t strtoimax(const char *__restrict text, char **__restrict end, int base);
 uintmax_t strtoumax(const char *__restrict text, char **__restrict end, int base);
+intmax_t wcstoimax(const wchar_t *__restrict text, wchar_t **__restrict end, int base);
+uintmax_t wcstoumax(const wchar_t *__restrict text, wchar_t **__restrict end, int base);
 
 #ifdef __cplusplus
 }

@@ -42,6 +42,9 @@ __attribute__((noreturn)) void abort(void);
 /* The function runs once, on the last thread to return from main or to call exit, the latest given first. 0 if it will.
  */
 int atexit(void (*function)(void));
+/* Ends the thread as _Exit does, after the functions of at_quick_exit, at most 32. */
+__attribute__((noreturn)) void quick_exit(int status);
+int at_quick_exit(void (*function)(void));
 
 /* Correctly rounded. ERANGE where the result is infinite, subnormal or, from another number, 0. */
 double strtod(const char *__restrict text, char **__restrict end);

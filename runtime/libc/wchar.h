@@ -46,6 +46,18 @@ wchar_t *wmemmove(wchar_t *to, const wchar_t *from, size_t size);
 wchar_t *wmemset(wchar_t *to, wchar_t c, size_t size);
 int wmemcmp(const wchar_t *a, const wchar_t *b, size_t size);
 wchar_t *wmemchr(const wchar_t *memory, wchar_t c, size_t size);
+size_t wcsxfrm(wchar_t *__restrict to, const wchar_t *__restrict from, size_t size);
+wchar_t *wcstok(wchar_t *__restrict string, const wchar_t *__restrict set, wchar_t **__restrict state);
+float wcstof(const wchar_t *__restrict text, wchar_t **__restrict end);
+double wcstod(const wchar_t *__restrict text, wchar_t **__restrict end);
+long double wcstold(const wchar_t *__restrict text, wchar_t **__restrict end);
+long wcstol(const wchar_t *__restrict text, wchar_t **__restrict end, int base);
+unsigned long wcstoul(const wchar_t *__restrict text, wchar_t **__restrict end, int base);
+long long wcstoll(const wchar_t *__restrict text, wchar_t **__restrict end, int base);
+unsigned long long wcstoull(const wchar_t *__restrict text, wchar_t **__restrict end, int base);
+struct tm;
+size_t wcsftime(wchar_t *__restrict to, size_t size, const wchar_t *__restrict format,
+                const struct tm *__restrict time);
 int wcwidth(wchar_t c); /* 1, 0 for the null character, -1 for control characters */
 
 wint_t btowc(int c);

@@ -124,6 +124,24 @@ wchar_t *wcsdup(const wchar_t *string) {
   return copy ? wmemcpy(copy, string, size) : NULL;
 }
 
+size_t wcsxfrm(wchar_t *restrict to, const wchar_t *restrict from, size_t size) {
+  size_t length = wcslen(from);
+  if (size)
+    wmemcpy(to, from, length < size ? length + 1 : size);
+  return length;
+}
+
+wchar_t *wcstok(wchar_t *restrict string, const wchar_t *restrict set, wchar_t **restrict state) {
+  string = string ? string : *state;
+  string += wcsspn(string, set);
+  *state = string + wcscspn(string, set);
+  if (*state == string)
+    return NULL;
+  if (**state)
+    *(*state)++ = 0;
+  return string;
+}
+
 int wcwidth(wchar_t c) {
   return c == 0 ? 0 : (c >= 32 && c < 127) || c >= 160 ? 1 : -1;
 }

@@ -5,6 +5,11 @@
 // What the program does not have is not there to be called: a call of an undefined weak function goes on behind itself.
 #include <trax/abi.h>
 
+#ifdef TRAX_GLOBAL_STACK
+  .stack global
+#else
+  .stack local
+#endif
   .weak __trax_start, __trax_argv, __trax_end_thread, __trax_end_program
 
   .cfi_sections .debug_frame

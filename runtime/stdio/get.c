@@ -74,10 +74,13 @@ static int begin(FILE *stream) {
 size_t fread(void *restrict memory, size_t size, size_t count, FILE *restrict stream) {
   if (size == 0 || count == 0 || is_stdout(stream))
     return 0;
+  size_t bytes;
+  if (__builtin_mul_overflow(size, count, &bytes))
+    bytes = (size_t)-1; /* more than there can be: as far as the stream goes */
   lock_stream(stream);
-  size_t done = begin(stream) ? 0 : copy(stream, memory, size * count, EOF);
+  size_t done = begin(stream) ? 0 : copy(stream, memory, bytes, EOF);
   unlock_stream(stream);
-  return done == size * count ? count : done / size;
+  return done / size;
 }
 
 char *fgets(char *restrict to, int size, FILE *restrict stream) {

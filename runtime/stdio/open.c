@@ -46,12 +46,13 @@ static void enter_list(FILE *stream) {
 }
 
 static void leave_list(FILE *stream) {
-  if (!stream->link) /* a standard stream */
+  if (!stream->link) /* a standard stream as it was at start */
     return;
   lock(&trax_streams_lock);
   *stream->link = stream->next;
   if (stream->next)
     stream->next->link = stream->link;
+  stream->link = NULL;
   unlock(&trax_streams_lock);
 }
 
@@ -99,17 +100,25 @@ static int finish(FILE *stream) {
   return result || closed < 0 ? EOF : 0;
 }
 
+/* A standard stream stays, and is closed. */
+static void release(FILE *stream) {
+  if (stream != stdin && stream != stderr)
+    free(stream);
+  else
+    stream->flags = 0;
+}
+
 int fclose(FILE *stream) {
   if (is_stdout(stream))
     return 0;
   leave_list(stream);
   int result = finish(stream);
-  if (stream->link)
-    free(stream);
+  release(stream);
   return result;
 }
 
-/* Standard output is no stream here and stays what it is. */
+/* Standard output is no stream here and stays what it is. Another stream that cannot be opened again is closed, as C
+   has it. */
 FILE *freopen(const char *restrict path, const char *restrict mode, FILE *restrict stream) {
   unsigned flags;
   int how = read_mode(mode, &flags);
@@ -121,6 +130,7 @@ FILE *freopen(const char *restrict path, const char *restrict mode, FILE *restri
   int descriptor = host_result(host_call(TRAX_HOST_OPEN, (uintptr_t)path, (unsigned)how, 0));
   if (descriptor < 0) {
     leave_list(stream);
+    release(stream);
     return NULL;
   }
   if (!stream->link)

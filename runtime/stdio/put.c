@@ -50,8 +50,11 @@ WEAK int fputs(const char *restrict string, FILE *restrict stream) {
 
 WEAK size_t fwrite(const void *restrict memory, size_t size, size_t count, FILE *restrict stream) {
   (void)stream;
+  size_t bytes;
+  if (__builtin_mul_overflow(size, count, &bytes)) /* no object has as many */
+    return 0;
   trax_lock_output();
-  const char *end = (const char *)memory + size * count;
+  const char *end = (const char *)memory + bytes;
   for (const char *p = memory; p != end; p++)
     machine_put_char(*p);
   trax_unlock_output();

@@ -10,31 +10,12 @@
 
 enum { MOST_CHARACTERS = 127 };
 
-struct directive {
-  char letter, length; /* length: 'H' for hh, 'q' for ll and L, else the letter itself or 0 */
-  unsigned char discards, has_width;
-  int width;
-};
-
-static int next(struct source *from) {
-  int c = from->get(from);
-  from->count += c != EOF;
-  return c;
-}
-
-static void back(struct source *from, int c) {
-  if (c == EOF)
-    return;
-  from->unget(from, c);
-  from->count--;
-}
-
 static void skip_blanks(struct source *from) {
   int c;
   do
-    c = next(from);
+    c = trax_scan_next(from);
   while (isspace(c));
-  back(from, c);
+  trax_scan_back(from, c);
 }
 
 /* --- numbers --- */
@@ -48,7 +29,7 @@ struct token {
 
 static void accept(struct token *token) {
   token->text[token->used++] = (char)token->c;
-  token->c = token->used < token->most ? next(token->from) : EOF;
+  token->c = token->used < token->most ? trax_scan_next(token->from) : EOF;
 }
 
 /* Accepts the character if it is the one, in lower case. */
@@ -148,7 +129,7 @@ static void store_integer(const struct directive *how, void *to, unsigned long l
 __attribute__((noinline)) static int scan_number(struct source *from, const struct directive *how, void *to) {
   char text[MOST_CHARACTERS + 1];
   int most = how->has_width && how->width < MOST_CHARACTERS ? how->width : MOST_CHARACTERS;
-  struct token token = {from, text, 0, most, next(from)};
+  struct token token = {from, text, 0, most, trax_scan_next(from)};
   int base = how->letter == 'd' || how->letter == 'u'   ? 10
              : how->letter == 'o'                       ? 8
              : how->letter == 'x' || how->letter == 'p' ? 16
@@ -157,7 +138,7 @@ __attribute__((noinline)) static int scan_number(struct source *from, const stru
     return EOF;
   int is_double = how->letter == 'e';
   int good = is_double ? take_double(&token) : take_integer(&token, &base);
-  back(from, token.c);
+  trax_scan_back(from, token.c);
   text[token.used] = 0;
   if (!good)
     return 0;
@@ -171,43 +152,6 @@ __attribute__((noinline)) static int scan_number(struct source *from, const stru
     *(double *)to = strtod(text, NULL);
   else
     *(float *)to = strtof(text, NULL);
-  return 1;
-}
-
-/* --- characters --- */
-
-/* Whether a set ("a-z]", "^]x]") has the character. *end receives what follows the set. */
-static int has(const char *set, int c, const char **end) {
-  int inverted = *set == '^', found = 0;
-  set += inverted;
-  const char *first = set;
-  for (; *set && (*set != ']' || set == first); set++) {
-    if (set[0] == '-' && set != first && set[1] && set[1] != ']') {
-      found |= c >= (unsigned char)set[-1] && c <= (unsigned char)set[1];
-      set++;
-    } else {
-      found |= c == (unsigned char)*set;
-    }
-  }
-  *end = *set ? set + 1 : set;
-  return found != inverted;
-}
-
-static int scan_text(struct source *from, const struct directive *how, const char *set, char *to) {
-  int most = how->has_width ? how->width : how->letter == 'c' ? 1 : __INT_MAX__, count = 0, c = EOF;
-  const char *end;
-  for (; count < most && (c = next(from)) != EOF; count++) {
-    if ((how->letter == 's' && isspace(c)) || (how->letter == '[' && !has(set, c, &end))) {
-      back(from, c);
-      break;
-    }
-    if (!how->discards)
-      *to++ = (char)c;
-  }
-  if (count == 0 || (how->letter == 'c' && count < most))
-    return c == EOF ? EOF : 0;
-  if (how->letter != 'c' && !how->discards)
-    *to = 0;
   return 1;
 }
 
@@ -234,6 +178,10 @@ static const char *read_directive(const char *format, struct directive *how) {
     how->letter = 'e';
   if (*format == 'X')
     how->letter = 'x';
+  if (*format == 'S' || *format == 'C') { /* POSIX's names for %ls and %lc */
+    how->letter = *format == 'S' ? 's' : 'c';
+    how->length = 'l';
+  }
   return *format ? format + 1 : format;
 }
 
@@ -251,7 +199,7 @@ static int convert(struct source *from, const struct directive *how, const char 
   case 's':
   case 'c':
   case '[':
-    return scan_text(from, how, set, to);
+    return trax_scan_text(from, how, set, to);
   default:
     return 0;
   }
@@ -270,9 +218,9 @@ int trax_scan(struct source *from, const char *format, va_list arguments) {
         skip_blanks(from);
         format++;
       }
-      int c = next(from);
+      int c = trax_scan_next(from);
       if (c != (unsigned char)*format++) {
-        back(from, c);
+        trax_scan_back(from, c);
         return c == EOF && !done ? EOF : done;
       }
       continue;
@@ -281,7 +229,7 @@ int trax_scan(struct source *from, const char *format, va_list arguments) {
     format = read_directive(format + 1, &how);
     const char *set = format;
     if (how.letter == '[')
-      has(set, 0, &format);
+      trax_scan_set_has(set, 0, 0, &format);
     void *to = how.discards ? NULL : va_arg(arguments, void *);
     if (how.letter == 'n') {
       if (to)

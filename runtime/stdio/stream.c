@@ -27,15 +27,14 @@ static int fail(FILE *stream, int number) {
 
 /* Before its first use. Without memory for more, a stream has one character at a time. */
 static void need_buffer(FILE *stream) {
-  static unsigned char last_resort[STREAM_BACK + 1];
   if (stream->buffer)
     return;
   stream->buffer = malloc(STREAM_BACK + BUFSIZ);
   stream->capacity = STREAM_BACK + BUFSIZ;
   stream->flags |= STREAM_OWNS_BUFFER;
   if (!stream->buffer) {
-    stream->buffer = last_resort;
-    stream->capacity = sizeof last_resort;
+    stream->buffer = stream->last_resort;
+    stream->capacity = sizeof stream->last_resort;
     stream->flags &= ~(unsigned)STREAM_OWNS_BUFFER;
   }
 }
@@ -183,7 +182,13 @@ static size_t write_stream(FILE *stream, const char *bytes, size_t count) {
 }
 
 size_t fwrite(const void *restrict memory, size_t size, size_t count, FILE *restrict stream) {
-  size_t bytes = size * count;
+  size_t bytes;
+  if (__builtin_mul_overflow(size, count, &bytes)) { /* no object has as many */
+    if (!is_stdout(stream))
+      fail(stream, EFAULT);
+    errno = EFAULT;
+    return 0;
+  }
   if (bytes == 0)
     return 0;
   size_t wrote = write_stream(stream, memory, bytes);

@@ -29,6 +29,7 @@ struct trax_stream {
   unsigned at, end; /* reading: [at, end) is left; writing: [0, at) waits */
   struct ticket_lock lock;
   struct trax_stream *next, **link; /* in the list of open streams */
+  unsigned char last_resort[STREAM_BACK + 1];
 };
 
 extern struct trax_stream *trax_streams;

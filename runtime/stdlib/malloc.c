@@ -102,6 +102,11 @@ static struct block *checked_block(void *memory) {
   return b;
 }
 
+static void *out_of_memory(void) {
+  errno = ENOMEM;
+  return NULL;
+}
+
 void *malloc(size_t size) {
   size_t needed = block_size(size);
   struct block *b = NULL;
@@ -112,7 +117,7 @@ void *malloc(size_t size) {
       b->next = IN_USE;
     unlock(&heap_lock);
   }
-  return b ? b + 1 : NULL;
+  return b ? b + 1 : out_of_memory();
 }
 
 void free(void *memory) {
@@ -124,10 +129,11 @@ void free(void *memory) {
 }
 
 void *calloc(size_t count, size_t size) {
-  if (size && count > (size_t)-1 / size)
-    return NULL;
-  void *memory = malloc(count * size);
-  return memory ? memset(memory, 0, count * size) : NULL;
+  size_t bytes;
+  if (__builtin_mul_overflow(count, size, &bytes))
+    return out_of_memory();
+  void *memory = malloc(bytes);
+  return memory ? memset(memory, 0, bytes) : NULL;
 }
 
 void *realloc(void *memory, size_t size) {
@@ -135,7 +141,7 @@ void *realloc(void *memory, size_t size) {
     return malloc(size);
   size_t needed = block_size(size);
   if (!needed)
-    return NULL;
+    return out_of_memory();
   lock(&heap_lock);
   struct block *b = checked_block(memory);
   size_t old = b->size;
@@ -160,8 +166,12 @@ void *realloc(void *memory, size_t size) {
 }
 
 void *aligned_alloc(size_t alignment, size_t size) {
-  if (alignment & (alignment - 1) || size > (size_t)-1 / 4 || alignment > (size_t)-1 / 4)
+  if (alignment & (alignment - 1)) {
+    errno = EINVAL;
     return NULL;
+  }
+  if (size > (size_t)-1 / 4 || alignment > (size_t)-1 / 4)
+    return out_of_memory();
   if (alignment <= 8)
     return malloc(size);
   size_t needed = block_size(size);

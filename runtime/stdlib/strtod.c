@@ -304,6 +304,12 @@ static void normalise(struct binary *b) {
   b->exponent -= zeros;
 }
 
+/* Whether the number is a multiple of 2^power, which a subnormal one then has exactly. */
+static int is_multiple(const struct binary *b, int power) {
+  int below = power - b->exponent;
+  return !b->sticky && (below <= 0 || (below < 64 && !(b->significand & (((uint64_t)1 << below) - 1))));
+}
+
 double strtod(const char *restrict text, char **restrict end) {
   struct parsed n;
   parse(text, &n);
@@ -317,7 +323,7 @@ double strtod(const char *restrict text, char **restrict end) {
   uint64_t significand = n.value.significand >> 1 | (n.value.significand & 1) | (unsigned)n.value.sticky;
   double result = trax_round_double((uint32_t)n.is_negative, n.value.exponent + 1 + 1023 + 62, significand);
   uint32_t exponent = high_word(double_bits(result)) >> 20 & 0x7FF;
-  if (exponent == 0 || exponent == 0x7FF)
+  if (exponent == 0x7FF || (exponent == 0 && !is_multiple(&n.value, -1074)))
     errno = ERANGE;
   return result;
 }
@@ -336,7 +342,7 @@ float strtof(const char *restrict text, char **restrict end) {
       high_word(n.value.significand) | (low_word(n.value.significand) != 0) | (unsigned)n.value.sticky;
   float result = trax_round_float((uint32_t)n.is_negative, n.value.exponent + 32 + 127 + 31, significand);
   uint32_t exponent = float_bits(result) >> 23 & 0xFF;
-  if (exponent == 0 || exponent == 0xFF)
+  if (exponent == 0xFF || (exponent == 0 && !is_multiple(&n.value, -149)))
     errno = ERANGE;
   return result;
 }

@@ -5,7 +5,7 @@
 // LARGE: the threads' stacks take 4198400 bytes, 2097152 each, but only {{[0-9]+}} are free after the program: raise
 // RUN: %clang %s -mstack=global -o %t.stripped && llvm-strip %t.stripped
 // RUN: not %trax_sim %t.stripped 2>&1 | FileCheck %s --check-prefix=STRIPPED
-// STRIPPED: the loader gave no stack in global memory: was the symbol table removed?
+// STRIPPED: is for stacks in global memory, but has no symbol __trax_stack_size: was the symbol table removed?
 // The heap ends below the stacks: a program that takes all of it still has its stack. (Expected output by hand.)
 #include <stdio.h>
 #include <stdlib.h>

@@ -19,7 +19,7 @@
 // RELOCATABLE-NOT: __trax_stack_size
 
 // RUN: not %clang -c %s -mstack=heap -mstack-size=4x 2>&1 | FileCheck %s --check-prefix=WRONG
-// WRONG: error: unsupported argument 'heap' to option '-mstack=' for target 'trax': there are 'local' and 'global'
+// WRONG: error: unsupported argument 'heap' to option '-mstack=' for target 'trax': there are 'local', 'global' and 'either'
 // WRONG: error: invalid value '4x' in '-mstack-size='
 // RUN: not %clang -c %s -mstack=global -mstack-size=4G 2>&1 | FileCheck %s --check-prefix=HUGE
 // RUN: not %clang -c %s -mstack=global -mstack-size=4096M 2>&1 | FileCheck %s --check-prefix=HUGE

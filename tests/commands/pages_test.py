@@ -131,7 +131,7 @@ def help_pages():
     for name in own:
         check(f"\\fB{name}" in clang, "the page of trax-clang lacks", name)
     check("trax-clang.1" in page("trax-clang++"), "trax-clang++ has the page of trax-clang")
-    for words, expected in ((["-mstack-s"], {"-mstack-size="}), (["-mstack", "="], {"global", "local"}), (["-O2", "-mstack", "=", "gl"], {"global"}), (["-c", "inde"], {"index.md"})):
+    for words, expected in ((["-mstack-s"], {"-mstack-size="}), (["-mstack", "="], {"either", "global", "local"}), (["-O2", "-mstack", "=", "gl"], {"global"}), (["-c", "inde"], {"index.md"})):
         check(completed("trax-clang", *words) == expected, "trax-clang", *words, completed("trax-clang", *words))
 
 

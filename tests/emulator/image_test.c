@@ -140,7 +140,8 @@ DAMAGE(machine, elf_header(file)->e_machine = EM_RISCV)
 DAMAGE(object, elf_header(file)->e_type = ET_REL)
 DAMAGE(shared, elf_header(file)->e_type = ET_DYN)
 DAMAGE(version, elf_header(file)->e_version = 0)
-DAMAGE(flags, elf_header(file)->e_flags = 1)
+DAMAGE(flags, elf_header(file)->e_flags = 3)
+DAMAGE(stack, elf_header(file)->e_flags = TRAX_EF_STACK_GLOBAL)
 DAMAGE(header_size, elf_header(file)->e_ehsize = 64)
 DAMAGE(no_programs, elf_header(file)->e_phnum = 0)
 DAMAGE(program_size, elf_header(file)->e_phentsize = 56)
@@ -200,7 +201,8 @@ static void test_refusals(void **state) {
       {object, "an object file, not an executable; link it first"},
       {shared, "ELF type 3"},
       {version, "ELF header version 0"},
-      {flags, "e_flags is 0x1"},
+      {flags, "e_flags is 0x3"},
+      {stack, "is for stacks in global memory, but has no symbol __trax_stack_size"},
       {header_size, "ELF header of 64 bytes"},
       {no_programs, "no program headers"},
       {program_size, "program headers of 56 bytes"},

@@ -58,7 +58,7 @@
    More room, and less.
    RUN: %clang -DBIG=70 %s -o two -Wl,-z,stack-size=4096,--print-stack | FileCheck %s --check-prefix=ROOM
    ROOM: stack: at most {{[0-9]+}} bytes, of 4096 (-z stack-size)
-   RUN: %clang -DBIG=70 %s -o two -Wl,--defsym=__trax_stack_size=0x10000,--print-stack | FileCheck %s --check-prefix=GLOBAL
+   RUN: %clang -DBIG=70 %s -o two -mstack=global -mstack-size=0x10000 -Wl,--print-stack | FileCheck %s --check-prefix=GLOBAL
    GLOBAL: stack: at most {{[0-9]+}} bytes, of 65536 (__trax_stack_size)
    RUN: not %clang -DBIG=70 %s -o no -mstack=global -mstack-size=64 2>&1 | FileCheck %s --check-prefix=SIZE
    SIZE: trax-ld: error: the stack takes {{[0-9]+}} bytes, there are 64 (__trax_stack_size)

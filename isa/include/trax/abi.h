@@ -8,6 +8,10 @@
 
 #define TRAX_EM 0x7472 /* e_machine; unofficial: 't' 'r' */
 
+/* e_flags: where the code expects the stack; none for code that works with both. */
+#define TRAX_EF_STACK_LOCAL 1
+#define TRAX_EF_STACK_GLOBAL 2
+
 /* Sizes and alignments, in LLVM's notation. */
 #define TRAX_DATA_LAYOUT "e-m:e-p:32:32-i64:32-f64:32-a:0:32-n32-S32"
 

@@ -119,8 +119,8 @@ static bool load(struct model_machine *machine, Elf *elf, const char *path, stru
   if (elf_kind(elf) != ELF_K_ELF || !gelf_getehdr(elf, &header))
     return model_fail(error, "%s: not an ELF file", path);
   if (header.e_ident[EI_CLASS] != ELFCLASS32 || header.e_ident[EI_DATA] != ELFDATA2LSB || header.e_type != ET_EXEC ||
-      header.e_machine != EM_TRAX || header.e_flags != 0)
-    return model_fail(error, "%s: not an executable for the machine (ELF32, little endian, machine 0x%x, no flags)",
+      header.e_machine != EM_TRAX || header.e_flags > 2)
+    return model_fail(error, "%s: not an executable for the machine (ELF32, little endian, machine 0x%x, flags 0 to 2)",
                       path, EM_TRAX);
   if (!map_segments(machine, elf, path, &end, error) || !read_symbols(elf, path, &symbols, error) ||
       !place_stacks(machine, path, &symbols, end, error))

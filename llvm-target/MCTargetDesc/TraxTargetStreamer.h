@@ -1,0 +1,30 @@
+//===- TraxTargetStreamer.h - The directive .stack -----------------------===//
+#ifndef TRAX_MCTARGETDESC_TRAXTARGETSTREAMER_H
+#define TRAX_MCTARGETDESC_TRAXTARGETSTREAMER_H
+
+#include "llvm/MC/MCStreamer.h"
+
+namespace llvm {
+
+class Target;
+
+/// Keeps where the code of the file expects the stack: TRAX_EF_STACK_LOCAL, TRAX_EF_STACK_GLOBAL, or 0 if it does not
+/// depend on it (docs/abi.md, "ELF").
+class TraxTargetStreamer : public MCTargetStreamer {
+  unsigned Stack = 0;
+
+public:
+  using MCTargetStreamer::MCTargetStreamer;
+
+  /// False if the file has said something else before.
+  bool setStack(unsigned Place);
+
+protected:
+  virtual void emitStack(unsigned) {}
+};
+
+void registerTraxTargetStreamers(Target &T);
+
+} // namespace llvm
+
+#endif
