@@ -8,6 +8,8 @@
 #include <strings.h>
 #include <sys/stat.h>
 
+#define READ_AT_ONCE ((size_t)64 << 20)
+
 trax_status scene_out_of_memory(trax_error *error, const char *what) {
   return trax_fail(error, "%s: not enough memory", what);
 }
@@ -30,12 +32,16 @@ trax_status scene_load_file(struct scene_bytes *bytes, const char *path, struct 
                             trax_error *error) {
   *bytes = (struct scene_bytes){0};
   trax_input input;
+  scene_reading();
   trax_status result = trax_input_open(&input, path, error);
   /* Of a pipe or a device nobody knows how much will come, as of packed data. */
   const size_t limit = input.is_regular || limits.plain < limits.unpacked ? limits.plain : limits.unpacked;
-  if (result == TRAX_OK)
-    result = trax_input_read(&input, limit + 1, error);
-  if (result == TRAX_OK && input.size > limit)
+  /* In steps, between which a signal ends it: a regular file is read without waiting. */
+  for (size_t wanted = 0; result == TRAX_OK && input.size == wanted && wanted <= limit && input.expected <= limit;) {
+    wanted = limit - wanted < READ_AT_ONCE ? limit + 1 : wanted + READ_AT_ONCE;
+    result = trax_input_read(&input, wanted, error);
+  }
+  if (result == TRAX_OK && (input.size > limit || input.expected > limit))
     result = trax_fail(error, "%s: more than %zu bytes", path, limit);
   if (result == TRAX_OK) {
     *bytes = (struct scene_bytes){input.bytes, input.size};
@@ -43,6 +49,7 @@ trax_status scene_load_file(struct scene_bytes *bytes, const char *path, struct 
     result = scene_unpack(bytes, limits.unpacked, path, error);
   }
   trax_input_close(&input);
+  scene_has_read(bytes->size);
   return result;
 }
 
