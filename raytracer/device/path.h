@@ -48,7 +48,6 @@ struct path {
   struct vector next_origin, next_direction; /* of the one after the shadow rays, */
   struct vector next_weight;                 /* and its weight */
   struct vector point, target;               /* which light arrives at, and where it comes from */
-  struct vector start;                       /* of the rays that leave the point */
   struct scatterer at;
   struct hit hit; /* of the ray */
   uint32_t layered;
@@ -61,10 +60,16 @@ struct path {
   uint32_t holes;        /* that the ray under way has passed, */
   float travelled;       /* and how far it was to the last of them */
   uint32_t goes_on;      /* the ray after the shadow rays, as it is counted; 0: there is none */
+  struct vector start;   /* of the rays that leave the point; LIT_AT_POINT */
 };
 _Static_assert(sizeof(struct path) <= TRAX_PATH_BYTES, "render_params.h");
 
 #define MOST_HOLES 1024 /* a ray ends at the next */
+
+/* Does it matter whether light arrives at the point or where the ray towards it starts? Not with one light that is far
+   away (TRAX_FEATURE_NEAR_LIGHT): then path->point is that start, and nothing else is kept. */
+#define LIT_AT_POINT(run) (NEEDS(run, LIGHTS) || NEEDS(run, NEAR_LIGHT) || (NEEDS(run, PATHS) && NEEDS(run, EMISSION)))
+#define PATH_START(run, path) (LIT_AT_POINT(run) ? (path)->start : (path)->point)
 #define SURE_DEPTH 3    /* surfaces that no path ends before by roulette */
 
 static inline struct path *path_of_thread(void) {
@@ -186,7 +191,7 @@ static inline void choose_direction(const struct trax_render_params *run, struct
     weight = times(1 / chance, weight);
   }
   path->next_weight = weight;
-  path->next_origin = path->start;
+  path->next_origin = PATH_START(run, path);
 }
 
 /* The ambient light that a surface sends back where nothing is near it. */
@@ -211,8 +216,9 @@ static inline void meet_surface(const struct trax_render_params *run, struct pat
   describe_scatterer(run, path, surface, material, hit, texel);
   if (path->depth >= RUN_PATH(run)->max_depth)
     return;
-  path->point = surface->point;
-  path->start = surface->start;
+  path->point = surface->start;
+  if (LIT_AT_POINT(run))
+    path->point = surface->point, path->start = surface->start;
   path->next_weight = path->weight;
   if (NEEDS(run, REFLECTION) && material->kind == TRAX_MATERIAL_MIRROR) {
     path->next_weight = filtered(path->weight, path->at.specular);
@@ -255,24 +261,13 @@ static inline bool next_occlusion(const struct trax_render_params *run, struct p
     if (float_bits(dot(path->at.flat, path->direction)) <= 0)
       continue;
     path->pending = filtered(path->weight, times(more->occlusion_weight, ambient_of(run, path)));
-    path->origin = path->start;
-    path->target = plus(path->start, times(more->occlusion_reach, path->direction));
+    path->origin = PATH_START(run, path);
+    path->target = plus(PATH_START(run, path), times(more->occlusion_reach, path->direction));
     path->distance_bits = float_bits(more->occlusion_reach);
     path->holes = 0, path->travelled = 0;
     return true;
   }
   return false;
-}
-
-/* From origin to path->target, or in a direction if that is no place. */
-static inline void send_shadow_ray(struct path *path, struct vector origin, struct vector direction,
-                                   int32_t distance_bits) {
-  struct arrival arrival = {.direction = direction, .distance_bits = distance_bits};
-  path->origin = origin;
-  if (distance_bits != FARTHEST_BITS)
-    aim_at(&arrival, origin, path->target);
-  path->direction = arrival.direction;
-  path->distance_bits = arrival.distance_bits;
 }
 
 /* Prepares the next shadow ray; false if there is none, or no need of one. */
@@ -307,9 +302,13 @@ static inline bool next_light(const struct trax_render_params *run, struct path 
       scale = cosine / (arrival.density + density);
     path->pending = filtered(path->weight, filtered(times(scale, part), arrival.radiance));
     if (NEEDS(run, SHADOWS)) {
+      path->origin = PATH_START(run, path);
+      if (LIT_AT_POINT(run) && arrival.distance_bits != FARTHEST_BITS)
+        aim_at(&arrival, path->origin, arrival.target);
+      path->direction = arrival.direction;
       path->target = arrival.target;
+      path->distance_bits = arrival.distance_bits;
       path->holes = 0, path->travelled = 0;
-      send_shadow_ray(path, path->start, arrival.direction, arrival.distance_bits);
       return true;
     }
     path->light = plus(path->light, path->pending);
@@ -329,10 +328,13 @@ static inline bool pass_hole(const struct trax_render_params *run, struct path *
     hole |= surface->turned && material->kind != TRAX_MATERIAL_GLASS;
   if (!hole || path->holes >= MOST_HOLES)
     return false;
-  if (shadow) /* towards the light anew: no error adds up before it */
-    send_shadow_ray(path, surface->behind, path->direction, path->distance_bits == FARTHEST_BITS ? FARTHEST_BITS : 0);
-  else
-    path->origin = surface->behind;
+  path->origin = surface->behind;
+  if (shadow && path->distance_bits != FARTHEST_BITS) { /* towards the light anew: no error adds up before it */
+    struct arrival arrival = {.direction = path->direction, .distance_bits = 0};
+    aim_at(&arrival, path->origin, path->target);
+    path->direction = arrival.direction;
+    path->distance_bits = arrival.distance_bits;
+  }
   path->travelled += bits_float(hit->distance_bits);
   path->holes++;
   return true;

@@ -231,6 +231,13 @@ void __wrap_aiReleaseImport(const struct aiScene *scene) {
     free(blocks[--block_count]);
 }
 
+/* The case is not a file's bytes, but what assimp has made of one. */
+trax_status __wrap_scene_check_gltf(struct scene_bytes file, const char *path, trax_error *error);
+trax_status __wrap_scene_check_gltf(struct scene_bytes file, const char *path, trax_error *error) {
+  (void)file, (void)path, (void)error;
+  return TRAX_OK;
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
   fuzz_case fuzz_case;
   fuzz_case_read(&fuzz_case, bytes, size);

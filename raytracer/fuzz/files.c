@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define MOST_UNPACKED ((size_t)1 << 20)
+
 const fuzz_case *fuzz_files;
 
 trax_status __wrap_scene_load_file(struct scene_bytes *bytes, const char *path, struct scene_limits limits,
@@ -25,7 +27,11 @@ static trax_status load(struct scene_bytes *bytes, const char *path, size_t more
   if (file->size)
     memcpy(bytes->data, file->bytes, file->size);
   bytes->size = file->size;
-  return TRAX_OK;
+  const unsigned char *const packed = bytes->data;
+  const trax_status result = scene_unpack(bytes, MOST_UNPACKED, path, error);
+  if (result == TRAX_OK && bytes->data != packed && more && scene_terminate(bytes) != TRAX_OK)
+    abort();
+  return result;
 }
 
 trax_status __wrap_scene_load_file(struct scene_bytes *bytes, const char *path, struct scene_limits limits,

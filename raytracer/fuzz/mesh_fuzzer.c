@@ -1,5 +1,6 @@
 /* Meshes under libFuzzer: a case's first file is one, by its ending, and refers to the others. What is accepted makes a
-   scene that passes every check. The words of the first line are materials as --material takes them. */
+   scene that passes every check. Of glTF files the check before assimp's reader is tried. The words of the first line
+   are materials as --material takes them. */
 #include "files.h"
 
 #include <stdlib.h>
@@ -31,6 +32,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
       trax_mesh_release(&mesh);
     } else if (!error.message[0])
       abort(); /* refused without a reason */
+  } else if (length > 4 && (!strcmp(path + length - 4, "gltf") || !strcmp(path + length - 4, ".glb"))) {
+    const struct scene_bytes file = {fuzz_case.files[0].bytes, fuzz_case.files[0].size};
+    if (scene_check_gltf(file, path, &error) != TRAX_OK && !error.message[0])
+      abort();
   }
   fuzz_case_free(&fuzz_case);
   return 0;

@@ -76,7 +76,9 @@ static trax_status load_scene(struct inputs *inputs, const struct options *optio
 /* --- views --- */
 
 static trax_status take_camera(struct trax_view *view, const struct inputs *inputs, const struct options *options,
-                               const char *name, trax_error *error) {
+                               const char *text, trax_error *error) {
+  char name[TRAX_MESH_NAME];
+  trax_mesh_name(name, text);
   for (uint32_t i = 0; i < inputs->camera_count; i++) {
     const struct trax_mesh_camera *camera = &inputs->cameras[i];
     if (*name && strcmp(name, camera->name) != 0)

@@ -101,9 +101,12 @@ void window_close(struct window *window) {
   free(window);
 }
 
-/* A channel of 8 bits, where the screen has it. */
+/* A channel of 8 bits, where the screen has it and with as many bits: 255 is the brightest. */
 static uint32_t put_channel(uint32_t value, unsigned long mask) {
-  return mask ? (uint32_t)(value * (mask & -mask)) & (uint32_t)mask : 0;
+  if (!mask)
+    return 0;
+  const unsigned long lowest = mask & -mask, most = mask / lowest;
+  return (uint32_t)((value * most + 127) / 255 * lowest);
 }
 
 void window_draw(struct window *window, const struct trax_picture *picture, const char *title) {

@@ -248,7 +248,7 @@ trax_status assimp_copy_materials(struct assimp_import *import) {
     import->uvs[i] = ordinary_uvs;
     struct aiString name;
     if (aiGetMaterialString(scene->mMaterials[i], AI_MATKEY_NAME, &name) == aiReturn_SUCCESS)
-      memcpy(material->name, name.data, strnlen(name.data, sizeof material->name - 1));
+      trax_mesh_name(material->name, name.data);
     if (!is_placeholder(scene, i, material->name, import->gltf))
       result = copy_material(import, scene->mMaterials[i], &material->surface, &import->uvs[i]);
   }
@@ -297,7 +297,7 @@ static bool copy_camera(struct trax_mesh_camera *out, const struct aiScene *scen
                     m.c1 * d.x + m.c2 * d.y + m.c3 * d.z},
       .up = {m.a1 * u.x + m.a2 * u.y + m.a3 * u.z, m.b1 * u.x + m.b2 * u.y + m.b3 * u.z,
              m.c1 * u.x + m.c2 * u.y + m.c3 * u.z}};
-  memcpy(out->name, camera->mName.data, strnlen(camera->mName.data, sizeof out->name - 1));
+  trax_mesh_name(out->name, camera->mName.data);
   if (!unit(out->direction) || !unit(out->up))
     return false;
   const float along = out->up[0] * out->direction[0] + out->up[1] * out->direction[1] + out->up[2] * out->direction[2];

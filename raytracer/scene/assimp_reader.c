@@ -279,6 +279,9 @@ trax_status scene_read_with_assimp(struct trax_mesh *mesh, const char *path, con
   trax_status result = scene_load_file(&system.main_file, path, system.limits, error);
   if (result == TRAX_OK && system.main_file.size == 0)
     result = trax_fail(error, "%s: the file is empty", path);
+  const bool gltf = scene_has_extension(name, ".gltf") || scene_has_extension(name, ".glb");
+  if (result == TRAX_OK && gltf)
+    result = scene_check_gltf(system.main_file, path, error);
   if (result == TRAX_OK) {
     /* No steps yet: they trust the indices. */
     scene = aiImportFileEx(name, 0, &system.io);
@@ -286,8 +289,10 @@ trax_status scene_read_with_assimp(struct trax_mesh *mesh, const char *path, con
       result = TRAX_ERROR;
     } else if (!scene || !scene->mRootNode) {
       const char *reason = aiGetErrorString();
-      result = trax_fail(error, "%s: not a mesh that can be read: %s", path,
-                         reason && reason[0] ? reason : "the importer gives no reason");
+      result = reason && strstr(reason, "bad_alloc")
+                   ? scene_out_of_memory(error, path)
+                   : trax_fail(error, "%s: not a mesh that can be read: %s", path,
+                               reason && reason[0] ? reason : "the importer gives no reason");
     }
   }
   if (result == TRAX_OK)
@@ -295,7 +300,7 @@ trax_status scene_read_with_assimp(struct trax_mesh *mesh, const char *path, con
   if (result == TRAX_OK && !(scene = aiApplyPostProcessing(scene, aiProcess_Triangulate)))
     result = trax_fail(error, "%s: polygons cannot be cut into triangles: %s", path, aiGetErrorString());
   struct assimp_import import = {.path = name,
-                                 .gltf = scene_has_extension(name, ".gltf") || scene_has_extension(name, ".glb"),
+                                 .gltf = gltf,
                                  .scene = scene,
                                  .mesh = mesh,
                                  .report = report,

@@ -90,7 +90,14 @@ void trax_view_frame(struct trax_view *view, const struct trax_scene *scene, con
     centre[axis] = low[axis] * 0.5f + high[axis] * 0.5f;
     middle[axis] = (double)centre[axis];
   }
-  float radius = sqrtf(scene_dot(half, half));
+  const float square = scene_dot(half, half);
+  float radius = sqrtf(square);
+  if (square < 0x1p-100f) { /* which has lost digits, or all of them */
+    double exact = 0;
+    for (int axis = 0; axis < 3; axis++)
+      exact += ((double)high[axis] - (double)low[axis]) * ((double)high[axis] - (double)low[axis]);
+    radius = (float)(sqrt(exact) / 2);
+  }
   if (!(radius > 0))
     radius = 1;
 

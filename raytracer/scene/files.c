@@ -12,6 +12,8 @@
 #include <unistd.h>
 #include <xxhash.h>
 
+#define READ_AT_ONCE ((size_t)64 << 20)
+
 trax_status scene_out_of_memory(trax_error *error, const char *what) {
   return trax_fail(error, "%s: not enough memory", what);
 }
@@ -60,16 +62,20 @@ trax_status scene_load_file(struct scene_bytes *bytes, const char *path, struct 
                             trax_error *error) {
   *bytes = (struct scene_bytes){0};
   trax_input input;
+  scene_reading();
   trax_status result = trax_input_open(&input, path, error);
   /* Of a pipe or a device nobody knows how much will come, as of packed data. */
   const size_t limit = input.is_regular || limits.plain < limits.unpacked ? limits.plain : limits.unpacked;
-  if (result == TRAX_OK)
-    result = trax_input_read(&input, limit + 1, error);
+  /* In steps, between which a signal ends it: a regular file is read without waiting. */
+  for (size_t wanted = 0; result == TRAX_OK && input.size == wanted && wanted <= limit && input.expected <= limit;) {
+    wanted = limit - wanted < READ_AT_ONCE ? limit + 1 : wanted + READ_AT_ONCE;
+    result = trax_input_read(&input, wanted, error);
+  }
   if (result == TRAX_OK)
     result = list_file(path, &input, error);
   else
     list_file(path, NULL, NULL);
-  if (result == TRAX_OK && input.size > limit)
+  if (result == TRAX_OK && (input.size > limit || input.expected > limit))
     result = trax_fail(error, "%s: more than %zu bytes", path, limit);
   if (result == TRAX_OK) {
     *bytes = (struct scene_bytes){input.bytes, input.size};
@@ -77,6 +83,7 @@ trax_status scene_load_file(struct scene_bytes *bytes, const char *path, struct 
     result = scene_unpack(bytes, limits.unpacked, path, error);
   }
   trax_input_close(&input);
+  scene_has_read(bytes->size);
   return result;
 }
 

@@ -70,6 +70,19 @@ trax_status scene_load_referred(struct scene_bytes *bytes, const char *path, str
 /* A copy of path without a final .xz or .gz, so that it ends as the unpacked file would; NULL when out of memory. */
 char *scene_unpacked_name(const char *path);
 
+/* --- memory.c: of an importer's process --- */
+
+/* From now on this process may take 1 GiB more, and 1,024 bytes for each byte that it reads. */
+void scene_limit_memory(void);
+/* While a file is read and unpacked, its own limits hold. scene_has_read: all of it, so many bytes. */
+void scene_reading(void);
+void scene_has_read(size_t bytes);
+
+/* --- gltf_check.c --- */
+
+/* Whether a glTF or GLB file's nodes form trees, and all extensions that it requires are known. */
+trax_status scene_check_gltf(struct scene_bytes file, const char *path, trax_error *error);
+
 /* --- image.c --- */
 
 struct scene_image {

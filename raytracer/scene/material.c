@@ -131,8 +131,10 @@ trax_status scene_override_materials(struct trax_mesh *mesh, const struct trax_i
   for (size_t i = 0; i < options->override_count; i++) {
     const struct trax_material_override *override = &options->overrides[i];
     bool found = false;
+    char name[TRAX_MESH_NAME];
+    trax_mesh_name(name, override->name ? override->name : "");
     for (uint32_t m = 0; m < mesh->material_count; m++) {
-      if (override->name && strcmp(override->name, mesh->materials[m].name) != 0)
+      if (override->name && strcmp(name, mesh->materials[m].name) != 0)
         continue;
       apply(&mesh->materials[m].surface, override);
       found = true;

@@ -127,6 +127,7 @@ static _Noreturn void run_child(FILE *out, const char *path, const struct trax_i
     dup2(null, STDERR_FILENO);
   }
   struct child_result result = {0};
+  scene_limit_memory();
   result.status = scene_read_mesh(&result.mesh, path, options, &result.report, &result.error);
   bool wrote = fwrite(&result, sizeof result, 1, out) == 1;
   if (result.status == TRAX_OK)
@@ -217,6 +218,23 @@ trax_status scene_read_mesh_isolated(struct trax_mesh *mesh, const char *path,
   if (result != TRAX_OK)
     trax_mesh_release(mesh);
   return result;
+}
+
+/* --- names --- */
+
+void trax_mesh_name(char name[TRAX_MESH_NAME], const char *text) {
+  enum { digits = 17 };
+  const size_t length = strlen(text);
+  uint64_t hash = 0xCBF29CE484222325u; /* FNV-1a */
+  memset(name, 0, TRAX_MESH_NAME);
+  if (length < TRAX_MESH_NAME) {
+    memcpy(name, text, length);
+    return;
+  }
+  for (size_t i = 0; i < length; i++)
+    hash = (hash ^ (unsigned char)text[i]) * 0x100000001B3u;
+  memcpy(name, text, TRAX_MESH_NAME - 1 - digits);
+  snprintf(name + TRAX_MESH_NAME - 1 - digits, digits + 1, "~%016llx", (unsigned long long)hash);
 }
 
 /* --- merging --- */

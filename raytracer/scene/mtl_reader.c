@@ -26,8 +26,8 @@ struct library {
 };
 
 uint32_t scene_find_material(const struct trax_mesh *mesh, const char *name) {
-  char cut[sizeof mesh->materials->name] = {0};
-  memcpy(cut, name, strnlen(name, sizeof cut - 1));
+  char cut[TRAX_MESH_NAME];
+  trax_mesh_name(cut, name);
   for (uint32_t i = 0; i < mesh->material_count; i++)
     if (!strcmp(mesh->materials[i].name, cut))
       return i;
@@ -40,7 +40,7 @@ uint32_t scene_add_material(struct scene_material_list *list, const char *name) 
     return SCENE_NO_MATERIAL;
   struct trax_mesh_material *material = &mesh->materials[mesh->material_count];
   *material = (struct trax_mesh_material){.surface = trax_default_material};
-  memcpy(material->name, name, strnlen(name, sizeof material->name - 1));
+  trax_mesh_name(material->name, name);
   return mesh->material_count++;
 }
 

@@ -57,6 +57,7 @@ struct ply_reader {
   float (*uvs)[2];
   char texture[256]; /* "": none */
   unsigned unread;   /* as the report has it */
+  uint32_t other_primitives;
   size_t triangle_capacity, normal_capacity, uv_capacity;
   uint32_t *list; /* the indices of one face or strip */
   size_t list_capacity;

@@ -128,6 +128,9 @@ static trax_status read_property(struct ply_reader *reader) {
   if (!next_word(reader, word))
     return scene_ply_fail(reader, "a property without a name");
   property->role = role_of(element->name, word, is_list);
+  for (unsigned i = 0; i < element->property_count; i++) /* of two lists of indices the first counts */
+    if (property->role == indices && reader->properties[element->first_property + i].role == indices)
+      property->role = skipped;
   if (!strcmp(word, "red") || !strcmp(word, "diffuse_red"))
     reader->unread |= TRAX_UNREAD_COLOURS;
   if (property->role == indices && property->type >= float32)

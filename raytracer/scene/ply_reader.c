@@ -36,8 +36,10 @@ static trax_status add_triangle(struct ply_reader *reader, uint32_t a, uint32_t 
 }
 
 static trax_status add_face(struct ply_reader *reader, uint32_t count) {
-  if (count < 3)
-    return scene_ply_fail(reader, "a face needs at least three vertices");
+  if (count < 3) { /* a point or a line, as some programs write them */
+    reader->other_primitives++;
+    return TRAX_OK;
+  }
   const uint32_t *list = reader->list;
   if (count == 3)
     return add_triangle(reader, list[0], list[1], list[2]);
@@ -239,6 +241,7 @@ trax_status scene_read_ply(struct trax_mesh *mesh, const char *path, const struc
     result = read_elements(reader);
   report->source_triangles += mesh->triangle_count;
   report->unread |= reader->unread;
+  report->other_primitives += reader->other_primitives;
   free(reader->list);
   free(reader->normals);
   free(reader->uvs);

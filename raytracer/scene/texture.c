@@ -233,16 +233,25 @@ static trax_status load_image(const struct scene_textures *textures, struct scen
   return result;
 }
 
-/* The mask's alpha, or its brightest channel where it has none, becomes the image's; the nearest one where sizes
-   differ. */
+static bool has_alpha(const struct scene_image *image) {
+  const size_t count = (size_t)image->width * image->height;
+  for (size_t i = 0; i < count; i++)
+    if (image->rgba[4 * i + 3] < 255)
+      return true;
+  return false;
+}
+
+/* The mask's alpha becomes the image's, or, of a mask that is opaque everywhere, its brightest channel; the nearest one
+   where sizes differ. */
 static void apply_mask(struct scene_image *image, const struct scene_image *mask) {
+  const bool alpha = has_alpha(mask);
   for (uint32_t y = 0; y < image->height; y++)
     for (uint32_t x = 0; x < image->width; x++) {
       const unsigned char *from = mask->rgba + 4 * ((size_t)((uint64_t)y * mask->height / image->height) * mask->width +
                                                     (uint64_t)x * mask->width / image->width);
       unsigned char value = from[0] > from[1] ? from[0] : from[1];
       value = from[2] > value ? from[2] : value;
-      image->rgba[4 * ((size_t)y * image->width + x) + 3] = from[3] < 255 ? from[3] : value;
+      image->rgba[4 * ((size_t)y * image->width + x) + 3] = alpha ? from[3] : value;
     }
 }
 

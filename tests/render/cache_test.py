@@ -146,9 +146,13 @@ def together():
         shutil.rmtree("cache")
         first = subprocess.Popen(command("cache", "-o", "x0.png", "-q"), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         second = subprocess.Popen(command("cache", "-o", "x.png"), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-        time.sleep(0.06 * (turn + 1))
+        children = f"/proc/{first.pid}/task/{first.pid}/children"  # the compiler
+        while first.poll() is None and not open(children).read():
+            time.sleep(0.005)
+        time.sleep(0.03 * turn)
         first.send_signal(signal.SIGTERM)
-        first.wait(timeout=60)
+        if first.wait(timeout=60) != -signal.SIGTERM and turn == 0:
+            fail(f"not stopped while it compiles: status {first.returncode}")
         said = second.communicate(timeout=120)[1]
         if second.returncode or said or pixels() != picture:
             fail(f"beside one that was stopped: status {second.returncode}: {said}")

@@ -289,7 +289,9 @@ grep -q 'differ, by up to' "$out" || fail "the difference is not told: $(cat "$o
 # --- interrupted: status 130 and no picture
 env --default-signal=INT "$render" "$box" -o interrupted.png $native --size 16384x16384 2>"$err" &
 process=$!
-sleep 1
+until [ "$(ls "/proc/$process/task" | wc -l)" -gt 1 ] || ! kill -0 $process; do # its threads render
+  sleep 0.05
+done
 kill -INT $process 2>/dev/null
 wait $process
 status=$?

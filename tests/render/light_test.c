@@ -298,7 +298,7 @@ static void test_layers_keep_energy(void **state) {
           integrate(&at, &sent, &density);
           assert_true(sent > 0 || speculars[f] == 0);
           assert_true(sent <= 1.002);
-          assert_true(density > 0.5 && density < 1.003);
+          assert_true(density < 1.003);
           if (speculars[f] == 1 && roughnesses[r] < 0.2f && c > 1)
             assert_true(sent > 0.9); /* a polished metal loses little */
         }
@@ -334,6 +334,7 @@ static void test_scatter_is_unbiased(void **state) {
     for (int c = 1; c <= 3; c++) {
       const struct scatterer at = layer(c / 3.0 - 0.05, roughnesses[r], 0.7f, 0.3f);
       double sent, density_sum, mean = 0;
+      unsigned taken = 0;
       integrate(&at, &sent, &density_sum);
       enum { SAMPLES = 1 << 14 };
       for (uint32_t i = 0; i < SAMPLES; i++) {
@@ -341,8 +342,11 @@ static void test_scatter_is_unbiased(void **state) {
         float density;
         const struct place choice = place_of(scrambled_point(i, 1)), place = place_of(scrambled_point(i, 2));
         mean += wide(scatter(&at, true, place, choice.x, &way, &density).y) / SAMPLES;
+        taken += density > 0;
       }
       assert_true(fabs(mean - sent) < 0.006);
+      /* Of the ways that are chosen, those that do not lead into the surface are what the density adds up to. */
+      assert_true(fabs(density_sum - (double)taken / SAMPLES) < 0.006);
     }
 }
 

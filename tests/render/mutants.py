@@ -47,7 +47,7 @@ MUTANTS = [
     ("texture-gamma", "texture.h", "{red * red, green * green, blue * blue}", "{255 * red, 255 * green, 255 * blue}"),
     ("metal-texture", "path.h", "if (metal)", "if (0)"),
     ("hole-distance", "path.h", "path->travelled += bits_float(hit->distance_bits);", ""),
-    ("hole-shadow", "path.h", "  path->distance_bits = arrival.distance_bits;\n", ""),
+    ("hole-shadow", "path.h", "    path->distance_bits = arrival.distance_bits;\n  }", "  }"),
     ("holes-solid", "path.h", "|| path->holes >= MOST_HOLES", "|| path->holes >= 1"),
     ("balance", "path.h", "share *= own / at_least(own + other, 0x1p-120f);", ""),
     ("lamp-from-start", "path.h", "pick.y, path->point, place", "pick.y, path->start, place"),

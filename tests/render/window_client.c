@@ -22,6 +22,12 @@ static Window find_window(Display *display, char **title) {
   return found;
 }
 
+/* A channel in 8 bits, 255 the brightest, however many the screen has. */
+static unsigned char channel(unsigned long pixel, unsigned long mask) {
+  const unsigned long lowest = mask & -mask, most = mask / lowest;
+  return (unsigned char)(((pixel & mask) / lowest * 255 + most / 2) / most);
+}
+
 static int grab(Display *display, Window window, const char *path) {
   XWindowAttributes size;
   XGetWindowAttributes(display, window, &size);
@@ -33,7 +39,8 @@ static int grab(Display *display, Window window, const char *path) {
   for (int y = 0; y < size.height; y++)
     for (int x = 0; x < size.width; x++) {
       const unsigned long pixel = XGetPixel(image, x, y);
-      const unsigned char rgb[3] = {(unsigned char)(pixel >> 16), (unsigned char)(pixel >> 8), (unsigned char)pixel};
+      const unsigned char rgb[3] = {channel(pixel, image->red_mask), channel(pixel, image->green_mask),
+                                    channel(pixel, image->blue_mask)};
       fwrite(rgb, 3, 1, file);
     }
   XDestroyImage(image);

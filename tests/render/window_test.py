@@ -149,19 +149,21 @@ def main():
         if not shutil.which("Xvfb"):
             print("SKIPPED: the window, since Xvfb is missing (package xvfb)")
             return SKIPPED if not failures else 1
-        reader, writer = os.pipe()
-        display = subprocess.Popen(["Xvfb", "-displayfd", str(writer), "-screen", "0", "1280x1024x24", "-nolisten", "tcp"],
-                                   pass_fds=[writer], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        os.close(writer)
-        os.environ["DISPLAY"] = ":" + os.read(reader, 100).decode().strip()
-        try:
-            test_emulated(folder)
-            test_twin(folder)
-            test_lost_display(folder, display)
-        finally:
-            if display.poll() is None:
-                display.terminate()
-                display.wait()
+        for depth in (30, 24):
+            reader, writer = os.pipe()
+            display = subprocess.Popen(["Xvfb", "-displayfd", str(writer), "-screen", "0", f"1280x1024x{depth}", "-nolisten", "tcp"],
+                                       pass_fds=[writer], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            os.close(writer)
+            os.environ["DISPLAY"] = ":" + os.read(reader, 100).decode().strip()
+            try:
+                test_emulated(folder)
+                if depth == 24:
+                    test_twin(folder)
+                    test_lost_display(folder, display)
+            finally:
+                if display.poll() is None:
+                    display.terminate()
+                    display.wait()
         os.chdir("/")
     print("all as expected" if not failures else f"{failures} failures")
     return failures != 0

@@ -2,11 +2,20 @@
    harmless. */
 #include "support.h"
 
+#include "trax/signals.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
+#include <sys/time.h>
+#include <unistd.h>
 
 static struct trax_scene good;
+
+static void set_signal(int number) {
+  trax_signal = number;
+}
 
 /* With every section: of three materials the first and the last are textured. */
 static int make_scene(void **state) {
@@ -476,10 +485,44 @@ static void test_not_scenes(void **state) {
   }
 }
 
+/* A file of so many bytes that takes no room on the disk. */
+static const char *sparse_file(const char *name, off_t size) {
+  const char *path = test_text(name, "TRXS");
+  assert_int_equal(truncate(path, size), 0);
+  return path;
+}
+
+/* What is too large is not read at all, and a signal ends the reading of what is not. */
+static void test_large_files(void **state) {
+  (void)state;
+  struct trax_scene scene;
+  trax_error error;
+  struct rlimit before;
+  const char *path = sparse_file("vast.trax", (off_t)10 << 30);
+  getrlimit(RLIMIT_AS, &before);
+  setrlimit(RLIMIT_AS, &(struct rlimit){(rlim_t)1 << 30, before.rlim_max});
+  const trax_status status = trax_scene_read(&scene, path, &error);
+  setrlimit(RLIMIT_AS, &before);
+  assert_int_equal(status, TRAX_ERROR);
+  assert_contains(error.message, "vast.trax: more than 4294967296 bytes");
+  remove(path);
+
+  path = sparse_file("large.trax", (off_t)1 << 30);
+  struct sigaction action = {.sa_handler = set_signal}, old;
+  const struct itimerval soon = {.it_value = {.tv_usec = 1000}};
+  sigaction(SIGALRM, &action, &old);
+  setitimer(ITIMER_REAL, &soon, NULL);
+  assert_int_equal(trax_scene_read(&scene, path, &error), TRAX_INTERRUPTED);
+  sigaction(SIGALRM, &old, NULL);
+  trax_signal = 0;
+  remove(path);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_every_bit), cmocka_unit_test(test_every_length), cmocka_unit_test(test_sealed_changes),
-      cmocka_unit_test(test_messages),  cmocka_unit_test(test_deep_chain),   cmocka_unit_test(test_not_scenes),
+      cmocka_unit_test(test_every_bit),   cmocka_unit_test(test_every_length), cmocka_unit_test(test_sealed_changes),
+      cmocka_unit_test(test_messages),    cmocka_unit_test(test_deep_chain),   cmocka_unit_test(test_not_scenes),
+      cmocka_unit_test(test_large_files),
   };
   return cmocka_run_group_tests_name("corrupt scenes", tests, make_scene, drop_scene);
 }

@@ -537,6 +537,8 @@ static void test_nonfinite(void **state) {
 #define PLY_START "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
 #define PLY_FACES "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n"
 
+#define GLTF(roots) "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":" roots "}],"
+
 static const struct bad_mesh {
   const char *name, *text, *message;
 } bad_meshes[] = {
@@ -564,6 +566,22 @@ static const struct bad_mesh {
     {"empty.glb", "", "empty.glb: the file is empty"},
     {"text.txt", "hello\n", "text.txt: not a mesh that can be read"},
     {"half.gltf", "{\"asset\":", "half.gltf: not a mesh that can be read"},
+    {"twice.gltf", GLTF("[0]") "\"nodes\":[{\"children\":[1,1]},{}]}",
+     "twice.gltf: node 1 is a child of node 0 and again of node 0: nodes must form trees"},
+    {"parents.gltf", GLTF("[0,1]") "\"nodes\":[{\"children\":[2]},{\"children\":[2]},{}]}",
+     "parents.gltf: node 2 is a child of node 0 and again of node 1"},
+    {"circle.gltf", GLTF("[2]") "\"nodes\":[{\"children\":[1]},{\"children\":[0]},{}]}",
+     "circle.gltf: node 0 is below more than 1024 others, or below itself"},
+    {"roots.gltf", GLTF("[0,0]") "\"nodes\":[{}]}", "roots.gltf: a scene has node 0 twice"},
+    {"inner.gltf", GLTF("[0,1]") "\"nodes\":[{\"children\":[1]},{}]}", "inner.gltf: a scene has node 1 as its own and"},
+    {"absent.gltf", GLTF("[1]") "\"nodes\":[{}]}", "absent.gltf: a scene has a node that is not there"},
+    {"child.gltf", GLTF("[0]") "\"nodes\":[{\"children\":[7]}]}", "child.gltf: node 0 has a child that is not there"},
+    {"names.gltf",
+     "{\"asset\":{\"version\":\"1.0\"},\"scenes\":{\"s\":{\"nodes\":[\"a\"]}},\"scene\":\"s\","
+     "\"nodes\":{\"a\":{\"children\":[\"b\",\"b\"]},\"b\":{}}}",
+     "names.gltf: node 1 is a child of node 0 and again of node 0"},
+    {"draco.gltf", GLTF("[0]") "\"extensionsRequired\":[\"KHR_draco_mesh_compression\"],\"nodes\":[{}]}",
+     "draco.gltf: it requires the extension KHR_draco_mesh_compression, which is not read"},
     {"prose.ply", "plywood\n", "prose.ply: not a mesh"},
     {"cut.ply", PLY_START, "cut.ply:7: the file ends in its header"},
     {"format.ply", "ply\nend_header\n", "format.ply:2: the header has no format"},
@@ -589,7 +607,6 @@ static const struct bad_mesh {
     {"blank.ply", PLY_START PLY_FACES "3 0 1     \n", "blank.ply:14: the file ends too early"},
     {"long.ply", PLY_START PLY_FACES "100 0 1 2\n", "long.ply:13: a list is longer than the file"},
     {"negative.ply", PLY_START PLY_FACES "-3 0 1 2\n", "negative.ply:13: a list's length is negative"},
-    {"line.ply", PLY_START PLY_FACES "2 0 1\n", "line.ply:13: a face needs at least three vertices"},
     {"high.ply", PLY_START PLY_FACES "3 0 1 3\n", "high.ply:13: vertex index 3 is out of range (3 vertices)"},
     {"low.ply", PLY_START PLY_FACES "3 0 1 -1\n", "low.ply:13: vertex index -1 is out of range (3 vertices)"},
     {"more.ply", PLY_START PLY_FACES "3 0 1 2 0\n", "more.ply:13: more values than the header says"},
@@ -614,6 +631,67 @@ static void test_bad_meshes(void **state) {
     assert_contains(error.message, bad_meshes[i].message);
     assert_null(mesh.vertices);
   }
+}
+
+/* Of the importers' processes so far, bytes. */
+static long most_memory(void) {
+  struct rusage usage;
+  getrusage(RUSAGE_CHILDREN, &usage);
+  return usage.ru_maxrss * 1024;
+}
+
+/* Small files that would fill the memory: each instance of a COLLADA file has two of the next, and a glTF accessor
+   without data has a count alone. The process that reads them gets no more than its share. */
+static void test_bombs(void **state) {
+  (void)state;
+  char text[8192];
+  int size = snprintf(text, sizeof text,
+                      "<?xml version=\"1.0\"?><COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" "
+                      "version=\"1.4.1\"><library_nodes>");
+  for (int i = 0; i < 30; i++)
+    size +=
+        snprintf(text + size, sizeof text - (size_t)size,
+                 "<node id=\"n%d\"><instance_node url=\"#n%d\"/><instance_node url=\"#n%d\"/></node>", i, i + 1, i + 1);
+  snprintf(text + size, sizeof text - (size_t)size,
+           "<node id=\"n30\"/></library_nodes><library_visual_scenes><visual_scene id=\"s\"><node id=\"r\">"
+           "<instance_node url=\"#n0\"/></node></visual_scene></library_visual_scenes>"
+           "<scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>");
+  const char *paths[] = {
+      test_text("bomb.dae", text),
+      test_text("bomb.gltf",
+                GLTF("[0]") "\"nodes\":[{\"mesh\":0}],"
+                            "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"accessors\":["
+                            "{\"componentType\":5126,\"count\":2000000000,\"type\":\"VEC3\"}]}")};
+  for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
+    struct trax_mesh mesh;
+    trax_error error = {{0}};
+    assert_int_equal(trax_mesh_import(&mesh, &paths[i], 1, NULL, NULL, &error), TRAX_ERROR);
+    assert_contains(error.message, i == 0 ? "bomb.dae: " : "bomb.gltf: ");
+    assert_null(mesh.vertices);
+  }
+  assert_true(most_memory() < 1500L << 20);
+}
+
+/* Of PLY files: faces of two vertices are lines, and only the first list of indices counts. */
+static void test_odd_faces(void **state) {
+  (void)state;
+  struct trax_mesh mesh;
+  struct trax_import_report report;
+  import_good(&mesh,
+              test_text("line.ply", PLY_START "element face 4\nproperty list uchar int vertex_indices\nend_header\n"
+                                              "0 0 0\n1 0 0\n0 1 0\n2 0 1\n3 0 1 2\n1 0\n0\n"),
+              &report);
+  assert_int_equal(mesh.triangle_count, 1);
+  assert_int_equal(report.other_primitives, 3);
+  trax_mesh_release(&mesh);
+  import_good(&mesh,
+              test_text("both.ply", PLY_START "element face 1\nproperty list uchar int vertex_index\n"
+                                              "property list uchar int vertex_indices\nend_header\n"
+                                              "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 3 2 1 0\n"),
+              &report);
+  assert_int_equal(mesh.triangle_count, 1);
+  assert_int_equal(mesh.triangles[0].vertices[0], 0);
+  trax_mesh_release(&mesh);
 }
 
 static void test_bad_files(void **state) {
@@ -677,6 +755,7 @@ int main(void) {
       cmocka_unit_test(test_forest),         cmocka_unit_test(test_text_formats),
       cmocka_unit_test(test_binary_ply),     cmocka_unit_test(test_ply_types),
       cmocka_unit_test(test_compressed),     cmocka_unit_test(test_gltf),
+      cmocka_unit_test(test_bombs),          cmocka_unit_test(test_odd_faces),
       cmocka_unit_test(test_obj_syntax),     cmocka_unit_test(test_concave_polygons),
       cmocka_unit_test(test_large_polygons), cmocka_unit_test(test_unpack_limit),
       cmocka_unit_test(test_materials),      cmocka_unit_test(test_merge),

@@ -106,7 +106,7 @@ static void test_boxes(void **state) {
 /* Every half word of every node, one more and one less: boxes and references must be exactly what they are. */
 static void test_changed_nodes(void **state) {
   (void)state;
-  for (unsigned layout = 1; layout < TRAX_NODE_LAYOUTS; layout++) {
+  for (unsigned layout = 0; layout < TRAX_NODE_LAYOUTS; layout++) {
     struct trax_mesh mesh = {0};
     struct trax_scene scene;
     mesh_soup(&mesh, 60, 0.4f, 5);
@@ -128,10 +128,10 @@ static void test_changed_nodes(void **state) {
     seal(scene.bytes, scene.size);
     assert_int_equal(trax_scene_check(NULL, scene.bytes, scene.size, "scene", &error), TRAX_ERROR);
     assert_contains(error.message, "nodes of an unknown layout");
-    header->node_layout = TRAX_NODES_BINARY;
+    header->node_layout = layout == TRAX_NODES_BINARY ? TRAX_NODES_QUANTISED : TRAX_NODES_BINARY;
     seal(scene.bytes, scene.size);
     assert_int_equal(trax_scene_check(NULL, scene.bytes, scene.size, "scene", &error), TRAX_ERROR);
-    if (trax_node_formats[layout].bytes != trax_node_formats[TRAX_NODES_BINARY].bytes)
+    if (trax_node_formats[TRAX_NODES_QUANTISED].bytes != trax_node_formats[TRAX_NODES_BINARY].bytes)
       assert_contains(error.message, "records of");
     trax_scene_release(&scene);
     trax_mesh_release(&mesh);
@@ -237,7 +237,7 @@ static void test_splits(void **state) {
         }
         halves[i] = old;
       }
-    assert_true(accepted < refused);
+    assert_true(accepted > 0 && 15 * accepted < refused); /* boxes that are larger by one */
     trax_scene_release(&whole);
     trax_scene_release(&scene);
     trax_mesh_release(&mesh);

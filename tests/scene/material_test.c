@@ -315,6 +315,59 @@ static void test_resampling(void **state) {
   trax_mesh_release(&mesh);
 }
 
+/* What is opaque stays, however dark: an image that has alpha anywhere is a mask by its alpha, one that has none by its
+   brightness. */
+static void test_dark_masks(void **state) {
+  (void)state;
+  static const rgba leaf[2] = {{30, 90, 20, 255}, {200, 200, 200, 0}},
+                    half[2] = {{30, 90, 20, 200}, {255, 255, 255, 100}},
+                    grey[2] = {{30, 30, 20, 255}, {200, 10, 10, 255}};
+  write_png("leaf.png", leaf, 2, 1);
+  write_png("half.png", half, 2, 1);
+  write_png("grey.png", grey, 2, 1);
+  test_text("leaf.mtl", "newmtl leaf\nmap_Kd leaf.png\nmap_d leaf.png\nnewmtl half\nmap_d half.png\n"
+                        "newmtl grey\nmap_d grey.png\n");
+  const unsigned alphas[3][2] = {{255, 0}, {200, 100}, {30, 200}};
+  struct trax_mesh mesh;
+  import_good(&mesh, test_text("leaf.obj", "mtllib leaf.mtl\n" TRIANGLE "vt 0 0\nusemtl leaf\nf 1/1 2/1 3/1\n"), NULL);
+  assert_int_equal(mesh.texture_count, 3);
+  for (uint32_t i = 0; i < 3; i++)
+    for (uint32_t texel = 0; texel < 2; texel++)
+      assert_int_equal(mesh.texels[mesh.textures[i].first_texel + texel] >> 24, alphas[i][texel]);
+  trax_mesh_release(&mesh);
+}
+
+/* Names of any length are different if they differ, and are found by all of their letters. */
+static void test_long_names(void **state) {
+  (void)state;
+  char text[4096], names[3][160], diffuse[200];
+  int size = 0;
+  for (int i = 0; i < 3; i++) {
+    snprintf(names[i], sizeof names[i], "%0*d", i == 2 ? 63 : 100, i + 1);
+    size += snprintf(text + size, sizeof text - (size_t)size, "newmtl %s\nKd 0.%d 0 0\n", names[i], i + 1);
+  }
+  test_text("long.mtl", text);
+  size = snprintf(text, sizeof text, "mtllib long.mtl\n" TRIANGLE);
+  for (int i = 0; i < 3; i++)
+    size += snprintf(text + size, sizeof text - (size_t)size, "usemtl %s\nf 1 2 3\n", names[i]);
+  const char *path = test_text("long.obj", text);
+  struct trax_mesh mesh;
+  trax_error error;
+  import_good(&mesh, path, NULL);
+  assert_int_equal(mesh.material_count, 3);
+  for (uint32_t i = 0; i < 3; i++)
+    assert_true(fabsf(mesh.materials[mesh.triangles[i].material].surface.diffuse[0] - 0.1f * (float)(i + 1)) < 1e-6f);
+  assert_string_equal(mesh.materials[2].name, names[2]);
+  trax_mesh_release(&mesh);
+  struct trax_material_override override;
+  snprintf(diffuse, sizeof diffuse, "%s=1,1,1", names[1]);
+  assert_int_equal(trax_override_diffuse(&override, diffuse, &error), TRAX_OK);
+  const struct trax_import_options options = {.in_process = true, .overrides = &override, .override_count = 1};
+  assert_int_equal(trax_mesh_import(&mesh, &path, 1, &options, NULL, &error), TRAX_OK);
+  assert_true(mesh.materials[0].surface.diffuse[1] == 0 && mesh.materials[1].surface.diffuse[1] == 1);
+  trax_mesh_release(&mesh);
+}
+
 static void test_large_uvs(void **state) {
   (void)state;
   write_png("four.png", four, 2, 2);
@@ -754,6 +807,8 @@ int main(void) {
       cmocka_unit_test(test_textures),
       cmocka_unit_test(test_merged_textures),
       cmocka_unit_test(test_resampling),
+      cmocka_unit_test(test_dark_masks),
+      cmocka_unit_test(test_long_names),
       cmocka_unit_test(test_large_uvs),
       cmocka_unit_test(test_polygon_corners),
       cmocka_unit_test(test_corner_errors),

@@ -384,6 +384,58 @@ static void test_passes(void **state) {
   trax_mesh_release(&mesh);
 }
 
+/* A height field of 2 * 50 * 50 triangles. */
+static void height_field(struct trax_mesh *mesh) {
+  enum { SIDE = 50 };
+  float heights[SIDE + 1][SIDE + 1];
+  uint32_t seed = 7;
+  for (int i = 0; i <= SIDE; i++)
+    for (int k = 0; k <= SIDE; k++)
+      heights[i][k] = 0.05f * random_unit(&seed);
+  for (int i = 0; i < SIDE; i++)
+    for (int k = 0; k < SIDE; k++) {
+      const float x = (float)i / SIDE, y = (float)k / SIDE, right = (float)(i + 1) / SIDE, up = (float)(k + 1) / SIDE;
+      const float a[3] = {x, heights[i][k], y}, b[3] = {right, heights[i + 1][k], y},
+                  c[3] = {right, heights[i + 1][k + 1], up}, d[3] = {x, heights[i][k + 1], up};
+      mesh_triangle(mesh, a, b, c, 0);
+      mesh_triangle(mesh, a, c, d, 0);
+    }
+}
+
+/* The trees that are built are as good as they were: nodes and triangles that a ray visits, by the surface areas. */
+static void test_quality(void **state) {
+  (void)state;
+  const struct {
+    bool soup;
+    struct trax_build_options options;
+    const char *visited;
+  } trees[] = {
+      {true, {0}, "45.304275 2.4249715"},
+      {true, {.passes = 2}, "44.635755 2.4249715"},
+      {true, {.passes = 2, .splits = 1.5f}, "44.615152 2.4274679"},
+      {false, {.passes = 2}, "20.159606 7.3179161"},
+      {false, {.passes = 2, .splits = 1.5f}, "20.159915 7.3173019"},
+      {false, {.passes = 2, .nodes = TRAX_NODES_QUANTISED}, "20.165534 7.3249526"},
+      {false, {.passes = 2, .cache_lines = 64}, "20.159606 7.3179161"},
+  };
+  for (size_t i = 0; i < sizeof trees / sizeof *trees; i++) {
+    struct trax_mesh mesh = {0};
+    struct trax_scene scene;
+    struct trax_scene_stats stats;
+    char visited[64];
+    if (trees[i].soup)
+      mesh_soup(&mesh, 4000, 0.1f, 5);
+    else
+      height_field(&mesh);
+    build_good(&scene, &mesh, &trees[i].options);
+    trax_scene_measure(&stats, &scene);
+    snprintf(visited, sizeof visited, "%.8g %.8g", stats.sah_nodes, stats.sah_triangles);
+    assert_string_equal(visited, trees[i].visited);
+    trax_scene_release(&scene);
+    trax_mesh_release(&mesh);
+  }
+}
+
 static void test_bad_options(void **state) {
   (void)state;
   struct trax_mesh mesh = {0};
@@ -546,9 +598,10 @@ int main(void) {
       cmocka_unit_test(test_shapes),         cmocka_unit_test(test_awkward_meshes),
       cmocka_unit_test(test_extreme_scales), cmocka_unit_test(test_rays_find_the_nearest),
       cmocka_unit_test(test_determinism),    cmocka_unit_test(test_passes),
-      cmocka_unit_test(test_bad_options),    cmocka_unit_test(test_normals),
-      cmocka_unit_test(test_empty),          cmocka_unit_test(test_write_and_read),
-      cmocka_unit_test(test_statistics),     cmocka_unit_test(test_interrupts),
+      cmocka_unit_test(test_quality),        cmocka_unit_test(test_bad_options),
+      cmocka_unit_test(test_normals),        cmocka_unit_test(test_empty),
+      cmocka_unit_test(test_write_and_read), cmocka_unit_test(test_statistics),
+      cmocka_unit_test(test_interrupts),
   };
   return cmocka_run_group_tests_name("scene", tests, NULL, NULL);
 }

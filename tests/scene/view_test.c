@@ -291,9 +291,14 @@ static void check_framed(const struct trax_view *view, const struct trax_scene *
 
 static void test_framing(void **state) {
   (void)state;
-  static const float boxes[][2][3] = {{{-1, -1, -1}, {1, 1, 1}},        {{0, 0, 0}, {556, 559, 549}},
-                                      {{1000, 0, 0}, {1001, 50, 0.5f}}, {{-5, -0.1f, -5}, {5, 0, 5}},
-                                      {{0, 0, 0}, {1, 3, 0}},           {{-1e-6f, 0, 0}, {1e-6f, 1e-6f, 0}}};
+  static const float boxes[][2][3] = {{{-1, -1, -1}, {1, 1, 1}},
+                                      {{0, 0, 0}, {556, 559, 549}},
+                                      {{1000, 0, 0}, {1001, 50, 0.5f}},
+                                      {{-5, -0.1f, -5}, {5, 0, 5}},
+                                      {{0, 0, 0}, {1, 3, 0}},
+                                      {{-1e-6f, 0, 0}, {1e-6f, 1e-6f, 0}},
+                                      {{-1e-24f, -1e-24f, 0}, {1e-24f, 1e-24f, 1e-24f}},
+                                      {{0, 0, 0}, {1e-35f, 2e-35f, 0}}};
   static const float aspects[] = {0.5f, 1, 16 / 9.0f, 4}, ups[][3] = {{0, 1, 0}, {0, 0, 1}, {0, -1, 0}, {2, 1, -1}};
   struct trax_scene_header header;
   struct trax_triangle triangles[8];
@@ -306,6 +311,13 @@ static void test_framing(void **state) {
         trax_view_frame(&view, &scene, ups[i], i == 1 ? 75 : 0, aspects[a]);
         check_framed(&view, &scene, aspects[a]);
         assert_true(view.fov == (i == 1 ? 75 : 40));
+        double away = 0, size = 0; /* the light is two diagonals away */
+        for (int axis = 0; axis < 3; axis++) {
+          const double low = (double)boxes[b][0][axis], high = (double)boxes[b][1][axis];
+          away += pow((double)view.light[axis] - (low + high) / 2, 2);
+          size += pow(high - low, 2);
+        }
+        assert_true(fabs(sqrt(away / size) - 2) < 0.01);
       }
   /* A point has no size to fit. */
   static const float point[2][3] = {{3, 4, 5}, {3, 4, 5}};

@@ -33,8 +33,10 @@ struct trax_mesh_triangle {
   uint32_t source_id; /* its number among all imported triangles, including those that were dropped */
 };
 
+#define TRAX_MESH_NAME 64
+
 struct trax_mesh_material {
-  char name[64];                /* "" if it has none; cut if longer */
+  char name[TRAX_MESH_NAME];    /* "" if it has none; of trax_mesh_name */
   struct trax_material surface; /* its texture is one of the mesh's */
 };
 
@@ -45,7 +47,7 @@ struct trax_mesh_texture {
 
 /* A camera of a mesh file. */
 struct trax_mesh_camera {
-  char name[64];
+  char name[TRAX_MESH_NAME];         /* of trax_mesh_name */
   float eye[3], direction[3], up[3]; /* of unit length, perpendicular */
   float fov;                         /* vertical, degrees */
 };
@@ -62,6 +64,10 @@ struct trax_mesh {
   float (*uvs)[3][2];
   uint32_t vertex_count, triangle_count, material_count, texture_count, texel_count, camera_count;
 };
+
+/* A name as meshes have it: of one that is longer its beginning, "~", and 16 digits that depend on all of it, so that
+   names that differ stay different. */
+void trax_mesh_name(char name[TRAX_MESH_NAME], const char *text);
 
 /* Reports the progress of a long step. fraction is 0 to 1, or negative if unknown. May be called from any thread. */
 typedef void trax_scene_progress(void *context, const char *step, double fraction);
