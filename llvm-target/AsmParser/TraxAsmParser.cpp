@@ -4,6 +4,7 @@
 #include "MCTargetDesc/TraxMCExpr.h"
 #include "MCTargetDesc/TraxMCTargetDesc.h"
 #include "TargetInfo/TraxTargetInfo.h"
+#include "TraxAsmGuard.h"
 #include "trax/abi.h"
 #include "llvm/ADT/StringSwitch.h"
 #include "llvm/MC/MCContext.h"
@@ -143,6 +144,7 @@ private:
 
 class TraxAsmParser : public MCTargetAsmParser {
   MCAsmParser &Parser;
+  trax::AsmLimits Limits;
 
 #define GET_ASSEMBLER_HEADER
 #include "TraxGenAsmMatcher.inc"
@@ -152,8 +154,11 @@ class TraxAsmParser : public MCTargetAsmParser {
   bool ParseInstruction(ParseInstructionInfo &Info, StringRef Name, SMLoc NameLoc, OperandVector &Operands) override;
   bool MatchAndEmitInstruction(SMLoc IDLoc, unsigned &Opcode, OperandVector &Operands, MCStreamer &Out,
                                uint64_t &ErrorInfo, bool MatchingInlineAsm) override;
-  ParseStatus parseDirective(AsmToken) override {
-    return ParseStatus::NoMatch;
+  /// LLVM has all directives. This only looks at them.
+  ParseStatus parseDirective(AsmToken Name) override {
+    Limits.check(Parser, Name.getLoc());
+    Limits.checkDirective(Parser, Name.getIdentifier(), Name.getLoc());
+    return Parser.hasPendingError() ? ParseStatus::Failure : ParseStatus::NoMatch;
   }
 
   bool parseOperand(OperandVector &Operands, StringRef Mnemonic);
@@ -188,6 +193,10 @@ public:
     Parser.addAliasForDirective(".word", ".4byte");
     Parser.addAliasForDirective(".dword", ".8byte");
     setAvailableFeatures(ComputeAvailableFeatures(STI.getFeatureBits()));
+    trax::enterParser(&Parser);
+  }
+  ~TraxAsmParser() override {
+    trax::enterParser(nullptr);
   }
 };
 
@@ -299,6 +308,7 @@ bool TraxAsmParser::parseOperand(OperandVector &Operands, StringRef Mnemonic) {
 }
 
 bool TraxAsmParser::ParseInstruction(ParseInstructionInfo &, StringRef Name, SMLoc NameLoc, OperandVector &Operands) {
+  Limits.check(Parser, NameLoc);
   Operands.push_back(TraxOperand::createToken(Name, NameLoc));
   if (getTok().is(AsmToken::EndOfStatement))
     return false;
