@@ -5,6 +5,7 @@
 #include "MCTargetDesc/TraxMCTargetDesc.h"
 #include "MCTargetDesc/TraxTargetStreamer.h"
 #include "TargetInfo/TraxTargetInfo.h"
+#include "TraxAsmGuard.h"
 #include "trax/abi.h"
 #include "llvm/ADT/StringSwitch.h"
 #include "llvm/MC/MCContext.h"
@@ -144,6 +145,7 @@ private:
 
 class TraxAsmParser : public MCTargetAsmParser {
   MCAsmParser &Parser;
+  trax::AsmLimits Limits;
 
 #define GET_ASSEMBLER_HEADER
 #include "TraxGenAsmMatcher.inc"
@@ -187,6 +189,10 @@ public:
     Parser.addAliasForDirective(".word", ".4byte");
     Parser.addAliasForDirective(".dword", ".8byte");
     setAvailableFeatures(ComputeAvailableFeatures(STI.getFeatureBits()));
+    trax::enterParser(&Parser);
+  }
+  ~TraxAsmParser() override {
+    trax::enterParser(nullptr);
   }
 };
 
@@ -298,6 +304,7 @@ bool TraxAsmParser::parseOperand(OperandVector &Operands, StringRef Mnemonic) {
 }
 
 bool TraxAsmParser::ParseInstruction(ParseInstructionInfo &, StringRef Name, SMLoc NameLoc, OperandVector &Operands) {
+  Limits.check(Parser, NameLoc);
   Operands.push_back(TraxOperand::createToken(Name, NameLoc));
   if (getTok().is(AsmToken::EndOfStatement))
     return false;
@@ -309,7 +316,12 @@ bool TraxAsmParser::ParseInstruction(ParseInstructionInfo &, StringRef Name, SML
 }
 
 /// .stack local, .stack global: where the file's code expects the stack.
+/// LLVM has all other directives; the limits only look at them.
 ParseStatus TraxAsmParser::parseDirective(AsmToken Directive) {
+  Limits.check(Parser, Directive.getLoc());
+  Limits.checkDirective(Parser, Directive.getIdentifier(), Directive.getLoc());
+  if (Parser.hasPendingError())
+    return ParseStatus::Failure;
   if (Directive.getIdentifier() != ".stack")
     return ParseStatus::NoMatch;
   const SMLoc Loc = getTok().getLoc();

@@ -1,4 +1,5 @@
 //===- TraxAsmBackend.cpp - Fixups that the layout resolves --------------===//
+#include "TraxAsmGuard.h"
 #include "TraxFixupKinds.h"
 #include "TraxMCTargetDesc.h"
 #include "trax/abi.h"
@@ -11,6 +12,8 @@
 #include "llvm/MC/MCValue.h"
 #include "llvm/Support/MathExtras.h"
 #include "llvm/Support/raw_ostream.h"
+
+#include <algorithm>
 
 using namespace llvm;
 
@@ -33,9 +36,37 @@ public:
     return Fixup.getKind() >= FirstLiteralRelocationKind;
   }
   bool writeNopData(raw_ostream &OS, uint64_t Count, const MCSubtargetInfo *STI) const override;
+  void finishLayout(const MCAssembler &Asm) const override;
 };
 
 } // namespace
+
+/// What .skip, .org and alignment fill is a number until here, and would now be written.
+void TraxAsmBackend::finishLayout(const MCAssembler &Asm) const {
+  constexpr uint64_t Most = 256 << 20;
+  uint64_t Filled = 0;
+  for (const MCSection &Section : Asm) {
+    const bool Written = !Section.isVirtualSection();
+    uint64_t Rest = Asm.getSectionFileSize(Section); // what pads bundles of instructions
+    for (const MCFragment &Fragment : Section) {
+      SMLoc Place;
+      const uint64_t Size = Asm.computeFragmentSize(Fragment);
+      Rest -= Size;
+      if (const auto *Fill = dyn_cast<MCFillFragment>(&Fragment))
+        Place = Fill->getLoc();
+      else if (const auto *Org = dyn_cast<MCOrgFragment>(&Fragment))
+        Place = Org->getLoc();
+      else if (!isa<MCAlignFragment>(Fragment))
+        continue;
+      Filled += Written ? std::min(Size, Most + 1) : 0;
+      if (Written ? Filled > Most : Size > UINT32_MAX)
+        trax::stopAssembly(Asm.getContext().getSourceManager(), Place,
+                           Written ? "more than 256 MB of an object are filled" : "is larger than the address space");
+    }
+    if (Written && Rest > Most)
+      trax::stopAssembly(Asm.getContext().getSourceManager(), SMLoc(), "more than 256 MB of an object are filled");
+  }
+}
 
 /// What .reloc calls a relocation. BFD_RELOC_NONE is what LLVM itself asks for, for call-graph profiles.
 std::optional<MCFixupKind> TraxAsmBackend::getFixupKind(StringRef Name) const {

@@ -8,6 +8,7 @@
 #include "CC1.h"
 #include "FileCalls.h"
 #include "TraxABI.h"
+#include "TraxAsmGuard.h"
 #include "TraxTargetInfo.h"
 #include "clang/Basic/DiagnosticFrontend.h"
 #include "clang/Basic/FileManager.h"
@@ -161,7 +162,10 @@ bool writeTimeTrace(CompilerInstance &CI) {
 } // namespace
 
 void trax::reportFatalError(void *Diags, const char *Message, bool GenCrashDiag) {
-  static_cast<DiagnosticsEngine *>(Diags)->Report(diag::err_fe_error_backend) << Message;
+  auto &Engine = *static_cast<DiagnosticsEngine *>(Diags);
+  Engine.Report(GenCrashDiag ? unsigned(diag::err_fe_error_backend)
+                             : Engine.getCustomDiagID(DiagnosticsEngine::Error, "%0"))
+      << Message;
   llvm::sys::RunInterruptHandlers(); // removes outputs half written
   if (!GenCrashDiag)                 // as of a full disk; Process::Exit would print a trace within the driver's process
     _exit(1);
@@ -197,6 +201,12 @@ int trax::runCC1(llvm::ArrayRef<const char *> Args, const char *Argv0) {
   }
 
   followRule(isTraxTriple(llvm::Triple(Triple)));
+  // Of a source the driver keeps what is needed to reproduce a crash. LLVM does not check all of what bitcode says.
+  const bool FromIR = llvm::any_of(Options.Inputs, [](const FrontendInputFile &Input) {
+    return Input.getKind().getLanguage() == Language::LLVM_IR;
+  });
+  if (isTraxTriple(llvm::Triple(Triple)))
+    guardCrashes("clang", FromIR);
   const bool NeedsTarget = !Options.ShowHelp && !Options.ShowVersion;
   if (NeedsTarget && isTraxTriple(llvm::Triple(Triple)))
     Success = compileForTrax(*CI);

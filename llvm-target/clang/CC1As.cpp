@@ -5,6 +5,7 @@
 //===----------------------------------------------------------------------===//
 
 #include "CC1.h"
+#include "TraxAsmGuard.h"
 #include "TraxTargetInfo.h"
 #include "trax/output.h"
 #include "clang/Basic/Diagnostic.h"
@@ -144,6 +145,7 @@ bool assemble(const llvm::opt::InputArgList &Args, DiagnosticsEngine &Diags) {
   if (!Buffer)
     return Diags.Report(diag::err_fe_error_reading) << InputPath << Buffer.getError().message(), false;
   llvm::SourceMgr Sources;
+  trax::limitAssembly(Sources);
   const unsigned Source = Sources.AddNewSourceBuffer(std::move(*Buffer), llvm::SMLoc());
   Sources.setIncludeDirs(Args.getAllArgValues(options::OPT_I));
 
@@ -207,6 +209,7 @@ int trax::runCC1As(llvm::ArrayRef<const char *> RawArgs, const char *) {
   DiagnosticsEngine Diags(new DiagnosticIDs(), &*Options, new TextDiagnosticPrinter(llvm::errs(), &*Options));
 
   const llvm::ScopedFatalErrorHandler FatalErrors(reportFatalError, &Diags);
+  guardCrashes("clang", /*Always=*/true);
 
   unsigned MissingIndex, MissingCount;
   const llvm::opt::InputArgList Args =

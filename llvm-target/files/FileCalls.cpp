@@ -171,6 +171,13 @@ bool isKept(const char *Path) {
   return true;
 }
 
+/// /dev/zero and its like, which LLVM would read until memory is full.
+bool isEndless(int Descriptor, const struct stat &Status) {
+  struct stat Null;
+  return S_ISCHR(Status.st_mode) && !isatty(Descriptor) &&
+         !(stat("/dev/null", &Null) == 0 && Null.st_rdev == Status.st_rdev);
+}
+
 /// A descriptor for what will be written to Path. LLVM reports an errno with the file's name; what was read is told by
 /// commitOutputs.
 int collect(const char *Path, bool Appended, const struct stat *Existing) {
@@ -205,10 +212,16 @@ __attribute__((visibility("default"))) int open(const char *Path, int Flags, ...
   if (Replaces && (Exists ? S_ISREG(Status.st_mode) : (Flags & O_CREAT) != 0))
     return collect(Path, Flags & O_APPEND, Exists ? &Status : nullptr);
   const int Opened = systemOpen(Path, Flags, Mode);
-  if (Opened >= 0 && !Writes && fstat(Opened, &Status) == 0)
+  if (Opened >= 0 && !Writes && fstat(Opened, &Status) == 0) {
     trax_reads_note(&Status);
-  else if (Opened >= 0 && (Fresh || Replaces))
+    if (isEndless(Opened, Status)) {
+      close(Opened);
+      errno = EINVAL;
+      return -1;
+    }
+  } else if (Opened >= 0 && (Fresh || Replaces)) {
     add(Fresh ? Written::Own : Written::Direct, -1, false, Path);
+  }
   return Opened;
 }
 

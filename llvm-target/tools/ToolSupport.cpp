@@ -2,12 +2,14 @@
 #include "ToolSupport.h"
 #include "FileCalls.h"
 #include "LLVMTrax.h"
+#include "TraxAsmGuard.h"
 #include "trax/files.h"
 #include "trax/message.h"
 #include "trax/output.h"
 #include "trax/version.h"
 #include "llvm/MC/TargetRegistry.h"
 #include "llvm/Support/CommandLine.h"
+#include "llvm/Support/ErrorHandling.h"
 #include "llvm/Support/Path.h"
 #include "llvm/Support/WithColor.h"
 #include "llvm/Support/raw_ostream.h"
@@ -21,6 +23,8 @@ static std::string ToolName = "trax";
 const Target &trax::startTool(int Argc, char **Argv, StringRef Overview) {
   ToolName = sys::path::filename(Argv[0]).str();
   LLVMInitializeTrax();
+  guardCrashes(ToolName.c_str(), /*Always=*/true);
+  install_fatal_error_handler([](void *, const char *Message, bool) { fail(Message); });
   WithColor::setAutoDetectFunction(
       [](const raw_ostream &OS) { return trax_has_colours(&OS == &outs() ? STDOUT_FILENO : STDERR_FILENO); });
   cl::SetVersionPrinter(

@@ -6,6 +6,7 @@
 //
 //===----------------------------------------------------------------------===//
 #include "ToolSupport.h"
+#include "TraxAsmGuard.h"
 #include "llvm/MC/MCAsmBackend.h"
 #include "llvm/MC/MCAsmInfo.h"
 #include "llvm/MC/MCCodeEmitter.h"
@@ -167,6 +168,7 @@ int main(int Argc, char **Argv) {
     trax::fail("-disassemble writes assembly, not objects");
 
   Machine M(T);
+  trax::limitAssembly(M.Sources);
   M.Sources.AddNewSourceBuffer(std::move(*Buffer), SMLoc());
   SmallString<0> Bytes;
   raw_svector_ostream OS(Bytes);

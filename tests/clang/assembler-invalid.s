@@ -1,8 +1,8 @@
-// An error names its place, gives status 1 and leaves no output, not even an older one, as with clang's other errors. The
-// assembler by itself leaves an older one as it was.
+// An error names its place, gives status 1, and leaves an older output as it was, with the driver and without.
 // RUN: rm -rf %t && mkdir %t
 // RUN: echo old > %t/x.o && not %clang -c %s -o %t/x.o 2>&1 | FileCheck %s
-// RUN: ls %t | count 0
+// RUN: FileCheck %s --check-prefix=OLD < %t/x.o
+// RUN: ls %t | count 1
 // RUN: echo old > %t/x.o && not %host_clang -cc1as -triple trax -filetype obj %s -o %t/x.o 2>&1 | FileCheck %s
 // RUN: FileCheck %s --check-prefix=OLD < %t/x.o
 // OLD: {{^}}old{{$}}

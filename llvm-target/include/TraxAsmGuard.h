@@ -1,0 +1,51 @@
+//===- TraxAsmGuard.h - No input crashes or blocks the assembler ---------===//
+//
+// LLVM's assembler has no limits: nested expressions overflow its stack, numbers in directives are sizes of what it
+// allocates, and a line of text can expand to any amount of work. The guard turns a crash into an error with its place,
+// and the limits stop what grows without end. Both hold for files and for inline assembly.
+//
+//===----------------------------------------------------------------------===//
+#ifndef TRAX_ASMGUARD_H
+#define TRAX_ASMGUARD_H
+
+#include "llvm/ADT/StringRef.h"
+#include "llvm/ADT/Twine.h"
+#include "llvm/Support/SMLoc.h"
+
+namespace llvm {
+class MCAsmParser;
+class SourceMgr;
+} // namespace llvm
+
+namespace trax {
+
+/// Handles crashes of this process from now on. One while assembly is parsed, and every one if Always, is reported as
+/// "PROGRAM: error: ..." and ends the process with status 1; any other goes to the handler before.
+void guardCrashes(const char *Program, bool Always);
+
+/// The innermost parser of assembly, whose place a crash is reported with.
+void enterParser(const llvm::MCAsmParser *Parser);
+
+/// Ends the process by way of LLVM's fatal error, with the place of Loc in a file.
+[[noreturn]] void stopAssembly(const llvm::SourceMgr *Sources, llvm::SMLoc Loc, const llvm::Twine &Message);
+
+/// For a process that assembles one file: at most 200 errors in what is expanded, and 2 GB of memory.
+void limitAssembly(llvm::SourceMgr &Sources);
+
+/// What one run of a parser has expanded.
+class AsmLimits {
+  unsigned SeenBuffers = 0;
+  uint64_t Expanded = 0;
+  unsigned Expansions = 0, Included = 0;
+  llvm::StringRef File; // the one that was included last
+
+public:
+  /// Called before each instruction and directive.
+  void check(const llvm::MCAsmParser &Parser, llvm::SMLoc Loc);
+  /// Called before a directive that repeats something: its number, and the text behind its line.
+  void checkDirective(llvm::MCAsmParser &Parser, llvm::StringRef Name, llvm::SMLoc Loc);
+};
+
+} // namespace trax
+
+#endif
