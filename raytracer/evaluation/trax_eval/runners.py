@@ -11,8 +11,9 @@ import sys
 import threading
 import time
 
+from .finished import error_of, is_done
 from .interrupts import held
-from .jobs import error_of, is_done, run_job
+from .jobs import run_job
 from .util import Problem, duration, write_file
 
 ARRAY_LIMIT = 1000  # tasks of one Slurm array; slurm.conf's MaxArraySize is 1001 unless it says otherwise
