@@ -19,6 +19,7 @@ set(CPACK_DEBIAN_PACKAGE_DEPENDS "libclang-common-${LLVM_VERSION_MAJOR}-dev, lib
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "gnuplot-nox")
 # For programs that link the emulator.
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "parallel, pkgconf, libelf-dev, libdw-dev, libconfig-dev, libjansson-dev, libxxhash-dev, zlib1g-dev")
+set(CPACK_PROJECT_CONFIG_FILE ${CMAKE_CURRENT_LIST_DIR}/debian/tools.cmake)
 set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_CURRENT_LIST_DIR}/debian/files.cmake)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_LIST_DIR}/debian/prerm)
 set(CPACK_TRAX_SOURCE ${PROJECT_SOURCE_DIR})

@@ -315,8 +315,8 @@ bool TraxAsmParser::ParseInstruction(ParseInstructionInfo &, StringRef Name, SML
   return parseToken(AsmToken::EndOfStatement, "expected ',' or the end of the line");
 }
 
-/// .stack local, .stack global: where the file's code expects the stack.
-/// LLVM has all other directives; the limits only look at them.
+/// .stack local, .stack global: where the file's code expects the stack. LLVM has all other directives; the limits
+/// only look at them.
 ParseStatus TraxAsmParser::parseDirective(AsmToken Directive) {
   Limits.check(Parser, Directive.getLoc());
   Limits.checkDirective(Parser, Directive.getIdentifier(), Directive.getLoc());

@@ -1,17 +1,17 @@
 """What programs read: prepared by trax-render, changed by the program's converter, and kept under the hash of what the manifest says."""
 
 import contextlib
+import filecmp
 import os
 import pathlib
 import shutil
-import tempfile
 import typing
 
 from .manifest import read_manifest, seal
 from .programs import Program, convert
 from .scratch import new_scratch
 from .tools import run_tools
-from .util import Problem, hash_file, hash_value
+from .util import Problem, hash_file, hash_value, remark
 
 WHOLE_FILES = ("whole.trax", "picture.view")  # what trax-render makes a program's inputs of
 COUNTERS = "counters"  # the buffer of a program that counts
@@ -37,7 +37,7 @@ def prepare_inputs(out, tools, requests, jobs, only_look=False):
     with contextlib.ExitStack() as stack:
 
         def new_folder():
-            folder = tempfile.mkdtemp(prefix="trax-eval.") if only_look else new_scratch(out)
+            folder = new_scratch(None if only_look else out)
             stack.callback(shutil.rmtree, folder, ignore_errors=True)
             return folder
 
@@ -76,18 +76,31 @@ def keep_inputs(out, request, built, folder, only_look):
         shutil.copyfile(request.scene, pathlib.Path(folder, "whole.trax"))
         description["whole"] = describe_whole(program, built, [*request.options, *request.sampling], folder)
     place = out / "inputs" / hash_value(description)
-    if not only_look and not place.exists():
+    if not only_look:
         (place.parent / "bytes").mkdir(parents=True, exist_ok=True)
         os.chmod(folder, 0o755)
         for buffer in description["buffers"]:
             if "file" in buffer:
                 share(pathlib.Path(folder, buffer["file"]), place.parent / "bytes" / buffer["xxh128"])
-        try:
-            os.rename(folder, place)
-        except OSError:
-            if not place.exists():  # somebody else was faster otherwise
-                raise
+        take_place(folder, place)
     return description
+
+
+def take_place(folder, place):
+    """Or each file that is damaged there, if the place is taken."""
+    with contextlib.suppress(OSError):
+        os.rename(folder, place)
+        return
+    for path in sorted(path for path in pathlib.Path(folder).rglob("*") if path.is_file()):
+        known = place / path.relative_to(folder)
+        if not same_bytes(path, known):
+            remark(f"{known}: is damaged; it is made anew")
+            known.parent.mkdir(parents=True, exist_ok=True)
+            os.replace(path, known)
+
+
+def same_bytes(path, other):
+    return other.is_file() and (path.samefile(other) or filecmp.cmp(path, other, shallow=False))
 
 
 def describe_whole(program, built, more, folder):
@@ -116,11 +129,12 @@ def description_of(manifest):
 def share(path, content):
     """Pictures of several sizes have the same scene: it takes its place once, if the file system has hard links."""
     try:
-        if content.exists():
+        if same_bytes(path, content):
             beside = path.with_name(path.name + ".link")
             os.link(content, beside)
             os.replace(beside, path)
         else:
+            content.unlink(missing_ok=True)
             os.link(path, content)
     except OSError:
         pass

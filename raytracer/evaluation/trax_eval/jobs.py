@@ -9,7 +9,8 @@ A folder of results has
   runs/KEY.csv    its time series, if the job has one
   runs/KEY.error  why it failed
   pictures/HASH.png    pictures by the hash of their pixels
-Every file appears complete or not at all, and runs/KEY.json last, so nothing but the runs under way is lost when processes die."""
+Every file appears complete or not at all, and runs/KEY.json last, so nothing but the runs under way is lost when
+processes die. Each has a digest: its name, its last member, or a member of runs/KEY.json. What is damaged is made anew."""
 
 import csv
 import json
@@ -22,13 +23,15 @@ import struct
 import subprocess
 import time
 
+from .finished import is_done, is_picture
 from .inputs import COUNTERS, SOURCE, description_of
 from .manifest import NAME, read_manifest
 from .pictures import png
 from .scratch import new_scratch
-from .util import Problem, hash_bytes, hash_file, hash_value, read_json, write_file, write_json
+from .tools import dying
+from .util import Problem, hash_bytes, hash_file, hash_value, read_json, remark, write_file, write_json, write_sealed
 
-FORMAT = 1
+FORMAT = 2
 OF_THE_HOST = ("program", "host_seconds", "instructions_per_host_second")  # in the statistics: they are not the machine's
 
 
@@ -68,27 +71,19 @@ def write_job(out, job):
     """Returns the job's key."""
     key = key_of(job)
     path = out / "jobs" / f"{key}.json"
+    if path.exists() and not is_job(path, key):
+        remark(f"{path}: is damaged; it is made anew")
+        path.unlink()
     if not path.exists():
         write_json(path, job)
     return key
 
 
-def is_done(out, key):
-    return (out / "runs" / f"{key}.json").exists()
-
-
-def result_of(out, key):
-    """(result, host) or None."""
-    path = out / "runs" / f"{key}.json"
-    if not path.exists():
-        return None
-    host = out / "runs" / f"{key}.host.json"
-    return read_json(path), read_json(host) if host.exists() else {}
-
-
-def error_of(out, key):
-    path = out / "runs" / f"{key}.error"
-    return path.read_text().strip() if path.exists() else None
+def is_job(path, key):
+    try:
+        return hash_value(read_json(path)) == key
+    except Problem:
+        return False
 
 
 # --- runs
@@ -135,17 +130,15 @@ def check_inputs(job, inputs):
     expected = {name: value for name, value in job["inputs"].items() if name != "whole"}
     damaged = [] if description_of(read_manifest(inputs)) == expected else [NAME]
     for file in damaged + [file for file, known in whole.items() if hash_file(inputs / file) != known]:
-        raise Problem(f"{inputs / file} is damaged: it has not the bytes of its name; remove the folder and start again")
-
-
-# The simulator dies with this process, whatever ends it: also if that was before the kernel had been asked for it.
-DIES_WITH_PARENT = ("setpriv", "--pdeathsig", "KILL", "sh", "-c", '[ "$PPID" = "$0" ] && exec "$@"')
+        raise Problem(f"{inputs / file}: is damaged: it has not the bytes of its name; "
+                      "the command that asked for the run makes it anew")
 
 
 def run_process(program, command, scratch, on_start):
     """What it took of the host; an error if it fails. on_start is told the process."""
     with open(f"{scratch}/errors", "wb") as errors:
-        process = subprocess.Popen([*DIES_WITH_PARENT, str(os.getpid()), *command], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=errors)
+        process = subprocess.Popen(dying(command, "KILL"), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                   stderr=errors)
     if on_start:
         on_start(process)
     _, status, usage = os.wait4(process.pid, 0)
@@ -191,11 +184,12 @@ def keep_results(out, key, job, scratch, statistics, code, host):
         pixels = pathlib.Path(scratch, "image.raw").read_bytes()
         picture = hash_bytes(pixels)
         path = out / "pictures" / f"{picture}.png"
-        if not path.exists():
+        if not is_picture(path, picture):
             write_file(path, png(job["inputs"]["picture"], pixels))
+    result = {"key": key, "job": job, "picture": picture, "statistics": statistics} | ({"code": code} if code else {})
     if job["series"]:
         write_file(out / "runs" / f"{key}.csv", pathlib.Path(scratch, "series.csv").read_bytes())
-    result = {"key": key, "job": job, "picture": picture, "statistics": statistics} | ({"code": code} if code else {})
+        result["series"] = hash_file(pathlib.Path(scratch, "series.csv"))
     for name in job.get("measure", ()):
         result[name] = read_json(pathlib.Path(scratch, f"{name}.json"))
     if job.get("counters"):
@@ -208,8 +202,8 @@ def keep_results(out, key, job, scratch, statistics, code, host):
         result["ray_kinds"] = read_kinds(pathlib.Path(scratch, "kinds.csv"))
         if job["lockstep"]:
             result["ray_lanes"] = read_kinds(pathlib.Path(scratch, "lanes.csv"))
-    write_json(out / "runs" / f"{key}.host.json", host)
-    write_json(out / "runs" / f"{key}.json", result)
+    write_sealed(out / "runs" / f"{key}.host.json", host)
+    write_sealed(out / "runs" / f"{key}.json", result)
     (out / "runs" / f"{key}.error").unlink(missing_ok=True)
 
 

@@ -1,10 +1,11 @@
 """The command line."""
 
+import contextlib
 import os
 import pathlib
 import shlex
+import shutil
 import sys
-import tempfile
 import time
 
 from report import docs, make
@@ -13,17 +14,17 @@ from report.results import Results
 from report.tables import print_tables
 
 from . import completion, runners
+from .finished import forget_damaged, is_intact
 from .interrupts import Interrupted, catch_interrupts, end_by_signal
-from .jobs import is_done
 from .new_sweep import new_sweep
 from .options import OPTIONS, Parser, described, new_parser
 from .planner import Planner, check_machines, check_names, label
 from .programs import find_programs
 from .results import collect, plan_file, write_plan
-from .scratch import clean_scratch
+from .scratch import clean_scratch, new_scratch
 from .sweep import parse_size, read_sweep
 from .tools import Tools
-from .util import Problem, check_files, complain
+from .util import Problem, check_files, complain, remark
 from .values import Areas
 
 HELP = """\
@@ -37,8 +38,8 @@ Repeats what the paper measured, and shows our figures beside the paper's. Finis
 command makes only what is missing, whenever and however the one before it ended.
 
 EXPERIMENT is one of those below, or a sweep file of your own (NAME.json; new-sweep asks and writes one, README.md
-of lib/trax/evaluation has the format). SCENES is the folder with the scenes' meshes, or scene files NAME.trax (default: the
-variable TRAX_SCENES, or else ./scenes).
+of lib/trax/evaluation has the format). SCENES is the folder with the scenes' meshes (default: the variable TRAX_SCENES,
+or else ./scenes).
 
 %s
 %s
@@ -79,10 +80,15 @@ def parse(arguments):
 
 
 def choose(options, data):
-    """The sweep files and the folder of scenes that the words name."""
+    """The sweep files and the folder of scenes that the words name. The last of several words may name both: it is the
+    folder then."""
     known = {path.stem: path for path in experiments(data)}
     files, folder = [path for path in known.values() if read_sweep(path).in_all] if options.all else [], None
-    for word in options.words:
+    words = options.words
+    if len(words) > 1 and not options.all and words[-1] in known and os.path.isdir(words[-1]):
+        remark(f"{words[-1]} is taken for the folder; the experiment of this name comes before other words")
+        words, folder = words[:-1], pathlib.Path(words[-1])
+    for word in words:
         if word in known and not options.all:
             files.append(known[word])
         elif word.endswith(".json") and not options.all:
@@ -108,11 +114,14 @@ def evaluate(options, tools, data, command):
     out = options.output.resolve()
     if out.exists() and not out.is_dir():
         raise Problem(f"{out}: is no folder")
+    clean_scratch(None)
     if not options.dry_run:
         out.mkdir(parents=True, exist_ok=True)
         clean_scratch(out)
     plans, labels, without = [], {}, 0
-    with tempfile.TemporaryDirectory(prefix="trax-eval.") as scratch:
+    with contextlib.ExitStack() as stack:
+        scratch = new_scratch(None if options.dry_run else out)
+        stack.callback(shutil.rmtree, scratch, ignore_errors=True)
         planner = Planner(out, tools, folder, options.quiet, options.dry_run, scratch)
         if not options.dry_run:
             planner.import_all(sweeps, options.jobs)
@@ -123,11 +132,13 @@ def evaluate(options, tools, data, command):
             labels |= {key: label(point) for point, (key, _) in keys.items() if key}
             without += sum(key is None for key, _ in keys.values())
     if options.dry_run:
-        missing = [f"{'(new)' if key.startswith('-') else key} {name}" for key, name in labels.items() if not is_done(out, key)]
+        missing = [f"{'(new)' if key.startswith('-') else key} {name}" for key, name in labels.items()
+                   if not is_intact(out, key)]
         print("\n".join([*missing, f"{len(missing)} of {len(labels)} runs are missing"]))
         return 0
     for sweep, keys in plans:
         write_plan(out, sweep, keys, tools)
+    forget_damaged(out, labels)
     failed = runners.run_all(out, tools, labels, options)
     results = collect(out, tools, Areas(data / "paper"), command, time.monotonic() - begin)
     if not options.quiet:

@@ -17,14 +17,29 @@ class Hash(ctypes.Structure):
     _fields_ = [("low", ctypes.c_uint64), ("high", ctypes.c_uint64)]
 
 
-def xxh128(data):
-    """As xxhsum -H2 prints it, by the library that the programs in C are linked with."""
+def library():
+    """The one that the programs in C are linked with."""
     try:
-        function = ctypes.CDLL("libxxhash.so.0").XXH3_128bits
+        functions = ctypes.CDLL("libxxhash.so.0")
     except OSError:
         raise Problem("libxxhash.so.0 is not installed (Debian's package is called libxxhash0)") from None
-    function.argtypes, function.restype = (ctypes.c_char_p, ctypes.c_size_t), Hash
-    found = function(data, len(data))
+    functions.XXH3_createState.restype = ctypes.c_void_p
+    functions.XXH3_128bits_digest.restype = Hash
+    return functions
+
+
+def xxh128_of_file(path):
+    """As xxhsum -H2 prints it."""
+    functions = library()
+    state = ctypes.c_void_p(functions.XXH3_createState())
+    try:
+        functions.XXH3_128bits_reset(state)
+        with open(path, "rb") as file:
+            while data := file.read(1 << 20):
+                functions.XXH3_128bits_update(state, data, ctypes.c_size_t(len(data)))
+        found = functions.XXH3_128bits_digest(state)
+    finally:
+        functions.XXH3_freeState(state)
     return f"{found.high:016x}{found.low:016x}"
 
 
@@ -34,6 +49,6 @@ def seal(folder, more=()):
     manifest["buffers"] += more
     for part in (manifest["program"], *manifest["buffers"]):
         if "file" in part:
-            data = pathlib.Path(folder, part["file"]).read_bytes()
-            part["bytes"], part["xxh128"] = len(data), xxh128(data)
+            path = pathlib.Path(folder, part["file"])
+            part["bytes"], part["xxh128"] = path.stat().st_size, xxh128_of_file(path)
     write_json(pathlib.Path(folder, NAME), manifest)

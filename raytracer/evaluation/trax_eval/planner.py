@@ -9,7 +9,7 @@ from .inputs import Request, prepare_inputs
 from .jobs import key_of, make_job, write_job
 from .programs import Program, build
 from .scenes import import_scenes, order_options, plan_scene
-from .sweep import CHIPS, option_of, option_words
+from .sweep import CHIPS, TAKEN, option_of, option_words
 from .util import Problem, hash_value
 
 
@@ -29,8 +29,11 @@ def check_machines(sweeps, tools):
     """A wrong key or value of the configuration, or an option that its program refuses, is the sweep's mistake, and ends the command before anything is written."""
 
     def check(place, tool, words):
-        if words and (said := tools.refused(tool, tuple(words))):
-            raise Problem(f"{place}: {said}")
+        for option, use in tools.given(place, tool, tuple(words)) if words else ():
+            if option in TAKEN[tool]:
+                raise Problem(f"{place}: --{option} is what trax-eval says itself")
+            if use == "writes":
+                raise Problem(f"{place}: --{option} writes files, and trax-eval itself says which")
 
     def machine(place, chip, settings):
         try:
@@ -59,7 +62,7 @@ class Planner:
 
     def __init__(self, out, tools, folder, quiet, only_look, scratch):
         self.out, self.tools, self.folder, self.quiet, self.only_look, self.scratch = out, tools, folder, quiet, only_look, scratch
-        self.made = {}
+        self.made, self.hashes = {}, {}
         self.not_imported = {}  # path of a scene file: why it could not be made
         self.prepared = {}  # Request: description of the inputs, or Problem
 
@@ -89,41 +92,39 @@ class Planner:
         return self.once(("program", program), make)
 
     def scene(self, sweep, point):
-        """(path, command): the scene file, and what makes it."""
+        """As plan_scene."""
         scene, workload = sweep.scenes[point.scene], sweep.workloads[point.workload]
         options = tuple(point.options("trax-scene", workload))
-        own = bool(workload["scene"]) or any(option_of(key) and option_of(key)[0] == "trax-scene" for key, _ in point.settings)
         machine = point.chip_file, point.machine()
         order = order_options(self.tools.whole(*machine, "dcache.bytes")) if point.program.specialised else []  # it is made for a machine, as trax-render has it
-        return self.once(("scene", point.scene, scene["folder"], tuple(scene["meshes"]), options, tuple(order), own),
-                         lambda: plan_scene(self.out, self.tools, self.folder, scene, [*order, *options], own, self.only_look))
+        return self.once(("scene", point.scene, scene["folder"], tuple(scene["meshes"]), options, tuple(order)),
+                         lambda: plan_scene(self.out, self.tools, self.folder, scene, [*order, *options], self.hashes,
+                                            self.only_look))
 
     def import_all(self, sweeps, jobs):
         """The scenes of all sweeps, several at the same time."""
-        commands = {}
+        wanted = {}
         for sweep in sweeps:
             for point in sweep.points:
-                try:
-                    path, command = self.scene(sweep, point)
-                except Problem:
-                    continue  # told when its runs are planned
-                if command:
-                    commands[path] = command
+                with contextlib.suppress(Problem):  # told when its runs are planned
+                    imported = self.scene(sweep, point)
+                    if imported.command:
+                        wanted[imported.path] = imported
         self.note("scenes")
-        self.not_imported = import_scenes(commands, jobs)
+        self.not_imported = import_scenes(wanted, jobs, self.scratch)
 
     def scene_file(self, sweep, point):
         """None if it is only looked at and has not been imported."""
-        path, _ = self.scene(sweep, point)
-        if path is None:
+        imported = self.scene(sweep, point)
+        if imported is None or self.only_look and imported.command:
             return None
 
         def check():
-            if path in self.not_imported:
-                raise Problem(f"{point.scene}: {self.not_imported[path]}")
+            if imported.path in self.not_imported:
+                raise Problem(f"{point.scene}: {self.not_imported[imported.path]}")
 
-        self.once(("imported", path), check)
-        return path if path.exists() else None
+        self.once(("imported", imported.path), check)
+        return imported.path
 
     def request(self, sweep, point):
         """What its inputs are made of; None if its scene is only looked at and has not been imported."""

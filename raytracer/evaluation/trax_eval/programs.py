@@ -164,9 +164,8 @@ def convert(program, folder):
     for path in pathlib.Path(folder).iterdir():
         path.chmod(0o644)
     command = [sys.executable if program.convert[0] == "python3" else program.convert[0], *program.convert[1:]]
-    try:
-        run = run_tool(command, cwd=folder, env=os.environ | {"PYTHONDONTWRITEBYTECODE": "1"})
-    except OSError as error:
-        raise Problem(f"{program.file}: convert: {command[0]}: {error.strerror}") from None
+    if not shutil.which(os.path.join(folder, command[0]) if "/" in command[0] else command[0]):
+        raise Problem(f"{program.file}: convert: {command[0]}: No such file or directory, or no program")
+    run = run_tool(command, cwd=folder, env=os.environ | {"PYTHONDONTWRITEBYTECODE": "1"})
     if run.returncode != 0:
         raise Problem(f"{program.file}: convert: {run.stderr.strip().splitlines()[-1] if run.stderr.strip() else f'it ended with status {run.returncode}'}")

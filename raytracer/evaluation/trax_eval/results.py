@@ -5,11 +5,12 @@ import datetime
 import os
 import shlex
 
-from .jobs import error_of, read_csv, result_of
+from .finished import error_of, result_of
+from .jobs import read_csv
 from .pictures import pixels_that_differ
 from .scenes import order_options
 from .sweep import CHIPS, option_of
-from .util import Problem, hash_value, read_json, write_json
+from .util import Problem, hash_value, read_json, read_sealed, remark, write_json, write_sealed
 from .values import ratio, values_of
 
 FORMAT, VERSION = "trax-eval-results", 2
@@ -75,12 +76,12 @@ def write_plan(out, sweep, keys, tools):
                        "options": point.options("trax-render", workload), "elf": None if point.program.specialised else str(point.program.source),
                        "plain": point.program.plain, "reference": compared.get(point), "key": key, "error": reason})
     used = {point.workload for point in sweep.points}
-    write_json(plan_file(out, sweep), {"name": sweep.name, "title": sweep.title, "x": sweep.x, "y": sweep.y, "y_per": sweep.y_per or None, "claim": sweep.claim,
-                                       "file": sweep.file, "variants": sweep.variants, "reference": sweep.reference or None, "table": sweep.table,
-                                       "programs": [{"name": program.name, "title": program.title} for program in sweep.programs],
-                                       "scenes": [{name: scene[name] for name in ("name", "title", "licence", "paper")} for scene in sweep.scenes.values()],
-                                       "workloads": [{name: workload[name] for name in ("name", "title")} for name, workload in sweep.workloads.items() if name and name in used],
-                                       "points": points})
+    write_sealed(plan_file(out, sweep), {"name": sweep.name, "title": sweep.title, "x": sweep.x, "y": sweep.y, "y_per": sweep.y_per or None, "claim": sweep.claim,
+                                         "file": sweep.file, "variants": sweep.variants, "reference": sweep.reference or None, "table": sweep.table,
+                                         "programs": [{"name": program.name, "title": program.title} for program in sweep.programs],
+                                         "scenes": [{name: scene[name] for name in ("name", "title", "licence", "paper")} for scene in sweep.scenes.values()],
+                                         "workloads": [{name: workload[name] for name in ("name", "title")} for name, workload in sweep.workloads.items() if name and name in used],
+                                         "points": points})
 
 
 def repeat_command(point, result):
@@ -122,7 +123,7 @@ def thin_series(path, threads):
 
 def compared(out, result, reference):
     """How many pixels differ from those of the run with the key `reference`."""
-    other = result_of(out, reference) if reference else None
+    other, _ = found_of(out, reference) if reference else (None, None)
     if not other or not result["picture"] or not other[0]["picture"]:
         return {}
     return {"picture.pixels_that_differ": pixels_that_differ(*(out / "pictures" / f"{one['picture']}.png" for one in (result, other[0])))}
@@ -133,14 +134,22 @@ def catalogue(plans, kind):
     return list({one["name"]: one for plan in reversed(plans) for one in reversed(plan.get(kind, []))}.values())[::-1]
 
 
+def found_of(out, key):
+    """(What result_of has, None), or (None, what is damaged)."""
+    try:
+        return result_of(out, key), None
+    except Problem as problem:
+        return None, f"{problem}; the command of its sweep makes it anew"
+
+
 def run_of(out, tools, areas, point):
     """What is known of a run, from its files. Its machine has the paper's name, whatever the sweep calls it."""
     point = point | point.get("preset", {})
     run = {name: point[name] for name in ("key", "scene", "view", "size", "program", "config", "set", "machine", "mode")}
-    found = result_of(out, point["key"]) if point["key"] else None
+    found, damaged = found_of(out, point["key"]) if point["key"] else (None, None)
     run |= {"workload": point.get("workload", ""), "variant": point.get("variant", ""), "experiments": [], "points": [], "status": "missing",
             "command": repeat_command(point, found and found[0])}
-    error = point["error"] or (error_of(out, point["key"]) if point["key"] else None)
+    error = damaged or point["error"] or (error_of(out, point["key"]) if point["key"] else None)
     if found:
         result, host = found
         statistics = result["statistics"]
@@ -153,13 +162,26 @@ def run_of(out, tools, areas, point):
     return run
 
 
+def is_foreign(path):
+    """Whether it is JSON, but no plan."""
+    try:
+        value = read_json(path)
+    except Problem:
+        return False
+    return not isinstance(value, dict) or not isinstance(value.get("points"), list)
+
+
 def collect(out, tools, areas, command, seconds):
     """Writes results.json from the sweeps and runs of the folder, and returns its value."""
     runs, sweeps, series, plans = {}, [], [], []
     for path in sorted((out / "sweeps").glob("[!.]*.json")):
-        plan = read_json(path)
-        if not isinstance(plan, dict) or not isinstance(plan.get("points"), list):
-            raise Problem(f"{path}: trax-eval has not written this; -o is to be a folder of its own")
+        try:
+            plan = read_sealed(path)
+        except Problem as problem:
+            if is_foreign(path):
+                raise Problem(f"{path}: trax-eval has not written this; -o is to be a folder of its own") from None
+            remark(f"{problem}; the runs of that sweep are left out until its command comes again")
+            continue
         if not any(sweep["name"] == plan["name"] for sweep in sweeps):
             sweeps.append({name: value for name, value in plan.items() if name not in ("points", *CATALOGUES)})
         plans.append(plan)

@@ -5,18 +5,24 @@ import contextlib
 import os
 import pathlib
 import shlex
+import shutil
 import signal
 import subprocess
 import sys
 import threading
 import time
 
+from .finished import error_of, is_done
 from .interrupts import held
-from .jobs import error_of, is_done, run_job
-from .util import Problem, duration, write_file
+from .jobs import run_job
+from .tools import dying
+from .util import Problem, duration, remark, write_file
 
 ARRAY_LIMIT = 1000  # tasks of one Slurm array; slurm.conf's MaxArraySize is 1001 unless it says otherwise
 POLL_SECONDS = 0.5
+SQUEUE_SECONDS = 30  # between two questions to Slurm's controller, which many users share
+SQUEUE_PATIENCE = 600  # it may be overloaded, or restarted, for so long
+GRACE_SECONDS = 90  # until a file of another host is seen here: NFS keeps what it knows of a folder for 60
 
 
 class Progress:
@@ -42,13 +48,20 @@ class Progress:
             return
         if self.terminal:
             sys.stderr.write("\r\033[K")
-        print(f"{self.labels[key]}: {'FAILED: ' + error.splitlines()[0] if error else 'done'} ({self.done} of {self.total})", file=sys.stderr, flush=True)
+        print(f"{self.labels[key]}: {'FAILED: ' + reason(error) if error else 'done'} ({self.done} of {self.total})", file=sys.stderr, flush=True)
         self.show()
 
     def end(self):
         if self.terminal:
             sys.stderr.write("\r\033[K")
             sys.stderr.flush()
+
+
+def reason(error):
+    """What a program or a fault says first: its message too, if it is on the next line."""
+    lines = [line.strip() for line in error.splitlines()]
+    message = next((line.removeprefix("message").strip() for line in lines[1:] if line.startswith("message ")), None)
+    return f"{lines[0]}: {message}" if message else lines[0]
 
 
 def try_job(out, tools, key, threads, on_start=None):
@@ -123,15 +136,16 @@ def job_command(tools, out, threads):
     return [tools.path("trax-eval"), "job", str(out), "--threads", str(threads)]
 
 
-def watch(out, keys, progress, alive, complaint):
-    """Reports results as they appear until all are there or nobody works on them any more; complaint() is what the engine said then."""
-    open_keys = list(keys)
+def watch(out, keys, progress, alive, complaint, grace=0):
+    """Reports results as they appear until all are there, or nobody has worked on them for `grace` seconds: so long it may
+    take to see the last ones. complaint() is what the engine said then."""
+    open_keys, ended = list(keys), None
     while open_keys:
-        goes_on = alive()
+        ended = ended or (None if alive() else time.monotonic())
         for key in [key for key in open_keys if is_done(out, key) or error_of(out, key)]:
             open_keys.remove(key)
             progress.finished(key, None if is_done(out, key) else error_of(out, key))
-        if not goes_on:
+        if ended and time.monotonic() >= ended + grace:
             break
         progress.show()
         time.sleep(POLL_SECONDS)
@@ -147,6 +161,8 @@ def last_line(path):
 
 
 def run_parallel(out, tools, keys, options, progress):
+    if not shutil.which("parallel"):
+        raise Problem("GNU parallel is not installed (Debian's package is called parallel)")
     names = out / "scratch" / f"keys.{os.getpid()}"
     write_file(names, "".join(key + "\n" for key in keys))
     errors = open(out / "parallel.errors", "wb")
@@ -154,12 +170,9 @@ def run_parallel(out, tools, keys, options, progress):
     command += ["--sshlogin", options.hosts, "--jobs", "100%"] if options.hosts else ["--jobs", str(options.jobs)]
     process = None
     try:
-        try:
-            with held():
-                process = subprocess.Popen([*command, *map(shlex.quote, job_command(tools, out, 1)), "{}"], stdin=subprocess.DEVNULL,
-                                           stdout=subprocess.DEVNULL, stderr=errors)
-        except FileNotFoundError:
-            raise Problem("GNU parallel is not installed (Debian's package is called parallel)") from None
+        command = dying([*command, *map(shlex.quote, job_command(tools, out, 1)), "{}"])  # it ends after the runs in progress
+        with held():
+            process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=errors)
         watch(out, keys, progress, lambda: process.poll() is None, lambda: f"GNU parallel: {last_line(errors.name)}")
     finally:
         if process and process.poll() is None:
@@ -172,21 +185,37 @@ def run_parallel(out, tools, keys, options, progress):
 
 def slurm(*words):
     try:
-        run = subprocess.run(words, capture_output=True, text=True)
+        run = subprocess.run(words, capture_output=True, text=True, errors="replace", timeout=SQUEUE_PATIENCE)
     except FileNotFoundError:
         raise Problem(f"Slurm is not installed: there is no {words[0]} (Debian's packages are slurm-client, slurmctld and slurmd)") from None
+    except subprocess.TimeoutExpired:
+        raise Problem(f"{words[0]}: no answer in {SQUEUE_PATIENCE} seconds") from None
     if run.returncode != 0:
         raise Problem(f"{words[0]}: {run.stderr.strip()}")
     return run.stdout.strip()
 
 
-def slurm_knows(arrays):
-    try:
-        return bool(slurm("squeue", "--noheader", "--jobs", ",".join(arrays), "--format=%i"))
-    except Problem as problem:
-        if "Invalid job id" in str(problem):  # finished for so long that it is forgotten
-            return False
-        raise
+class Queue:
+    """What Slurm's controller knows of arrays. It is asked now and then. If it does not answer for a while, the tasks go on."""
+
+    def __init__(self, arrays):
+        self.arrays, self.asked, self.answered, self.known = arrays, None, time.monotonic(), True
+
+    def is_alive(self):
+        if self.asked is None or time.monotonic() >= self.asked + SQUEUE_SECONDS:
+            try:
+                self.known = bool(slurm("squeue", "--noheader", "--jobs", ",".join(self.arrays), "--format=%i"))
+                self.answered = time.monotonic()
+            except Problem as problem:
+                if "Invalid job id" in str(problem):  # finished for so long that it is forgotten
+                    self.known = False
+                elif time.monotonic() >= self.answered + SQUEUE_PATIENCE:
+                    tasks = ", ".join(self.arrays)
+                    text = f"{problem}; the tasks {tasks} may run on: the same command takes what they have made"
+                    self.arrays.clear()  # nor would scancel be heard
+                    raise Problem(text) from None
+            self.asked = time.monotonic()
+        return self.known
 
 
 def run_slurm(out, tools, keys, options, progress):
@@ -202,12 +231,15 @@ def run_slurm(out, tools, keys, options, progress):
             command = shlex.join([*job_command(tools, out, 1), "--list", str(names)])
             with held():
                 arrays.append(slurm("sbatch", "--parsable", f"--array=0-{len(some) - 1}", "--ntasks=1", "--cpus-per-task=1", "--job-name=trax-eval",
-                                    f"--output={logs}/%A_%a.log", *shlex.split(options.slurm_options), "--wrap", command).split(";")[0])
-        watch(out, keys, progress, lambda: slurm_knows(arrays), lambda: f"Slurm: the tasks' output is in {logs}")
+                                    f"--output={str(logs).replace('%', '%%')}/%A_%a.log", *shlex.split(options.slurm_options), "--wrap", command).split(";")[0])
+        watch(out, keys, progress, Queue(arrays).is_alive, lambda: f"Slurm: the tasks' output is in {logs}", GRACE_SECONDS)
         arrays.clear()
     finally:
         if arrays:
-            slurm("scancel", *arrays)
+            try:
+                slurm("scancel", *arrays)
+            except Problem as problem:
+                remark(f"{problem}; the tasks {', '.join(arrays)} may run on")
 
 
 RUNNERS = {"local": run_locally, "parallel": run_parallel, "slurm": run_slurm}

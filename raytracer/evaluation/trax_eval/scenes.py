@@ -2,10 +2,13 @@
 
 import os
 import pathlib
+import re
+import typing
 
 from .fields import Fields, find_file, read_fields, unknown
+from .manifest import xxh128_of_file
 from .tools import run_tools
-from .util import Problem, hash_file, hash_value
+from .util import Problem, hash_file, hash_value, read_sealed, remark, write_sealed
 
 KEYS = ("name", "title", "meshes", "view", "licence", "paper")
 INLINE_KEYS = ("name", "title", "meshes", "view")
@@ -51,12 +54,6 @@ def find_mesh(directory, name, beside=None):
     raise Problem(f"{directory}: neither {name} nor {name}.xz is there; README.md says where the scenes are to be had")
 
 
-def neighbours(mesh):
-    """Material files and pictures are found beside a mesh: what is there decides whether it is imported anew."""
-    folder = pathlib.Path(mesh).parent
-    return [(entry.name, entry.stat().st_size, entry.stat().st_mtime_ns) for entry in sorted(os.scandir(folder), key=lambda one: one.name) if entry.is_file()]
-
-
 PAPERS_LINES = 256  # of the data cache, what trax-scene takes by itself
 
 
@@ -66,30 +63,83 @@ def order_options(dcache_bytes):
     return [] if lines == PAPERS_LINES else ["--cache-lines", str(lines)]
 
 
-def plan_scene(out, tools, directory, scene, options, own, only_look=False):
-    """The scene file of a scene, and the command that makes it: imported once for the same meshes, options and importer. NAME.trax in the directory comes
-    first, unless there are options of its own, those of a workload or a sweep. only_look: no file if none has been imported, and the importer is not needed."""
+class Imported(typing.NamedTuple):
+    """A scene file in the folder of results, its record, and what makes both."""
+
+    path: pathlib.Path
+    record: pathlib.Path  # every file that the importer read, with its hash or None, and the scene file's hash
+    command: list  # trax-scene's, without its outputs; None: the scene file is as it was imported
+
+
+def plan_scene(out, tools, directory, scene, options, hashes, only_look=False):
+    """Imported once for the same meshes, options and importer, and the same bytes of every file that the importer read:
+    material files and pictures, too. hashes: of files, by path. only_look: None if nothing has been imported, and the
+    importer is not needed."""
     name = scene["name"]
-    built = directory / f"{name}.trax"
-    if built.is_file() and not own:
-        return built.resolve(), None
     meshes = [find_mesh(directory, mesh, scene["folder"]) for mesh in scene["meshes"]]
-    files = [mesh for mesh in meshes if not mesh.startswith("generate:")]
     if only_look and not any((out / "scenes").glob("*.trax")):
-        return None, None
-    key = hash_value([tools.hash("trax-scene"), options, meshes, [hash_file(mesh) for mesh in files], [neighbours(mesh) for mesh in files]])
-    path = out / "scenes" / f"{name}-{key}.trax"
-    return path, [tools.path("trax-scene"), "--quiet", *options, *meshes, "-o", str(path)]
+        return None
+    key = hash_value([tools.hash("trax-scene"), options, meshes])
+    path, record = (out / "scenes" / f"{name}-{key}.{ending}" for ending in ("trax", "json"))
+    command = [tools.path("trax-scene"), "--quiet", *options, *meshes]
+    return Imported(path, record, None if is_current(path, record, hashes, not only_look) else command)
 
 
-def import_scenes(commands, jobs):
-    """Those that are not there yet of {path: command}. Returns what went wrong, by path."""
-    missing = {path: command for path, command in commands.items() if not path.exists()}
-    for path in missing:
-        path.parent.mkdir(parents=True, exist_ok=True)
-    paths = list(missing)
-    runs = run_tools(list(missing.values()), jobs)
-    return {paths[place]: run.stderr.strip() or f"trax-scene ended with status {run.returncode}" for place, run in runs if run.returncode != 0}
+def is_current(path, record, hashes, tell):
+    """Whether the scene file is what an import would make of the files as they are. tell: damage is noted."""
+    try:
+        known = read_sealed(record) if record.exists() else None
+        damaged = known and path.exists() and hash_file(path) != known["scene"] and f"{path}: is damaged"
+    except Problem as problem:
+        known, damaged = None, str(problem)
+    if damaged and tell:
+        remark(f"{damaged}; the scene is imported anew")
+    if damaged or not known or not path.exists():
+        return False
+    for file, digest in known["files"].items():
+        if file not in hashes:
+            hashes[file] = hash_or_none(os.fsdecode(file.encode("latin-1")))
+        if hashes[file] != digest:
+            return False
+    return True
+
+
+def hash_or_none(path):
+    """None of what trax-scene does not read, either."""
+    try:
+        return xxh128_of_file(path) if os.path.isfile(path) else None
+    except OSError:
+        return None
+
+
+def read_list(path):
+    """What trax-scene --list-files wrote: names as bytes of any encoding, each byte a letter."""
+    files = {}
+    for line in path.read_bytes().decode("latin-1").split("\n")[:-1]:
+        digest, name = line.removeprefix("\\").split("  ", 1)
+        if line[0] == "\\":
+            name = re.sub(r"\\(.)", lambda escaped: "\n" if escaped[1] == "n" else escaped[1], name)
+        files[name] = None if digest == "-" else digest
+    return files
+
+
+def import_scenes(wanted, jobs, scratch):
+    """wanted: Imported, by path. Returns what went wrong, by path."""
+    wanted, problems = list(wanted.values()), {}
+    made = [(pathlib.Path(scratch, one.path.name), pathlib.Path(scratch, f"{one.path.stem}.files")) for one in wanted]
+    commands = [[*one.command, "-o", str(path), "--list-files", str(files)] for one, (path, files) in zip(wanted, made)]
+    for one in wanted:
+        one.path.parent.mkdir(parents=True, exist_ok=True)
+        one.record.unlink(missing_ok=True)
+    for place, run in run_tools(commands, jobs):
+        one, (path, files) = wanted[place], made[place]
+        if run.returncode == 0:
+            known = {"files": read_list(files), "scene": hash_file(path)}
+            os.replace(path, one.path)
+            write_sealed(one.record, known)
+        else:
+            problems[one.path] = run.stderr.strip() or f"trax-scene ended with status {run.returncode}"
+    return problems
 
 
 def mesh_files(directory, name):

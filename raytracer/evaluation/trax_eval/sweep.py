@@ -25,10 +25,11 @@ QUICK_PIXELS, QUICK_WIDTH, QUICK_SIDE = 640 * 360, 80, 2 / 3
 MOST_RUNS = 100000  # of one sweep: all combinations of a few long lists take all memory
 KEYS = ("name", "title", "claim", "x", "y", "y_per", "scenes", "programs", "chips", "set", "size", "mode", "series", "lockstep",
         "workloads", "ray_kinds", "reference", "error", "hits", "table", "all")
-# Keys of `set` may be options of these programs: "trax-scene --leaf". What trax-eval says itself is not for sweeps.
-TOOLS = {"trax-scene": ("output", "check", "stats", "stats-json", "quiet", "help", "version"),
-         "trax-render": ("output", "size", "frames", "id-picture", "write-view", "config", "set", "engine", "threads", "stats", "explore", "cost-picture",
-                         "cost-values", "cost", "compare", "source", "program", "cache", "sampled", "keep", "prepare", "quiet", "help", "version")}
+# Keys of `set` may be options of these programs: "trax-scene --leaf". What trax-eval says itself is not for sweeps,
+# programs and workloads, nor is what writes files, which the programs' tables tell (Tools.given).
+TAKEN = {"trax-scene": ("check", "stats", "quiet"),
+         "trax-render": ("size", "frames", "show", "config", "set", "engine", "threads", "compare", "source", "program",
+                         "sampled", "quiet")}
 VARIANT_KEYS = ("name", "program")  # of an object in the list `set`, beside keys that are set
 
 
@@ -131,12 +132,8 @@ class Reader(Fields):
         values = values if isinstance(values, list) else [values]
         option = option_of(key)
         if option:
-            tool, name = option
-            if tool not in TOOLS:
-                self.fail(place, f'"{tool}" is no program whose options can be set; {quoted(TOOLS)} are')
-            taken = next((taken for taken in TOOLS[tool] if taken.startswith(name)), None)
-            if taken:
-                self.fail(place, f"--{taken} is what trax-eval says itself")
+            if option[0] not in TAKEN:
+                self.fail(place, f'"{option[0]}" is no program whose options can be set; {quoted(TAKEN)} are')
             if not values or not all(isinstance(value, (bool, int, float)) or isinstance(value, str) and value for value in values):
                 self.fail(place, f"expected a text, a number, true (given), false (left out) or a list of them, is {canonical(values)}")
         elif not values or not all(isinstance(value, (bool, int, float)) or isinstance(value, str) and re.fullmatch(WORD, value) for value in values):

@@ -1,8 +1,10 @@
 """The programs beside trax-eval."""
 
 import functools
+import os
 import pathlib
 import re
+import shlex
 import subprocess
 import tempfile
 import time
@@ -11,6 +13,12 @@ from .interrupts import held
 from .util import Problem, hash_file
 
 POLL_SECONDS = 0.05
+
+
+def dying(command, number="TERM"):
+    """The command, whose process gets a signal when this process dies, whatever ends it: also if that was before the
+    kernel had been asked for it."""
+    return ["/usr/bin/setpriv", "--pdeathsig", number, "/bin/sh", "-c", '[ "$PPID" = "$0" ] && exec "$@"', str(os.getpid()), *command]
 
 
 def communicate(process):
@@ -27,7 +35,7 @@ def run_tool(command, **where):
     process = None
     try:
         with held():
-            process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, errors="replace", **where)
+            process = subprocess.Popen(dying(command), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, errors="replace", **where)
         out, errors = communicate(process)
     except BaseException:
         if process:
@@ -46,7 +54,7 @@ def run_tools(commands, jobs):
                 place, command = waiting.pop(0)
                 said = tempfile.TemporaryFile()
                 with held():
-                    running[place] = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=said), said
+                    running[place] = subprocess.Popen(dying(command), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=said), said
             ended = [place for place, (process, _) in running.items() if process.poll() is not None]
             if not ended:
                 time.sleep(POLL_SECONDS)
@@ -82,12 +90,19 @@ class Tools:
         return subprocess.run([self.path("trax-sim"), "--version"], capture_output=True, text=True, check=True).stdout.split()[-1]
 
     @functools.lru_cache(maxsize=None)
-    def refused(self, name, words):
-        """What a program of ours says of options (a tuple), None if it takes them or is not there. Which of them exclude each other is not asked."""
+    def given(self, place, name, words):
+        """The options of a program of ours that the words (a tuple) give: (name, "reads", "writes" or ""). Nothing if the
+        program is not there. Which of them exclude each other is not asked."""
         if not (self.folder / name).is_file():
-            return None
-        run = run_tool([self.path(name), *words, "--help"])
-        return None if run.returncode == 0 else run.stderr.strip().removeprefix(f"{name}: error: ") or f"{name} ended with status {run.returncode}"
+            return []
+        run = run_tool([self.path(name), *words, "--help-given"])
+        if run.returncode != 0:
+            said = run.stderr.strip().removeprefix(f"{name}: error: ")
+            raise Problem(f"{place}: {said or f'{name} ended with status {run.returncode}'}")
+        title, *lines = run.stdout.splitlines() or [""]
+        if title != f"options of {name}:":
+            raise Problem(f"{place}: {shlex.join(words)} ends {name} before it does anything")
+        return [line.removeprefix("--").partition(" ")[::2] for line in lines]
 
     @functools.lru_cache(maxsize=None)
     def configuration(self, chip, settings):

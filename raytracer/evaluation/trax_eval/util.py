@@ -15,10 +15,15 @@ class Problem(Exception):
     """What the user is told; the command ends with status 1."""
 
 
-def complain(program, problem):
+def complain(program, problem, kind="error", colour="1;31"):
     """As every program says it (emulator/base/message.c)."""
     coloured = not os.environ.get("NO_COLOR") and os.environ.get("TERM", "dumb") != "dumb" and sys.stderr.isatty()
-    print(f"{program}: {chr(27)}[1;31merror: {chr(27)}[0m{problem}" if coloured else f"{program}: error: {problem}", file=sys.stderr)
+    begin, end = (f"{chr(27)}[{colour}m", f"{chr(27)}[0m") if coloured else ("", "")
+    print(f"{program}: {begin}{kind}: {end}{problem}", file=sys.stderr, flush=True)
+
+
+def remark(text):
+    complain("trax-eval", text, "note", "1;36")
 
 
 def canonical(value):
@@ -86,6 +91,25 @@ def write_json(path, value):
     write_file(path, json.dumps(value, indent=1, allow_nan=False) + "\n")
 
 
+# A sealed file ends with the digest of what is before it: every later change of a byte is noticed.
+SEAL = ',\n "digest": "%s"\n}\n'
+
+
+def write_sealed(path, value):
+    """value: an object with members."""
+    text = json.dumps(value, indent=1, allow_nan=False).removesuffix("\n}")
+    write_file(path, text + SEAL % hash_bytes(text.encode()))
+
+
+def read_sealed(path):
+    """Its value without the digest; a Problem if it has not the bytes that were written."""
+    data = read_bytes(path)
+    text = data[: -len(SEAL % hash_bytes(b""))]
+    if data != text + (SEAL % hash_bytes(text)).encode():
+        raise Problem(f"{path}: is damaged, or of an older trax-eval: it has not the bytes of its digest")
+    return json.loads(text + b"}")
+
+
 def refuse_duplicates(pairs):
     members = {}
     for key, value in pairs:
@@ -117,17 +141,23 @@ def check_texts(value):
 TEXT_LIMIT, FILE_LIMIT = 1 << 20, 1 << 28  # bytes of what people write, and of what this program does; the largest has a hundredth
 
 
-def read_json(path, limit=FILE_LIMIT):
+def read_bytes(path, limit=FILE_LIMIT):
     try:
         with open(path, "rb") as file:
             data = file.read(limit + 1)
-        if len(data) > limit:
-            raise Problem(f"{path}: more than {limit} bytes")
+    except OSError as error:
+        raise Problem(f"{path}: {error.strerror}") from error
+    if len(data) > limit:
+        raise Problem(f"{path}: more than {limit} bytes")
+    return data
+
+
+def read_json(path, limit=FILE_LIMIT):
+    data = read_bytes(path, limit)
+    try:
         value = json.loads(data.decode("utf-8"), object_pairs_hook=refuse_duplicates, parse_constant=refuse_constant, parse_float=finite)
         check_texts(value)
         return value
-    except OSError as error:
-        raise Problem(f"{path}: {error.strerror}") from error
     except json.JSONDecodeError as error:
         raise Problem(f"{path}:{error.lineno}:{error.colno}: {error.msg}") from error
     except RecursionError:
