@@ -6,6 +6,7 @@
 - docs/index.md and README.md lead to every page, directly or by another page; docs/index.md names every page of docs/.
 - A page begins with a title and a sentence, and has at most LINES lines besides generated lists; pages of results and GENERATED
   may have long tables.
+- A page of results says once, with `*Measured with ...*`, which versions measured it: those that stand above its tables.
 - What is code stands between backticks: an indented block has no kind, and no test runs it.
 - VERSION has a chapter in CHANGELOG.md.
 - Every picture in docs/ is shown by a page, is what its name says, and is small.
@@ -122,6 +123,14 @@ class Pages:
                 wrong.append(f"{self.name(page)}: there is no {found[1]}")
         return wrong + [f"{self.name(page)}: the sources have no {name}" for name in NAME.findall(text) if name not in self.words]
 
+    def versions(self, page, text):
+        """What is wrong with what a page of results says of versions."""
+        said = re.findall(r"^\*Measured with (.*)\*$", text, re.M)
+        above = set(re.findall(r"trax (\d[\d.]*\d)", " ".join(re.findall(r"; measured with (.*):$", text, re.M))))
+        if len(said) != 1 or above and set(re.findall(r"\d+\.\d+\.\d+", said[0])) != above:
+            return [f"{self.name(page)}: does not say once, with *Measured with ...*, which versions measured it ({', '.join(sorted(above)) or 'the version'})"]
+        return []
+
     def form(self, page, text):
         name = self.name(page)
         lines = text.split("\n")
@@ -148,6 +157,7 @@ class Pages:
         for page, text in self.texts.items():
             faults, led[page] = self.links(page, text)
             wrong += faults + self.form(page, text) + self.named(page, text)
+            wrong += self.versions(page, text) if "results" in self.name(page).parts else []
         reached, todo = set(), [self.source / "README.md", self.source / "docs/index.md"]
         while todo:
             page = todo.pop()
@@ -211,6 +221,9 @@ class Pages:
         for text in ("`emulator/none.c`", "`clang/TraxBuiltins.def`", "`trax_no_such_name`", "`trax_no_such_name(x)`"):
             if not self.named(page, text):
                 yield f"{text} is not noticed"
+        for text in ("", "*Measured with trax 0.1.0.*\n*Measured with trax 0.1.0.*\n", "*Measured with trax 0.1.0.*\n\n`x`; measured with trax 0.2.0 (2026-01-01):\n"):
+            if not self.versions(page, text):
+                yield f"a page of results with {text!r} is not noticed"
         for text in ("docs/none.md", 'docs/isa.md, "No such chapter"'):
             if not self.in_sources("x.c", f"/* {text} */"):
                 yield f"{text} is not noticed"
