@@ -229,6 +229,14 @@ class DocsTest(unittest.TestCase):
         table, = tables.of_sweep(Results(made), PAPER, made["sweeps"][0])
         self.assertEqual([row[:3] for row in rows_of("\n".join(table.lines(False)))], [["chip", "cube, sorted", "dragon, sorted"], ["tiny", "1.25", "1.25"]])
 
+    def test_what_pixels_differ_from(self):
+        made = example.stranger()
+        made["sweeps"][0].update(table={"rows": ["chip", "variant"], "mean": "scene", "values": [{"name": "values.picture.pixels_that_differ", "title": "pixels that differ"}]})
+        for record in made["runs"]:
+            record["values"]["picture.pixels_that_differ"] = 3
+        table, = tables.of_sweep(Results(made), PAPER, made["sweeps"][0])
+        self.assertEqual([title for title, _ in table.columns][2:3], ['pixels that differ from "as it is"'])
+
     def test_relations(self):
         """Per cent and times instead of figures, figures beside them, and what a row has in all."""
         made = example.stranger()

@@ -158,6 +158,9 @@ def _build(results, paper, sweep, spec, runs, identity, title):
     if not rows:
         rows, columns = ["scene"], [key for key in columns if key != "scene"]
     values = [Value(given, spec.get("as", AS[0]) if spec.get("relative") else "figure") for given in spec["values"]]
+    for value in values:
+        if value.name == "values.picture.pixels_that_differ" and sweep.get("reference"):
+            value.title = f'pixels that differ from "{sweep["reference"]}"'
     fixed = [str(axes.order[key][0]) for key in NAMED if key not in (*rows, *columns, *mean_over, *spec.get("each", [])) and len(axes.order[key]) == 1 and axes.order[key][0]]
     title += (f": {values[0].title}" if columns and len(values) == 1 else "") + (f" ({', '.join(fixed)})" if fixed else "")
     groups, reference = {}, spec.get("relative")
