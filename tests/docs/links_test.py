@@ -83,7 +83,8 @@ class Pages:
     def __init__(self, source):
         self.source = pathlib.Path(source).resolve()
         self.texts = {page.resolve(): page.read_text(encoding="utf-8") for page in pages(self.source)}
-        self.files = [f"/{path.relative_to(self.source)}" for folder in (*FOLDERS, "docs") for path in (self.source / folder).rglob("*") if path.is_file()]
+        self.files = [f"/{path.relative_to(self.source)}" for folder in (*FOLDERS, "docs")
+            for path in (self.source / folder).rglob("*") if path.is_file()]
         self.words = {word for path, text in self.sources() for word in re.findall(r"\b_*(?:trax|TRAX)_\w+", text)}
 
     def name(self, page):
@@ -116,12 +117,15 @@ class Pages:
         return wrong, led
 
     def named(self, page, text):
-        """Files and names in a page that the sources do not have. A word in capitals stands for another, and out/ is the reader's."""
+        """Files and names in a page that the sources lack. A word in capitals stands for another, out/ is the reader's."""
         wrong = []
         for found in () if str(self.name(page)) in OTHERS else FILE.finditer(text):
-            if not re.search(r"\b[A-Z]{2,}\b", found[1]) and not found[1].startswith("out/") and not any(name.endswith("/" + found[1]) for name in self.files):
+            if not re.search(r"\b[A-Z]{2,}\b",
+                found[1]) and not found[1].startswith("out/") and not any(name.endswith("/" + found[1])
+                for name in self.files):
                 wrong.append(f"{self.name(page)}: there is no {found[1]}")
-        return wrong + [f"{self.name(page)}: the sources have no {name}" for name in NAME.findall(text) if name not in self.words]
+        return wrong + [f"{self.name(page)}: the sources have no {name}" for name in NAME.findall(text)
+            if name not in self.words]
 
     def versions(self, page, text):
         """What is wrong with what a page of results says of versions."""
@@ -221,7 +225,8 @@ class Pages:
         for text in ("`emulator/none.c`", "`clang/TraxBuiltins.def`", "`trax_no_such_name`", "`trax_no_such_name(x)`"):
             if not self.named(page, text):
                 yield f"{text} is not noticed"
-        for text in ("", "*Measured with trax 0.1.0.*\n*Measured with trax 0.1.0.*\n", "*Measured with trax 0.1.0.*\n\n`x`; measured with trax 0.2.0 (2026-01-01):\n"):
+        for text in ("", "*Measured with trax 0.1.0.*\n*Measured with trax 0.1.0.*\n",
+            "*Measured with trax 0.1.0.*\n\n`x`; measured with trax 0.2.0 (2026-01-01):\n"):
             if not self.versions(page, text):
                 yield f"a page of results with {text!r} is not noticed"
         for text in ("docs/none.md", 'docs/isa.md, "No such chapter"'):

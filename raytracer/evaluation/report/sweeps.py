@@ -182,7 +182,8 @@ def _build(results, paper, sweep, spec, runs, identity, title):
         if value.compared in ("times", "percent"):
             return relation(value, times(row, column, value))
         quotient = times(row, column, value) if value.compared == "change" else None
-        below = percent(quotient - 1, signed=True, digits=1) if quotient is not None else interval_text(some[0], value.per) if value.name == "mrps" and len(some) == 1 else ""
+        below = interval_text(some[0], value.per) if value.name == "mrps" and len(some) == 1 else ""
+        below = below if quotient is None else percent(quotient - 1, signed=True, digits=1)
         return value.cell(found(row, column, value), below=below, link=f"#run-{some[0].index}" if len(some) == 1 else "")
 
     def summary(row, value, name):
