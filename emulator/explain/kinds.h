@@ -1,5 +1,5 @@
 /* The kind of ray that a thread works for (docs/isa.md, "Traps"): the kind that it counted last, from the trap that
-   counts it until the end of the thread's item. */
+   counts it until the thread's next count of items. */
 #ifndef TRAX_EXPLAIN_KINDS_H
 #define TRAX_EXPLAIN_KINDS_H
 

@@ -7,15 +7,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BLOCK_BYTES = 64 }; /* of a line of other simulators' formats, without DRAM */
+enum { BLOCK_BYTES = 64 }; /* what a line in another simulator's format transfers; with DRAM it is a burst */
 
 struct trax_memory_trace {
   struct trax_transfers transfers;
   struct trax_explain *explain;
   trax_output output;
   struct trax_dram_map map; /* with DRAM */
-  uint32_t block_bytes;     /* of a line of other simulators' formats */
-  uint64_t ticks, cycles;   /* so many cycles of their clock are so many of the chip's */
+  uint32_t block_bytes;     /* what a line in another simulator's format transfers */
+  uint64_t ticks, cycles;   /* `ticks` cycles of that simulator's clock take as long as `cycles` of the chip's */
 };
 
 static const char *const kind_names[TRAX_TRANSFER_KIND_COUNT] = {

@@ -15,7 +15,7 @@ void trax_page_quote(FILE *out, const char *text, size_t size);
 /* Writes the file, after all readers have finished. */
 trax_status trax_page_write(struct trax_explain *explain, trax_error *error);
 
-/* The page up to its data, and behind them; of the build. */
+/* The text of the page before its data and after them, which the build made (page/embed.cmake). */
 extern const char *const trax_page_begin, *const trax_page_end;
 
 /* --- sources.c: members with the program's sources, and with the names of those that are left out --- */

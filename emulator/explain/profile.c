@@ -1,7 +1,7 @@
 /* Counts profiles. Each thread has a call stack: a jal or jalr that writes a register is a call, and a jump through a
-   register to the return address of the latest call is a return. After a tail call, the caller's frame stays, with the
-   code of another function. A longjmp ends the calls made with a stack pointer below the current one, and the call out
-   of the function that it returns to.
+   register to the return address of the latest call is a return. A tail call makes no frame: its function runs in the
+   caller's. A longjmp ends every call that was made with a stack pointer below the present one. It also ends the call
+   that the function it returns to had made.
 
    A recursive program has as many call stacks as calls, so their number is limited: a stack that is one too many counts
    as the first one that ended with the same call. */

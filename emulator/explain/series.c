@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { PAGE_INTERVALS = 256, PAGE_FIRST_INTERVAL = 64 }; /* at most so many; cycles of the first ones */
+enum { PAGE_INTERVALS = 256, PAGE_FIRST_INTERVAL = 64 }; /* the most intervals; their cycles at first */
 
 /* The increases of one interval. */
 struct interval {

@@ -20,7 +20,7 @@ struct trax_span {
   uint32_t tm, tp, thread;
   uint32_t pc;          /* of the instruction that ends the span */
   uint32_t index;       /* its index in the places */
-  uint32_t previous_pc; /* of the thread's instruction before, to which a branch bubble belongs; pc if there was none */
+  uint32_t previous_pc; /* of the thread's last instruction, to which a branch bubble belongs; pc if there is none */
   uint64_t begin;       /* the first cycle of the span */
   const struct trax_charge *charges;
   size_t count;

@@ -24,10 +24,10 @@ enum trax_gdb_signal {
 enum { TRAX_GDB_STEPPED = 1, TRAX_GDB_AT_BREAK = 2, TRAX_GDB_ACCESSED = 4 };
 
 struct trax_gdb_thread {
-  bool reported;       /* a stop at this pc has been reported: a breakpoint here is not hit again before an issue */
+  bool reported;       /* a stop at this pc has been reported: its breakpoint is not hit again before an issue */
   bool stepping;       /* it stops after an issue if its pc is outside the range */
   uint8_t events;      /* a mask of TRAX_GDB_STEPPED ... */
-  uint8_t skip_breaks; /* number of next instructions whose breakpoints are not reported, after pretended steps */
+  uint8_t skip_breaks; /* after pretended steps: the breakpoints of so many next instructions are not reported */
   char access;         /* TRAX_GDB_ACCESSED: the watchpoint's type, */
   uint32_t accessed;   /* and the address */
 };
@@ -80,10 +80,10 @@ struct trax_gdb {
   struct trax_gdb_watch watches[TRAX_GDB_WATCHES];
   uint32_t watch_count;
   bool named_only;    /* the latest resume named single threads: removed breakpoints still stop the other threads */
-  unsigned pretended; /* pretended steps of the stopped thread, which is shown at pretended_pc (stub.c, pretend_step) */
-  uint32_t pretended_pc;
-  unsigned catch_up; /* instructions that the thread must really issue before its next step counts */
-  bool step_first;   /* no other thread's event counts before the thread has stepped */
+  unsigned pretended; /* steps that were reported to GDB and not made (stub.c, pretend_step), of the stopped thread */
+  uint32_t pretended_pc; /* where it is shown meanwhile */
+  unsigned catch_up;     /* so many instructions it has to issue before its next step counts */
+  bool step_first;       /* it steps before any other thread's event counts */
   bool eventful;     /* some thread has an event */
   bool step_ended;   /* a stepping thread has ended */
   uint32_t range_begin, range_end;

@@ -1,9 +1,11 @@
 /* The file format of a checkpoint, with all numbers little endian:
 
-     struct header
-     deflate stream (zlib) of: the state's layout (engine/layout.h); the fields of its sections (machine/section.h);
-     then the pages of memory that differ from their contents before cycle 0, each after its number in 4 bytes; then the
-   state of the program's host calls (calls/state.c)
+   - struct header
+   - a deflate stream (zlib) of
+     - the layout of the state (engine/layout.h)
+     - the fields of its sections (machine/section.h)
+     - the pages of memory that differ from their contents before cycle 0, each after its number in 4 bytes
+     - the state of the program's host calls (calls/state.c)
 
    Before cycle 0, memory holds the program and its buffers. So a run can only be resumed with the same program, buffers
    and configuration: the header has a digest of configuration and memory. */

@@ -11,7 +11,7 @@ struct trax_frame {
   uint32_t registers[TRAX_NUM_REGISTERS];
 };
 
-/* The address of the instruction that a frame executes; of a caller, its call. */
+/* Returns the address of the instruction that a frame executes. A caller executes its call. */
 static inline uint32_t trax_frame_place(const struct trax_frame *frame) {
   return frame->is_caller ? frame->pc - 4 : frame->pc;
 }

@@ -148,8 +148,9 @@ static void print_instruction(const trax_machine *machine, const struct trax_fau
   fprintf(out, "\n");
 }
 
-/* Prints the return address when there is no frame information. ra is stale once the function has called another one,
-   but right after a jump to an address that is no text. Returns 1, with the caller's frame in *frame, in that case. */
+/* Prints the return address when there is no frame information. ra is stale if the function has called another one. It
+   is valid directly after a jump to an address that is no text. Then it returns 1, and the
+   caller's frame in *frame. */
 static size_t print_return_address(const struct trax_host *host, const struct trax_fault *fault,
                                    struct trax_frame *frame, FILE *out) {
   const bool is_fresh = fault->kind == TRAX_FAULT_EXECUTE || fault->kind == TRAX_FAULT_MISALIGNED_PC;

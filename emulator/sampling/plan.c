@@ -79,7 +79,8 @@ uint32_t trax_slot_plan_handed_out(const trax_slot_sampling *asked, uint32_t que
   return place / round * asked->tile + (more < asked->tile ? more : asked->tile);
 }
 
-/* The last place, a multiple of the block, at which `left` slots are left, an equal share of them in each queue. */
+/* The last place at which `left` slots are left, and in each queue its equal share of them. It is a multiple of the
+   block. */
 static uint32_t place_with(const trax_slot_sampling *asked, uint64_t left) {
   uint64_t most = asked->slots > left ? asked->slots - left : 0, least = 0;
   if (asked->queues == 1)

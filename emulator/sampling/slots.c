@@ -5,9 +5,10 @@
    is set to some slots before the next unit, and threads take these warm-up slots when they have finished the ones they
    have.
 
-   With several queues, each of which has a counter, the place of a slot is the sum of the counters when it is handed
-   out. The counters are set to the values predicted for that place. Queues with cheap slots are ahead of others then;
-   if they were not, cheap slots would be measured more often than they occur. Units lie where no queue is near its end.
+   Several queues have a counter each, and advance at different rates: one with cheap slots is ahead of the others. The
+   place of a slot is the sum of the counters when it is handed out. The counters are set to the values predicted for
+   that place. With equal counters, cheap slots would be measured more often than they occur. Units lie where no queue
+   is near its end.
  */
 #include "sampling/slots.h"
 

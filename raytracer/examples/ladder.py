@@ -119,7 +119,7 @@ def main():
         rows = [(source.stem, "plain_scene.h" in (text := source.read_text()), source, MACHINE.findall(text)) for source in steps]
         rows += [("device, the same tree", False, None, []), ("device, its own tree", False, None, [])]
         rows.sort(key=lambda row: len(row[3]))
-        print("| step | cycles | change | instructions/ray | bytes from and to memory | bytes/ray | MRPS | pixels unlike the step before |\n| --- |" + " --- |" * 7, flush=True)
+        print("| step | cycles | change | instructions/ray | bytes from and to memory | bytes/ray | MRPS | pixels that differ from the step before |\n| --- |" + " --- |" * 7, flush=True)
         for step, plain, source, machine in rows:
             if machine:
                 before, picture_before = last_step

@@ -68,7 +68,7 @@ static const trax_option rows[] = {
     {"texture-size", .argument = "N", PARSED(trax_take_texture_size, import.texture_size),
      .meaning = "at most N texels a side, a power of two up to 4096"},
     {"unpack-limit", .argument = "SIZE", PARSED(trax_take_unpack_limit, import.unpack_limit),
-     .meaning = "of packed files and of pipes, unpacked; K, M and G are powers of 1024 (default 1G)"},
+     .meaning = "most bytes of a packed file or a pipe, unpacked; K, M and G are powers of 1024 (default 1G)"},
     {"nodes", .argument = "KIND", PARSED(trax_take_nodes, nodes),
      .meaning = "of the meshes' tree: binary, quantised or auto, as trax-scene has them (default auto;\n"
                 "for another --program binary)"},
@@ -80,7 +80,7 @@ static const trax_option rows[] = {
                 "smooth: by computed ones; flat: no --smooth"},
     TRAX_OPTION_GROUP("Shading"),
     {"paths", .argument = "DEPTH", NUMBER(frame.paths, 1, TRAX_RENDER_MAX_DEPTH),
-     .meaning = "path tracing: light that comes over up to DEPTH surfaces, 1 to 64; wants many samples"},
+     .meaning = "path tracing: light that comes over up to DEPTH surfaces, 1 to 64; needs many samples"},
     {"occlusion", .argument = "N", NUMBER(frame.occlusion, 1, TRAX_RENDER_MAX_OCCLUSION),
      .meaning = "ambient occlusion: N rays a sample, 1 to 64, ask how much of the ambient light arrives"},
     {"occlusion-reach", .argument = "X", PARSED(take_share, frame.occlusion_reach),

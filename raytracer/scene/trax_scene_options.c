@@ -53,7 +53,7 @@ static const trax_option rows[] = {
     {"texture-size", .argument = "N", PARSED(trax_take_texture_size, import.texture_size),
      .meaning = "at most N texels a side, a power of two (default 4096)"},
     {"unpack-limit", .argument = "SIZE", PARSED(trax_take_unpack_limit, import.unpack_limit),
-     .meaning = "of packed files and of pipes, unpacked; K, M and G are powers of 1024 (default 1G)"},
+     .meaning = "most bytes of a packed file or a pipe, unpacked; K, M and G are powers of 1024 (default 1G)"},
     {"drop-nonfinite", FIELD(import.drop_nonfinite),
      .meaning = "leave triangles with NaN or infinite vertices out instead of refusing the mesh"},
     {"keep-degenerate", FIELD(import.keep_degenerate),

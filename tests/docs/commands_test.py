@@ -161,16 +161,19 @@ class Commands:
         return None
 
     def start(self, command):
-        """What trax-render says of a command before it looks for meshes; None if nothing. Words in capitals stand for values."""
+        """What trax-render says of a command before it looks for meshes; None if nothing. Words in capitals are values."""
         if not re.match(r"(build/bin/)?trax-render [^-]", command) or "..." in command:
             return None
-        words = [re.sub(r"\b(N|SEED)\b", "1", word) for word in shlex.split(command, comments=True)[1:] if word != "--show"]  # no window
+        words = [re.sub(r"\b(N|SEED)\b", "1", word) for word in shlex.split(command, comments=True)[1:]
+            if word != "--show"]  # no window
         made = ["missing.obj"] if words[0].startswith("generate:") else []
         with tempfile.TemporaryDirectory() as folder:
-            done = subprocess.run([self.binaries / "trax-render", *made, *words], cwd=folder, capture_output=True, text=True,
+            done = subprocess.run([self.binaries / "trax-render", *made, *words], cwd=folder, capture_output=True,
+                text=True,
                                   stdin=subprocess.DEVNULL, timeout=60, check=False)
         self.started += 1
-        return None if done.returncode == 1 and "No such file" in done.stderr else f"`{command}`: {done.stderr.strip() or done.returncode}"
+        looked = done.returncode == 1 and "No such file" in done.stderr
+        return None if looked else f"`{command}`: {done.stderr.strip() or done.returncode}"
 
     def of_page(self, text, blocks):
         """What is wrong with the commands of a page that are not run."""

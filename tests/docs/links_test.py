@@ -6,6 +6,7 @@
 - docs/index.md and README.md lead to every page, directly or by another page; docs/index.md names every page of docs/.
 - A page begins with a title and a sentence, and has at most LINES lines besides generated lists; pages of results and GENERATED
   may have long tables.
+- A page of results says once, with `*Measured with ...*`, which versions measured it: those that stand above its tables.
 - What is code stands between backticks: an indented block has no kind, and no test runs it.
 - VERSION has a chapter in CHANGELOG.md.
 - Every picture in docs/ is shown by a page, is what its name says, and is small.
@@ -82,7 +83,8 @@ class Pages:
     def __init__(self, source):
         self.source = pathlib.Path(source).resolve()
         self.texts = {page.resolve(): page.read_text(encoding="utf-8") for page in pages(self.source)}
-        self.files = [f"/{path.relative_to(self.source)}" for folder in (*FOLDERS, "docs") for path in (self.source / folder).rglob("*") if path.is_file()]
+        self.files = [f"/{path.relative_to(self.source)}" for folder in (*FOLDERS, "docs")
+            for path in (self.source / folder).rglob("*") if path.is_file()]
         self.words = {word for path, text in self.sources() for word in re.findall(r"\b_*(?:trax|TRAX)_\w+", text)}
 
     def name(self, page):
@@ -115,12 +117,23 @@ class Pages:
         return wrong, led
 
     def named(self, page, text):
-        """Files and names in a page that the sources do not have. A word in capitals stands for another, and out/ is the reader's."""
+        """Files and names in a page that the sources lack. A word in capitals stands for another, out/ is the reader's."""
         wrong = []
         for found in () if str(self.name(page)) in OTHERS else FILE.finditer(text):
-            if not re.search(r"\b[A-Z]{2,}\b", found[1]) and not found[1].startswith("out/") and not any(name.endswith("/" + found[1]) for name in self.files):
+            if not re.search(r"\b[A-Z]{2,}\b",
+                found[1]) and not found[1].startswith("out/") and not any(name.endswith("/" + found[1])
+                for name in self.files):
                 wrong.append(f"{self.name(page)}: there is no {found[1]}")
-        return wrong + [f"{self.name(page)}: the sources have no {name}" for name in NAME.findall(text) if name not in self.words]
+        return wrong + [f"{self.name(page)}: the sources have no {name}" for name in NAME.findall(text)
+            if name not in self.words]
+
+    def versions(self, page, text):
+        """What is wrong with what a page of results says of versions."""
+        said = re.findall(r"^\*Measured with (.*)\*$", text, re.M)
+        above = set(re.findall(r"trax (\d[\d.]*\d)", " ".join(re.findall(r"; measured with (.*):$", text, re.M))))
+        if len(said) != 1 or above and set(re.findall(r"\d+\.\d+\.\d+", said[0])) != above:
+            return [f"{self.name(page)}: does not say once, with *Measured with ...*, which versions measured it ({', '.join(sorted(above)) or 'the version'})"]
+        return []
 
     def form(self, page, text):
         name = self.name(page)
@@ -148,6 +161,7 @@ class Pages:
         for page, text in self.texts.items():
             faults, led[page] = self.links(page, text)
             wrong += faults + self.form(page, text) + self.named(page, text)
+            wrong += self.versions(page, text) if "results" in self.name(page).parts else []
         reached, todo = set(), [self.source / "README.md", self.source / "docs/index.md"]
         while todo:
             page = todo.pop()
@@ -211,6 +225,10 @@ class Pages:
         for text in ("`emulator/none.c`", "`clang/TraxBuiltins.def`", "`trax_no_such_name`", "`trax_no_such_name(x)`"):
             if not self.named(page, text):
                 yield f"{text} is not noticed"
+        for text in ("", "*Measured with trax 0.1.0.*\n*Measured with trax 0.1.0.*\n",
+            "*Measured with trax 0.1.0.*\n\n`x`; measured with trax 0.2.0 (2026-01-01):\n"):
+            if not self.versions(page, text):
+                yield f"a page of results with {text!r} is not noticed"
         for text in ("docs/none.md", 'docs/isa.md, "No such chapter"'):
             if not self.in_sources("x.c", f"/* {text} */"):
                 yield f"{text} is not noticed"

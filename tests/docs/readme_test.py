@@ -65,7 +65,8 @@ def write_png(path, rows):
 
 
 # Of a screen: the name of the text chunk in which the PNG has the cycles of the run that it shows, and the part of the page.
-SCREEN, CYCLES, CLIP = "docs/explore.png", b"tEXtcycles\0", {"x": 0, "y": 0, "width": 1400, "height": 1640, "scale": 0.68}
+SCREEN, CYCLES, CLIP = "docs/explore.png", b"tEXtcycles\0", {"x": 0, "y": 0, "width": 1400, "height": 1640,
+    "scale": 0.68}
 
 
 def take_screen(page, path, cycles):
@@ -78,7 +79,8 @@ def take_screen(page, path, cycles):
             time.sleep(0.1)
         png = base64.b64decode(shown.call("Page.captureScreenshot", captureBeyondViewport=True, clip=CLIP)["data"])
     content = CYCLES + str(cycles).encode()
-    path.write_bytes(png[:33] + (len(content) - 4).to_bytes(4, "big") + content + zlib.crc32(content).to_bytes(4, "big") + png[33:])
+    path.write_bytes(png[:33] + (len(content) - 4).to_bytes(4, "big") + content +
+        zlib.crc32(content).to_bytes(4, "big") + png[33:])
 
 
 def check_screen(source, binaries, folder, update):
@@ -97,7 +99,8 @@ def check_screen(source, binaries, folder, update):
         take_screen(folder / words[-1], source / SCREEN, cycles)
     shown = re.search(re.escape(CYCLES) + rb"(\d+)", (source / SCREEN).read_bytes())
     wrong = [] if caption[1] == f"{cycles:,}" else [f"docs/explaining.md: the page's run takes {cycles:,} cycles"]
-    return wrong + ([] if shown and int(shown[1]) == cycles else [f"{SCREEN}: does not show the run of {cycles:,} cycles"])
+    return wrong + ([] if shown and int(shown[1]) == cycles
+        else [f"{SCREEN}: does not show the run of {cycles:,} cycles"])
 
 
 def digits(value):
@@ -144,7 +147,8 @@ def main():
         # As a reader types it, but for the size: the cost of the whole picture takes a minute.
         caption = re.search(rf"^\(`(trax-render [^`]* --size {SIZE} [^`]*)`\)", text, re.M)
         words = caption[1].replace(SIZE, "40x22").split() if caption else []
-        done = subprocess.run([binaries / words[0], *words[1:]], cwd=folder, capture_output=True, text=True, check=False) if words else None
+        done = subprocess.run([binaries / words[0], *words[1:]], cwd=folder, capture_output=True, text=True,
+            check=False) if words else None
         if not done or done.returncode or {len(row) // 3 for row in read_png(folder / words[-1])} != {40}:
             wrong.append(f"README.md: the command of the picture's caption {'fails: ' + done.stderr if done else 'is not there'}")
         wrong += [] if update else check_screen(source, binaries, folder, False)

@@ -247,13 +247,15 @@ class PageTests:
         self.browser.call("Emulation.setEmulatedMedia", features=[])
 
     def edge(self, place):
-        """The brightness at the right edge of a table that scrolls, above its first row, at the beginning and when it is scrolled to the end."""
-        box = self.browser.run(f"(e => {{ e.scrollIntoView({{block: 'center'}}); const b = e.getBoundingClientRect(); return [b.right - 3 + scrollX, b.y + scrollY + 2]; }})({place})")
+        """The colours at the right edge of a table that scrolls, above its first row: at the beginning, and at its end."""
+        box = self.browser.run(f"""(e => {{ e.scrollIntoView({{block: "center"}}); const b = e.getBoundingClientRect();
+            return [b.right - 3 + scrollX, b.y + scrollY + 2]; }})({place})""")
         seen = []
         for end in (0, 100000):
             self.browser.run(f"{place}.scrollLeft = {end}")
             clip = {"x": box[0], "y": box[1], "width": 2, "height": 2, "scale": 1}
-            png = base64.b64decode(self.browser.call("Page.captureScreenshot", captureBeyondViewport=True, clip=clip)["data"])
+            png = base64.b64decode(self.browser.call("Page.captureScreenshot", captureBeyondViewport=True,
+                clip=clip)["data"])
             seen.append(first_pixel(png))
         return seen
 
@@ -264,7 +266,8 @@ class PageTests:
             self.assertLessEqual(self.browser.run("document.documentElement.scrollWidth"), 390, name)
         # What is cut at the edge has a sign of it, and none once it is scrolled to its end.
         self.load(self.CLOSELY)
-        cut = "Array.from(document.querySelectorAll('.scroll:not(details:not([open]) *)')).filter(e => e.scrollWidth > e.clientWidth + 1)"
+        cut = "Array.from(document.querySelectorAll('.scroll:not(details:not([open]) *)'))" \
+              ".filter(e => e.scrollWidth > e.clientWidth + 1)"
         count = self.browser.run(cut + ".length")
         self.assertGreater(count, 1)
         ground = self.ground()

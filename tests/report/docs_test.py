@@ -229,6 +229,15 @@ class DocsTest(unittest.TestCase):
         table, = tables.of_sweep(Results(made), PAPER, made["sweeps"][0])
         self.assertEqual([row[:3] for row in rows_of("\n".join(table.lines(False)))], [["chip", "cube, sorted", "dragon, sorted"], ["tiny", "1.25", "1.25"]])
 
+    def test_what_pixels_differ_from(self):
+        made = example.stranger()
+        made["sweeps"][0].update(table={"rows": ["chip", "variant"], "mean": "scene",
+            "values": [{"name": "values.picture.pixels_that_differ", "title": "pixels that differ"}]})
+        for record in made["runs"]:
+            record["values"]["picture.pixels_that_differ"] = 3
+        table, = tables.of_sweep(Results(made), PAPER, made["sweeps"][0])
+        self.assertEqual([title for title, _ in table.columns][2:3], ['pixels that differ from "as it is"'])
+
     def test_relations(self):
         """Per cent and times instead of figures, figures beside them, and what a row has in all."""
         made = example.stranger()
@@ -290,19 +299,25 @@ class DocsTest(unittest.TestCase):
         self.assertEqual(self.docs("--check", self.page), (0, ""))
 
     def test_estimates_of_workloads(self):
-        """An estimate stands beside the exact run of its own workload, view, variant and settings, whatever the order of the runs."""
+        """An estimate stands beside the exact run of its own workload, view, variant and settings, in any order of runs."""
         made = example.complete()
-        first = next(run for run in made["runs"] if run["program"] == "era" and run["scene"] == "dragon" and run["config"] == "4x32")
+        first = next(run for run in made["runs"] if run["program"] == "era" and run["scene"] == "dragon"
+            and run["config"] == "4x32")
         settings = {"dcache.bytes": 32768}
-        places = ({}, {"workload": "occlusion"}, {"variant": "wide"}, {"view": "other"}, {"set": {**first["set"], **settings}})
+        places = ({}, {"workload": "occlusion"}, {"variant": "wide"}, {"view": "other"},
+            {"set": {**first["set"], **settings}})
         exact = [{**first, **place, "key": f"exact-{number}", "points": None, "stats": {**first["stats"], "mrps": rate}}
                  for number, (place, rate) in enumerate(zip(places, (10.0, 3.0, 5.0, 7.0, 9.0)))]
-        quick = [{**one, "key": f"quick-{one['key']}", "mode": "quick", "stats": {**one["stats"], "mrps": 1.01 * one["stats"]["mrps"]},
-                  "values": {"mrps_low": 0.98 * one["stats"]["mrps"], "mrps_high": 1.03 * one["stats"]["mrps"]}} for one in exact]
+        quick = [{**one, "key": f"quick-{one['key']}", "mode": "quick",
+            "stats": {**one["stats"], "mrps": 1.01 * one["stats"]["mrps"]},
+                  "values": {"mrps_low": 0.98 * one["stats"]["mrps"], "mrps_high": 1.03 * one["stats"]["mrps"]}}
+                      for one in exact]
         for order in (exact + quick, quick + exact[::-1]):
             found = estimates.estimates(Results({**made, "runs": order}).runs)
-            self.assertEqual(sorted((one.value, round(one.error, 6), one.holds) for one in found), [(value, 0.01, True) for value in (3.0, 5.0, 7.0, 9.0, 10.0)])
-        self.assertEqual([one.value for one in estimates.estimates(Results({**made, "runs": exact[1:] + quick[:1]}).runs)], [None])
+            self.assertEqual(sorted((one.value, round(one.error, 6), one.holds) for one in found),
+                [(value, 0.01, True) for value in (3.0, 5.0, 7.0, 9.0, 10.0)])
+        self.assertEqual([one.value for one in estimates.estimates(Results({**made,
+            "runs": exact[1:] + quick[:1]}).runs)], [None])
         self.assertNotIn("0 of 0", estimates.every(Results({**made, "runs": quick})).note)
         table = estimates.every(Results({**made, "runs": exact[:2] + quick[:2]}))
         self.assertEqual([title for title, _ in table.columns][:4], ["mode", "program", "scene", "workload"])
@@ -310,7 +325,8 @@ class DocsTest(unittest.TestCase):
         results = Results({**made, "runs": exact[:2] + quick[:2]})
         table = estimates.of_sweep(results, {"name": "table2"})()
         self.assertEqual([row[:5] for row in rows_of("\n".join(table.lines(False)))],
-                         [["program", "scene", "workload", "estimates", "intervals that hold the exact figure"], ["era", "dragon", "", "1", "1"], ["era", "dragon", "occlusion", "1", "1"]])
+                         [["program", "scene", "workload", "estimates", "intervals that hold the exact figure"],
+                             ["era", "dragon", "", "1", "1"], ["era", "dragon", "occlusion", "1", "1"]])
 
     def test_missing(self):
         """A mean with a run that is not there is not a mean of the others."""

@@ -244,27 +244,32 @@ class Page(PageTests, Scratch):
         """In a window of 1400 pixels no table is cut."""
         for name in self.pages:
             self.load(name)
-            cut = self.browser.run("Array.from(document.querySelectorAll('.scroll')).filter(e => e.scrollWidth > e.clientWidth + 1).map(e => e.firstChild.id)")
+            cut = self.browser.run("""Array.from(document.querySelectorAll(".scroll")).filter(e => e.scrollWidth > e.clientWidth + 1)
+                .map(e => e.firstChild.id)""")
             self.assertEqual(cut, [], name)
 
     def test_colours_of_causes(self):
-        """A cause has one colour, whatever other causes a run has; no two have the same; and a bar's labels can be read on all of them."""
+        """A cause has one colour, whatever other causes a run has, and no other has it. A bar's labels can be read on all."""
         known, every = {}, list(json.loads(self.text("p.json"))["causes"])
         for name in self.pages:
             self.load(name)
-            shown = self.browser.run("Array.from(document.querySelectorAll('#causes-table tbody th'), e => [e.textContent, getComputedStyle(e.querySelector('.swatch')).backgroundColor])")
+            shown = self.browser.run("""Array.from(document.querySelectorAll("#causes-table tbody th"),
+                e => [e.textContent, getComputedStyle(e.querySelector(".swatch")).backgroundColor])""")
             for cause, colour in shown:
                 known.setdefault(cause, set()).add(colour)
         self.assertGreater(len(known), 10)
         self.assertEqual({cause: colours for cause, colours in known.items() if len(colours) > 1}, {})
         both = [self.browser.run(f"causesOf({{causes: {json.dumps(causes)}}}, []).map(one => [one.name, one.colour])")
-                for causes in ({cause: 1 for cause in (*every, "compare_conflict")}, {"fp_mul_conflict": 1, "compare_conflict": 1})]
+                for causes in ({cause: 1 for cause in (*every, "compare_conflict")},
+                    {"fp_mul_conflict": 1, "compare_conflict": 1})]
         self.assertEqual([pair for pair in both[1] if pair not in both[0]], [])
         self.assertEqual(len({colour for _, colour in both[0]}), len(every) + 1)
         for scheme in ("light", "dark"):
-            self.browser.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
+            self.browser.call("Emulation.setEmulatedMedia",
+                features=[{"name": "prefers-color-scheme", "value": scheme}])
             for cause in (*every, "compare_conflict"):
-                self.browser.run(f"document.getElementById('causes-bar').replaceChildren(stack(causesOf({{causes: {{{cause}: 1}}}}, []), {{{cause}: 1}}, 1, 'large', true))")
+                self.browser.run(f"""document.getElementById("causes-bar").replaceChildren(
+                    stack(causesOf({{causes: {{{cause}: 1}}}}, []), {{{cause}: 1}}, 1, "large", true))""")
                 text, back = self.browser.run(TEXT_COLOURS.replace("main *, header *", "#causes-bar *"))[0]
                 self.assertGreaterEqual(contrast(text, back), 4.5, (scheme, cause, text, back))
         self.browser.call("Emulation.setEmulatedMedia", features=[])
@@ -274,24 +279,30 @@ class Page(PageTests, Scratch):
         rows = list(csv.DictReader(io.StringIO(unpack(self.folder / "p.html")[0]["series"])))
         self.load("whole")
         for tm in ("all", "0", "3"):
-            self.browser.run(f"(s => {{ s.value = '{tm}'; s.dispatchEvent(new Event('change')); }})(document.getElementById('time-tm'))")
+            self.browser.run(f"""(s => {{ s.value = "{tm}"; s.dispatchEvent(new Event("change")); }})
+                (document.getElementById("time-tm"))""")
             mine = [row for row in rows if row["tm"] == tm]
             known = [any(int(row[f"dcache.{what}"]) for what in ("hits", "misses", "merged")) for row in mine]
             stretches = sum(a and not b for a, b in zip(known, [False, *known]))
-            curves = self.browser.run("Array.from(Array.from(document.querySelectorAll('#time-lines figure')).find(f => f.textContent.includes('Loads that hit')).querySelectorAll('.curve'), c => c.points.length)")
+            curves = self.browser.run("""Array.from(Array.from(document.querySelectorAll("#time-lines figure"))
+                .find(f => f.textContent.includes("Loads that hit")).querySelectorAll(".curve"), c => c.points.length)""")
             self.assertEqual((len(curves), sum(curves)), (stretches, 2 * sum(known)), tm)
         self.assertFalse(all(known))  # TM 3 has intervals without loads
         self.load("idle")
-        self.assertNotRegex(self.browser.run("document.querySelector('[data-figure=\"dcache.hit_rate\"]').textContent + document.getElementById('caches-table').tBodies[0].rows[1].cells[2].textContent"), "[0-9]")
+        shown = self.browser.run("""document.querySelector("[data-figure='dcache.hit_rate']").textContent +
+            document.getElementById("caches-table").tBodies[0].rows[1].cells[2].textContent""")
+        self.assertNotRegex(shown, "[0-9]")
 
     def test_rays_that_are_not_marked(self):
         """Without --mark-rays nothing is known of a kind of ray but how many there are."""
         for name, heads in (("whole", 9), ("dram", 2)):
             self.load(name)
-            table = self.browser.run("Array.from(document.querySelectorAll('#rays-table tr'), row => Array.from(row.cells, cell => cell.textContent))")
+            table = self.browser.run("""Array.from(document.querySelectorAll("#rays-table tr"),
+                row => Array.from(row.cells, cell => cell.textContent))""")
             self.assertEqual({len(row) for row in table}, {heads}, name)
         stats = json.loads(self.text("general.json"))
-        self.assertEqual(table[1:], [*([kind, f"{rays:,}"] for kind, rays in stats["rays_by_kind"].items() if rays), ["all", f"{stats['rays']:,}"]])
+        self.assertEqual(table[1:], [*([kind, f"{rays:,}"] for kind, rays in stats["rays_by_kind"].items() if rays),
+            ["all", f"{stats['rays']:,}"]])
 
     def test_story(self):
         self.load("whole")

@@ -227,7 +227,8 @@ class ReportTest(unittest.TestCase):
         # A cell is short; the reasons stand below the table.
         self.assertRegex(rows["Speed-up from 1x32"][2][0], r"\d+ of 42 speed-ups within 10 %$")
         notes = dict(re.findall(r"<li><b>([^<]*)</b>: ([^<]*)</li>", self.text))
-        self.assertRegex(notes["Speed-up from 1x32"], r"^era: conference \d+ of 14, crytek-sponza \d+ of 14, forest \d+ of 14; furthest off: [^.]*, "
+        self.assertRegex(notes["Speed-up from 1x32"],
+            r"^era: conference \d+ of 14, crytek-sponza \d+ of 14, forest \d+ of 14; furthest off: [^.]*, "
                                                       r"of rays [+-]\d+ % on 1x32 and [+-]\d+ % there: a ray moves 700 bytes")
         self.assertIn("dragon-close: 1.00 times on", notes["The dragon stops scaling at 128 threads at 8 GB/s"])
         self.assertIn("dragon-close: 1.75 times", notes["The dragon gains from 16 GB/s"])
@@ -261,19 +262,27 @@ class ReportTest(unittest.TestCase):
         self.assertEqual(float(cell[1]), example.mrps("ours", "conference", "4x32"))
 
     def test_some_scenes(self):
-        """A claim that is a mean of the scenes stays open where scenes are missing, and says of how many it has a figure."""
+        """A claim that is a mean of the scenes stays open where some are missing, and says of how many it has a figure."""
         made = example.complete()
-        made["runs"] = [record for record in made["runs"] + example.assertions() if record["scene"] in ("forest", "dragon") and not (record["scene"] == "dragon" and "fpu-sharing" in record["experiments"])]
+        made["runs"] = [record for record in made["runs"] + example.assertions()
+            if record["scene"] in ("forest", "dragon") and not (record["scene"] == "dragon"
+            and "fpu-sharing" in record["experiments"])]
         rows = {row[0][0]: row for row in self.make(made).tables["claims"]["rows"]}
-        self.assertRegex(rows["Eight TPs share an FPU"][3][0], r"^\? not knownmeasured on 1 of 4 scenes: 99\.0 % of the rays")
-        self.assertRegex(rows["One FPDIV/iSQRT unit serves up to 64 TPs"][3][0], r"^\? not knownmeasured on 2 of 4 scenes: 99\.0 % of the rays")
-        self.assertRegex(rows["Adds and multiplications a ray"][2][0], r"^\? not knownmeasured on 2 of 4 scenes: 1,300$")
-        self.assertRegex(rows["Table 1: area of the chips"][2][0], r"^✗ differs5 of 15 chips")  # a chip has one, whatever the scene
+        self.assertRegex(rows["Eight TPs share an FPU"][3][0],
+            r"^\? not knownmeasured on 1 of 4 scenes: 99\.0 % of the rays")
+        self.assertRegex(rows["One FPDIV/iSQRT unit serves up to 64 TPs"][3][0],
+            r"^\? not knownmeasured on 2 of 4 scenes: 99\.0 % of the rays")
+        self.assertRegex(rows["Adds and multiplications a ray"][2][0],
+            r"^\? not knownmeasured on 2 of 4 scenes: 1,300$")
+        self.assertRegex(rows["Table 1: area of the chips"][2][0],
+            r"^✗ differs5 of 15 chips")  # a chip has one, whatever the scene
 
     def test_one_cell(self):
         """Sentences hold for one cell, and say nothing of what is not there."""
         made = example.complete()
-        made["runs"] = [{**record, "size": [64, 36]} for record in made["runs"] if (record["program"], record["scene"], record["config"], record["mode"]) == ("ours", "forest", "4x32", "quick")]
+        made["runs"] = [{**record, "size": [64, 36]} for record in made["runs"]
+            if (record["program"], record["scene"], record["config"], record["mode"]) == ("ours", "forest", "4x32",
+            "quick")]
         self.make(made)
         self.assertIn("Against the one measured cell of Table 2 it has", self.text)
         self.assertIn("Verdicts on small pictures are therefore weak.", self.text)
@@ -286,7 +295,8 @@ class ReportTest(unittest.TestCase):
         made["runs"] = [record for record in made["runs"] if "fpu-density" in record["experiments"]]
         for record in made["runs"]:
             record["mode"] = "quick"
-            record["values"] = {f"mrps_{end}": factor * record["stats"]["mrps"] for end, factor in (("low", 0.98), ("high", 1.03))}
+            record["values"] = {f"mrps_{end}": factor * record["stats"]["mrps"] for end,
+                factor in (("low", 0.98), ("high", 1.03))}
         for exact in (False, True):
             for record in made["runs"] if exact else ():
                 record["values"] = {"mrps_low": record["stats"]["mrps"], "mrps_high": record["stats"]["mrps"]}
@@ -304,25 +314,30 @@ class ReportTest(unittest.TestCase):
             self.assertEqual({row[6][0] for row in page.tables["sampled"]["rows"]} == {"exact"}, exact)
         for record in made["runs"]:  # ends that differ little are told apart
             record["values"]["mrps_high"] *= 1.001
-        ends = [re.search(r"\[([\d.]+), ([\d.]+)\]$", row[1][0]).groups() for row in self.make(made).tables["sweep-2-fpu-sharing"]["rows"]]
+        ends = [re.search(r"\[([\d.]+), ([\d.]+)\]$", row[1][0]).groups()
+            for row in self.make(made).tables["sweep-2-fpu-sharing"]["rows"]]
         self.assertEqual([pair for pair in ends if pair[0] == pair[1]], [])
 
     def test_one_look_of_a_program(self):
-        """A program has one colour and one mark on the page, a scene one colour, and no scene that of one of two programs."""
+        """A program has one colour and one mark on the page, a scene one colour, and no scene that of a program."""
         made = example.complete()
         made["runs"] = [record for record in made["runs"] if record["scene"] != "crytek-sponza"]
-        both = [record for record in copy.deepcopy(made["runs"]) if "fpu-sharing" in record["experiments"] and record["scene"] == "dragon"]
+        both = [record for record in copy.deepcopy(made["runs"]) if "fpu-sharing" in record["experiments"]
+            and record["scene"] == "dragon"]
         for record in both:
             record.update(program="era", key="era-" + record["key"])
-        made["runs"] = [record for record in made["runs"] if "fpu-sharing" not in record["experiments"] or record["scene"] == "dragon"]
+        made["runs"] = [record for record in made["runs"] if "fpu-sharing" not in record["experiments"]
+            or record["scene"] == "dragon"]
         made["runs"] = both + made["runs"]  # this sweep's first series is the first program's
         self.make(made)
         looks = {}
         for figure in re.findall(r"<figure id=.*?</figure>", self.text, re.DOTALL):
-            for mark, style, label in re.findall(r'<li><svg[^>]*><use href="#mark(\d+)"[^>]*class="s(\d+)"[^>]*></use></svg>([^<]*)</li>', figure):
+            key = r'<li><svg[^>]*><use href="#mark(\d+)"[^>]*class="s(\d+)"[^>]*></use></svg>([^<]*)</li>'
+            for mark, style, label in re.findall(key, figure):
                 looks.setdefault(label, set()).add((style, mark))
         self.assertEqual({name: len(looks[name]) for name in ("era", "ours")}, {"era": 1, "ours": 1}, looks)
-        self.assertEqual(len({style for name in ("era", "ours", "conference", "dragon", "forest") for style, _ in looks[name]}), 5, looks)
+        self.assertEqual(len({style for name in ("era", "ours", "conference", "dragon", "forest") for style,
+            _ in looks[name]}), 5, looks)
 
     def test_self_contained(self):
         page = self.make(example.complete())

@@ -47,7 +47,8 @@ def run(*command, **options):
 
 def check_figure(source, text):
     """The figure's cycles are those of the pages, all of the tutorial's are there, and bars are as long as they say."""
-    bars = re.findall(r'width="(\d+)" height="\d+"/><text [^>]*>(\d[\d,]+)</text>', (source / "docs/tutorial.svg").read_text())
+    bars = re.findall(r'width="(\d+)" height="\d+"/><text [^>]*>(\d[\d,]+)</text>',
+        (source / "docs/tutorial.svg").read_text())
     figures = {figure.replace(",", ""): int(width) for width, figure in bars}
     wrong = [figure for figure in figures if not re.search(rf"\b{figure}\b", text)]
     if wrong or not figures:

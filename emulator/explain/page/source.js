@@ -26,7 +26,7 @@ function drawSource({ stats, run, causes, lines }) {
   const ranked = [...files.entries()].sort((a, b) => b[1] - a[1]), textOf = (name) => (run.sources[fileOf(name)] ?? "").split("\n")[numberOf(name) - 1]?.trim() ?? "";
   fillTable("lines-table", "The costliest lines", [["line"], ["share", "n"], ["causes", "bar"], ["instructions", "n"], ["loads that hit", "n"], ["text", "clip"]], lines.filter((line) => line.name).slice(0, 12).map((line) => [
     [element("button", { type: "button", class: "code", onclick: () => run.openLine(line.name) }, locationOf(run, line.name)), line.name], [percent(totalOf(line)), line.total],
-    stack(causes, line.cycles, lines.find((one) => one.name).total), [whole(line.issued), line.issued], 
+    stack(causes, line.cycles, lines.find((one) => one.name).total), [whole(line.issued), line.issued],
     line.loads ? [percent(line.hits / line.loads), line.hits / line.loads] : [element("span", { class: "soft" }, "no load"), -1], element("code", {}, textOf(line.name))]));
 
   const choice = byId("source-file"), short = (file) => file ? file.split("/").slice(-2).join("/") : "(no line is known)";

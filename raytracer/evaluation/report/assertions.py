@@ -24,7 +24,8 @@ def _fpu(results, paper, program):
     if kept is None or None in per_area:
         return _NOT_KNOWN
     best = max(zip(per_area, (1, 4, 8, 16)))[1]
-    return kept >= 0.9, f"{100 * kept:.1f} % of the rays of an FPU for each TP; {per_area[2] / per_area[0]:.1f} times those per mm²; of 1, 4, 8 and 16 TPs, {best} have the most per mm²"
+    return kept >= 0.9, (f"{100 * kept:.1f} % of the rays of an FPU for each TP; {per_area[2] / per_area[0]:.1f} times "
+                         f"those per mm²; of 1, 4, 8 and 16 TPs, {best} have the most per mm²")
 
 
 def _special(results, paper, program):
@@ -68,7 +69,8 @@ def _lockstep(results, paper, program):
     used, bound = (swept(results, "lockstep", program, "4x32", {}, f"values.simd_{name}.32") for name in ("utilisation", "bound"))
     if used is None or bound is None:
         return _NOT_KNOWN
-    return 0.61 <= used <= 0.86, f"{100 * used:.0f} % of the lanes of warps of 32; at most {100 * bound:.0f} % whatever the order; this program does not keep its loops in step"
+    return 0.61 <= used <= 0.86, (f"{100 * used:.0f} % of the lanes of warps of 32; at most {100 * bound:.0f} % "
+                                  "whatever the order; this program does not keep its loops in step")
 
 
 def _peak(results, paper, program):

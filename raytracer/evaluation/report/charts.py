@@ -31,17 +31,20 @@ def style_of(index):
 
 
 def _styles(results, groups, by_scene):
-    """(colour, mark) of each group (scene, program, other parts of its label). On the whole page a program has one colour and one mark, and a scene one colour.
-    Of what differs the first of scene, program and other parts has the colour, the rest the mark."""
+    """(colour, mark) of each group (scene, program, other parts of its label). On the whole page a program has one
+    colour and one mark, and a scene one colour. The first that differs of scene, program and other parts has the
+    colour, the rest the mark."""
     scenes, programs = results.scenes(), results.programs()
     others = [*dict.fromkeys(group[2] for group in groups)]
     several = len({group[1] for group in groups}) > 1
-    marks = [(program, others[0]) for program in programs] + [*dict.fromkeys((program, rest) for _, program, rest in groups if rest != others[0])]
+    marks = [(program, others[0]) for program in programs]
+    marks += dict.fromkeys(group[1:] for group in groups if group[2] != others[0])
     for scene, program, rest in groups:
         other = STYLES[others.index(rest) % len(STYLES)]
         own = style_of(programs.index(program)) if several else other
         if by_scene:
-            yield STYLES[scenes.index(scene) % len(STYLES)][0], style_of(marks.index((program, rest)))[1] if several else other[1]
+            mark = style_of(marks.index((program, rest)))[1] if several else other[1]
+            yield STYLES[scenes.index(scene) % len(STYLES)][0], mark
         else:
             yield own[0], (other if len(others) > 1 else own)[1]
 
@@ -127,8 +130,9 @@ def _label(scene, program, rest):
 
 
 def sweep_figure(results, paper, sweep, identity):
-    """What a sweep's x and y say, a series for each scene (of rays by kind: for each kind, means of the scenes), program and what else differs. None
-    if its runs differ in nothing. x may be what a table's rows may be, "threads" or a statistic; if it has one value, what differs is the axis, the variants first."""
+    """What a sweep's x and y say, a series for each scene (of rays by kind: for each kind, means of the scenes),
+    program and what else differs. None if its runs differ in nothing. x may be what a table's rows may be, "threads" or
+    a statistic; if it has one value, what differs is the axis, the variants first."""
     runs, key = results.of_sweep(sweep.get("name")), str(sweep.get("x") or "threads")
     kinds = sweep.get("y") in (None, "mrps") and any(run.kinds() for run in runs)
     value = Value({"name": "kind.mrps" if kinds else sweep.get("y") or "mrps", "per": sweep.get("y_per")})
@@ -146,20 +150,26 @@ def sweep_figure(results, paper, sweep, identity):
     for run in runs:
         x, y = named.index(axes.value(run, key)) if named and axes.value(run, key) in named else run.get(key) if counted else run.setting(key), value.of(run)
         if x is not None and y is not None:
-            label = tuple(str(part) if axis in ("chip", "workload", "variant", "kind", "size", "mode") else f"{axis}={part}"
+            known = ("chip", "workload", "variant", "kind", "size", "mode")
+            label = tuple(str(part) if axis in known else f"{axis}={part}"
                           for axis, part in zip(others, axes.place(run, others)) if part != "" and axis != "program")
-            groups.setdefault(("" if kinds or key == "scene" else run.scene, run.program if "program" in others else "", label), []).append((x, y, f"{run.name()}: {y:.4g}"))
+            group = "" if kinds or key == "scene" else run.scene, run.program if "program" in others else "", label
+            groups.setdefault(group, []).append((x, y, f"{run.name()}: {y:.4g}"))
     if kinds:
-        groups = {group: [(x, y, f"{_label(*group)}: {y:.4g}, mean of the scenes") for x in {point[0] for point in points} for y in [mean(point[1] for point in points if point[0] == x)]]
+        groups = {group: [(x, y, f"{_label(*group)}: {y:.4g}, mean of the scenes")
+                          for x in {point[0] for point in points}
+                          for y in [mean(point[1] for point in points if point[0] == x)]]
                   for group, points in groups.items()}
     values = sorted({point[0] for points in groups.values() for point in points})
     if len(values) < 2:
         return None
-    several = not kinds and key != "scene" and (len({group[0] for group in groups}) > 1 or len({group[1:] for group in groups}) == 1)
+    several = len({group[0] for group in groups}) > 1 or len({group[1:] for group in groups}) == 1
+    several = several and not kinds and key != "scene"
     first = results.programs()[:1]
     series = []
     for ((scene, program, rest), points), (colour, mark) in zip(groups.items(), _styles(results, groups, several)):
-        series.append(Series(_label(scene if several else "", program, rest) or value.title, colour, sorted(points), mark, line=not named and not counted,
+        label = _label(scene if several else "", program, rest) or value.title
+        series.append(Series(label, colour, sorted(points), mark, line=not named and not counted,
                              dashed=first != [] and "program" in axes.varying and program not in first))
     ticks = [(place, text) for place, text in enumerate(named)] or ([(one, f"{one:g}") for one in values] if len(values) <= 9 else None)
     doubling = not named and len(values) > 2 and values[0] > 0 and values[-1] / values[0] >= 8
@@ -213,7 +223,8 @@ def _lockstep(results):
         if points:
             found.append(((run.scene, run.program, ()), points))
     styles = _styles(results, [group for group, _ in found], True)
-    series = [Series(_label(*group), colour, points, mark, dashed=group[1] not in results.programs()[:1]) for (group, points), (colour, mark) in zip(found, styles)]
+    series = [Series(_label(*group), colour, points, mark, dashed=group[1] not in results.programs()[:1])
+              for (group, points), (colour, mark) in zip(found, styles)]
     ticks = [(width, str(width)) for width in sorted({point[0] for one in series for point in one.points})]
     return Lines("lockstep", "Lanes in use, if so many threads went in lockstep", "threads in lockstep", "lanes in use (%)", series, log_x=True, base=2, x_ticks=ticks)
 

@@ -51,7 +51,9 @@ def _near(deviations, cells, what):
     if not values:
         return UNKNOWN, NOT_MEASURED
     near = sum(value <= 0.10 for value in values)
-    found = f"{near} of {len(values)} {what if len(values) != 1 else what.removesuffix('s')} within 10 %, median deviation {100 * median(values):.0f} %; largest {100 * max(values):,.0f} %"
+    what = what.removesuffix("s") if len(values) == 1 else what
+    found = f"{near} of {len(values)} {what} within 10 %, median deviation {100 * median(values):.0f} %; " \
+            f"largest {100 * max(values):,.0f} %"
     if len(values) < cells:
         found += f"; {cells - len(values)} of {cells} not measured"
     return _judged(near == len(values) if len(values) == cells else (False if near < len(values) else None), found)
@@ -185,7 +187,9 @@ def _frames(results, paper, program):
 
 def _power(results, paper, program):
     value = results.mean_of_papers("energy.average_power", program, "4x32")
-    return (UNKNOWN, NOT_MEASURED) if value is None else _judged(abs(value / 4 - 1) <= 0.25, f"{value:.1f} W, dynamic only")
+    if value is None:
+        return UNKNOWN, NOT_MEASURED
+    return _judged(abs(value / 4 - 1) <= 0.25, f"{value:.1f} W, dynamic only")
 
 
 def _flops(results, paper, program):
@@ -230,7 +234,9 @@ _CLAIMS = [
     ("Frames per second at 1280x720", "within 10 %: dragon on 4x32, the scene that gives the paper's figure", "3.4", _frames),
     ("Adds and multiplications a ray", "within 10 %: mean of the scenes on 4x32", "about 1,300 (Table 1 over Table 2)", _flops),
     ("Power of 4x32", "within 25 %: the paper calls its own a rough estimate", "4 W", _power),
-    ("Threads stagger: instruction-bank conflicts are frequent at first", "a conflict refuses a greater share of the fetches in the first interval than in the later ones (median)", "described, no figures", _staggering),
+    ("Threads stagger: instruction-bank conflicts are frequent at first",
+     "a conflict refuses a greater share of the fetches in the first interval than in the later ones (median)",
+     "described, no figures", _staggering),
     *ASSERTIONS,
 ]
 
@@ -258,4 +264,5 @@ def _verdict(judge, results, paper, program):
 
 
 def claims(results, paper, programs):
-    return [Claim(title, rule, published, {program: _verdict(judge, results, paper, program) for program in programs}) for title, rule, published, judge in _CLAIMS]
+    return [Claim(title, rule, published, {program: _verdict(judge, results, paper, program) for program in programs})
+            for title, rule, published, judge in _CLAIMS]

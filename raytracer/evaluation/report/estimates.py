@@ -25,7 +25,7 @@ def _job(run):
 
 def _names(runs):
     """The columns that tell jobs apart, workloads and variants only where there are any."""
-    return [name for name in ("program", "scene", "workload", "variant") if name in ("program", "scene") or any(getattr(run, name) for run in runs)]
+    return ["program", "scene", *(name for name in ("workload", "variant") if any(getattr(run, name) for run in runs))]
 
 
 def estimates(runs):
@@ -37,15 +37,19 @@ def every(results):
     """A row for each."""
     rows, found = [], estimates(results.runs)
     names = _names([one.run for one in found])
-    columns = [("mode", "t"), *((name, "t") for name in names), ("chip", "t"), ("bandwidth (GB/s)", "n"), ("estimate (MRPS)", "n"), ("interval", None), ("exact", "n"),
+    columns = [("mode", "t"), *((name, "t") for name in names), ("chip", "t"), ("bandwidth (GB/s)", "n"),
+               ("estimate (MRPS)", "n"), ("interval", None), ("exact", "n"),
                ("error", "n"), ("inside", "t"), ("host, estimate", "n"), ("host, exact", "n")]
     for one in found:
         run, interval, holds = one.run, one.interval, one.holds
-        rows.append([words(run.mode), *(words(getattr(run, name)) for name in names), Cell(run.config, run.get("threads")), figure(run.setting("memory.bandwidth_gbps")), figure(run.get("mrps")),
-                     Cell(None if interval is None else " to ".join(between(interval)) if run.is_estimate() else "exact"), figure(one.value), Cell(percent(one.error, signed=True, digits=1), one.error),
+        ends = None if interval is None else " to ".join(between(interval)) if run.is_estimate() else "exact"
+        rows.append([words(run.mode), *(words(getattr(run, name)) for name in names),
+                     Cell(run.config, run.get("threads")), figure(run.setting("memory.bandwidth_gbps")),
+                     figure(run.get("mrps")), Cell(ends), figure(one.value), Cell(percent(one.error, signed=True, digits=1), one.error),
                      Cell(None if holds is None else "yes" if holds else "no", None if holds is None else str(holds)), duration(run.host_seconds), duration(one.exact.host_seconds if one.exact else None)])
     known = [one.holds for one in found if one.holds is not None]
-    note = f"The interval held the exact figure in {sum(known)} of {len(known)} cases where it is known." if known else "No exact run of these jobs is there to compare with."
+    note = (f"The interval held the exact figure in {sum(known)} of {len(known)} cases where it is known." if known else
+            "No exact run of these jobs is there to compare with.")
     return Table("sampled", "Estimates and their intervals", columns, rows, note) if rows else None
 
 
@@ -57,7 +61,8 @@ def _summary(name, results, runs):
     groups = {place: [] for place in itertools.product(*(order[name] for name in names))}
     for one in found:
         groups[tuple(getattr(one.run, name) for name in names)].append(one)
-    columns = [*((name, "t") for name in names), ("estimates", "n"), ("intervals that hold the exact figure", "n"), ("mean error", "n"), ("greatest error", "n"), ("mean half of the interval", "n"),
+    columns = [*((name, "t") for name in names), ("estimates", "n"), ("intervals that hold the exact figure", "n"),
+               ("mean error", "n"), ("greatest error", "n"), ("mean half of the interval", "n"),
                ("processor, estimates", "n"), ("processor, exact", "n"), ("exact / estimates", "n")]
     rows = []
     for place, found in groups.items():
@@ -66,7 +71,8 @@ def _summary(name, results, runs):
         errors = [abs(one.error) for one in found]
         half = mean(ratio(one.interval[1] - one.interval[0], 2 * one.run.get("mrps")) if one.interval else None for one in found)
         ours, exact = (None if None in times else sum(times) for times in ([one.run.processor_seconds() for one in found], [one.exact.processor_seconds() for one in found]))
-        rows.append([*map(words, place), figure(len(found)), figure(sum(bool(one.holds) for one in found)), Cell(percent(mean(errors), digits=1), mean(errors)),
+        rows.append([*map(words, place), figure(len(found)), figure(sum(bool(one.holds) for one in found)),
+                     Cell(percent(mean(errors), digits=1), mean(errors)),
                      Cell(percent(max(errors), digits=1), max(errors)), Cell(percent(half, digits=1), half), duration(ours), duration(exact), figure(ratio(exact, ours), 2)])
     return Table(f"estimates-{name}", f"Estimates beside exact runs: {name}", columns, rows)
 

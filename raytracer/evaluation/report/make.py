@@ -30,7 +30,8 @@ SHORT = {"tables": "Tables", "rays": "Rays by kind", "stalls": "Time", "units": 
 def summary(results, paper, judged):
     """In plain words: what was measured, and what agrees."""
     done, failed = [run for run in results.runs if run.done], [run for run in results.runs if run.status == "failed"]
-    sentences = [f"{len(done)} of {len(results.runs)} runs {'is' if len(done) == 1 else 'are'} there" + (f", {len(failed)} failed." if failed else ".")]
+    sentences = [f"{len(done)} of {len(results.runs)} runs {'is' if len(done) == 1 else 'are'} there" +
+                 (f", {len(failed)} failed." if failed else ".")]
     cells = {run.size for program in results.programs() for scene in results.papers for chip in paper.chips if (run := results.cell(program, scene, chip)) and run.done and run.size}
     others = {run.size for run in done if run.size} - cells
 
@@ -40,7 +41,8 @@ def summary(results, paper, judged):
     if cells:
         sentences.append(f"The pictures of the paper's tables have {named(cells)} pixels" + (f", those of other sweeps {named(others)}" if others else "") + "; the paper's have 1280x720.")
         if min(cells) < (1280, 720):
-            sentences.append("In a smaller picture neighbouring rays share less, so each moves more bytes, and large chips run out of bandwidth sooner. "
+            sentences.append("In a smaller picture neighbouring rays share less, so each moves more bytes, "
+                             "and large chips run out of bandwidth sooner. "
                              "Verdicts on small pictures are therefore weak.")
     times = [run.host_seconds for run in done if run.host_seconds]
     if times:
@@ -51,8 +53,10 @@ def summary(results, paper, judged):
         said, not_said = (sum(claim.verdicts[program][0] == verdict for claim in judged) for verdict in (AGREES, DIFFERS))
         text = [el("b", f"{program}: {title}" if (title := results.title("programs", program)) != program else f"Program “{program}”"), ": "]
         if deviations:
-            middle, cells = median(deviations), "the one measured cell" if len(deviations) == 1 else f"the {len(deviations)} measured cells"
-            text.append(f"Against {cells} of Table 2 it has {100 * abs(middle):.0f} % {'more' if middle >= 0 else 'fewer'} rays per second{' (median)' if len(deviations) > 1 else ''}. ")
+            middle, single = median(deviations), len(deviations) == 1
+            cells = "the one measured cell" if single else f"the {len(deviations)} measured cells"
+            text.append(f"Against {cells} of Table 2 it has {100 * abs(middle):.0f} % "
+                        f"{'more' if middle >= 0 else 'fewer'} rays per second{'' if single else ' (median)'}. ")
         text.append(tables.own_machine(results, program))
         text.append(f"Agrees with the paper in {said} of {len(judged)} claims, differs in {not_said}; not known: {len(judged) - said - not_said}.")
         items.append(el("p", *text))

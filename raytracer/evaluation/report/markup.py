@@ -59,5 +59,6 @@ def table(made, prefix=""):
     shown = el("div", el("table", *parts, id=prefix + made.identity), class_="scroll", tabindex="0", role="region", aria_label=made.title)
     shaded = any(cell.style.startswith(("near", "high", "low")) for row in made.rows for cell in row)
     note = " ".join(text for text in (made.note, SHADES if shaded else "") if text)
-    notes = el("ul", *(el("li", el("b", what), f": {text}") for what, text in made.notes), class_="note") if made.notes else None
-    return join([shown, el("p", note, class_="note") if note else None, notes])
+    notes = [el("li", el("b", what), f": {text}") for what, text in made.notes]
+    below = [el("p", note, class_="note") if note else None, el("ul", *notes, class_="note") if notes else None]
+    return join([shown, *below])

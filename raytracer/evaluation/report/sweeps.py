@@ -158,6 +158,9 @@ def _build(results, paper, sweep, spec, runs, identity, title):
     if not rows:
         rows, columns = ["scene"], [key for key in columns if key != "scene"]
     values = [Value(given, spec.get("as", AS[0]) if spec.get("relative") else "figure") for given in spec["values"]]
+    for value in values:
+        if value.name == "values.picture.pixels_that_differ" and sweep.get("reference"):
+            value.title = f'pixels that differ from "{sweep["reference"]}"'
     fixed = [str(axes.order[key][0]) for key in NAMED if key not in (*rows, *columns, *mean_over, *spec.get("each", [])) and len(axes.order[key]) == 1 and axes.order[key][0]]
     title += (f": {values[0].title}" if columns and len(values) == 1 else "") + (f" ({', '.join(fixed)})" if fixed else "")
     groups, reference = {}, spec.get("relative")
@@ -179,7 +182,8 @@ def _build(results, paper, sweep, spec, runs, identity, title):
         if value.compared in ("times", "percent"):
             return relation(value, times(row, column, value))
         quotient = times(row, column, value) if value.compared == "change" else None
-        below = percent(quotient - 1, signed=True, digits=1) if quotient is not None else interval_text(some[0], value.per) if value.name == "mrps" and len(some) == 1 else ""
+        below = interval_text(some[0], value.per) if value.name == "mrps" and len(some) == 1 else ""
+        below = below if quotient is None else percent(quotient - 1, signed=True, digits=1)
         return value.cell(found(row, column, value), below=below, link=f"#run-{some[0].index}" if len(some) == 1 else "")
 
     def summary(row, value, name):

@@ -73,24 +73,26 @@ EMPTY = Cell("")
 
 
 class Table:
-    """columns: (title, kind), kind "n" for numbers, "t" for text, None where the page does not sort. rows: lists of cells. notes: (of what, text), what is
-    too long for a cell."""
+    """columns: (title, kind), kind "n" for numbers, "t" for text, None where the page does not sort. rows: lists of
+    cells. notes: (of what, text), what is too long for a cell."""
 
     def __init__(self, identity, title, columns, rows, note="", notes=()):
-        self.identity, self.title, self.columns, self.rows, self.note, self.notes = identity, title, columns, rows, note, notes
+        self.identity, self.title, self.columns, self.rows = identity, title, columns, rows
+        self.note, self.notes = note, notes
 
     def measured(self):
         """Without the rows of which nothing was measured that could be."""
         def is_there(cell):
             return cell.value is not None and cell.style != "paper"
 
-        return Table(self.identity, self.title, self.columns, [row for row in self.rows if any(map(is_there, row[2:])) or all(cell.shown is not None for cell in row)], self.note,
-                     self.notes)
+        rows = [row for row in self.rows if any(map(is_there, row[2:])) or all(cell.shown is not None for cell in row)]
+        return Table(self.identity, self.title, self.columns, rows, self.note, self.notes)
 
     def without_empty(self):
         """Without the columns in which nothing was measured."""
         kept = [place for place in range(len(self.columns)) if any(row[place].shown for row in self.rows)]
-        return Table(self.identity, self.title, [self.columns[place] for place in kept], [[row[place] for place in kept] for row in self.rows], self.note, self.notes)
+        return Table(self.identity, self.title, [self.columns[place] for place in kept],
+                     [[row[place] for place in kept] for row in self.rows], self.note, self.notes)
 
     def lines(self, padded):
         """Of Markdown; padded: to be read as it stands."""
@@ -108,7 +110,9 @@ class Table:
 
     def text(self):
         notes = [f"{what}: {text}" for what, text in self.notes]
-        return "\n".join([self.title, "", *self.lines(True), *(["", *(textwrap.fill(text, 120) for text in [self.note, *notes] if text)] if self.note or notes else []), "", ""])
+        below = [textwrap.fill(text, 120) for text in (self.note, *notes) if text]
+        return "\n".join([self.title, "", *self.lines(True), *(["", *below] if below else []), "", ""])
 
     def markdown(self):
-        return "\n".join([*self.lines(False), "", *(f"- *{what}.* {text}." for what, text in self.notes), *([""] if self.notes else [])])
+        notes = [f"- *{what}.* {text}." for what, text in self.notes]
+        return "\n".join([*self.lines(False), "", *notes, *([""] if notes else [])])

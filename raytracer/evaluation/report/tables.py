@@ -114,7 +114,8 @@ def table2(results, paper, program):
         done = [run for run in runs if run and run.done]
         row += [duration(sum(run.get("seconds") or 0 for run in done) or None), duration(sum(run.host_seconds or 0 for run in done) or None)]
         rows.append(row)
-    note = own_machine(results, program) + "Million rays per second. The fairy scene is not available; the generated forest replaces it."
+    note = own_machine(results, program) + "Million rays per second. " \
+        "The fairy scene is not available; the generated forest replaces it."
     times = [run.host_seconds for chip in paper.chips for scene in results.papers if (run := results.cell(program, scene, chip)) and run.host_seconds]
     if times:
         note += f" The cells took {seconds(sum(times))} of the host's time together."
