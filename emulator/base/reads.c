@@ -20,6 +20,12 @@ enum { FIRST_DESCRIPTOR = 64 };              /* above those that a user gives as
 
 static const struct record first = {.device = UINT64_C(0x7372656164207874), .kind = SIGNATURE};
 
+static bool has_begun;
+
+void trax_reads_begin(void) {
+  has_begun = true;
+}
+
 /* Returns the descriptor in the environment, if it is still a list; else -1. */
 static int shared_list(void) {
   const char *text = getenv(variable);
@@ -51,7 +57,7 @@ static int list_descriptor(void) {
 
 static void append(const struct stat *file, uint64_t kind) {
   const struct record added = {file->st_dev, file->st_ino, kind};
-  if (!S_ISREG(file->st_mode) || list_descriptor() < 0)
+  if (!has_begun || !S_ISREG(file->st_mode) || list_descriptor() < 0)
     return;
   if (write(list_descriptor(), &added, sizeof added) != sizeof added)
     return;
@@ -81,7 +87,7 @@ bool trax_reads_has(const struct stat *file) {
   struct record records[256];
   ssize_t got;
   bool found = false;
-  if (!S_ISREG(file->st_mode) || list_descriptor() < 0)
+  if (!has_begun || !S_ISREG(file->st_mode) || list_descriptor() < 0)
     return false;
   for (off_t at = 0; (got = pread(list_descriptor(), records, sizeof records, at)) > 0; at += got)
     for (size_t i = 0; i < (size_t)got / sizeof *records; i++)

@@ -13,6 +13,7 @@
 #include "report/watchdog.h"
 #include "trax/message.h"
 #include "trax/output.h"
+#include "trax/reads.h"
 #include "trax/run_progress.h"
 #include "trax/signals.h"
 
@@ -306,6 +307,7 @@ static int flush_standard_output(int result) {
 int main(int count, char **arguments) {
   trax_error error;
   struct trax_options options;
+  trax_reads_begin();
   const trax_parsed parsed = trax_options_parse(&options, count, arguments, &error);
   if (parsed == TRAX_PARSED_WRONG) {
     trax_message("trax-sim", TRAX_MESSAGE_ERROR, "%s (--help lists the options)", error.message);

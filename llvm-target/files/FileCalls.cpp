@@ -206,6 +206,7 @@ __attribute__((visibility("default"))) int open(const char *Path, int Flags, ...
   const mode_t Mode = Flags & (O_CREAT | O_TMPFILE) ? va_arg(Arguments, mode_t) : 0;
   va_end(Arguments);
   struct stat Status;
+  trax_reads_begin();
   const bool Writes = (Flags & O_ACCMODE) != O_RDONLY, Fresh = (Flags & (O_CREAT | O_EXCL)) == (O_CREAT | O_EXCL);
   const bool Replaces = Following && Writes && !Fresh && Flags & (O_TRUNC | O_APPEND) && !isOwn(Path);
   const bool Exists = Replaces && stat(Path, &Status) == 0;

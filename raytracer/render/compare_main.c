@@ -3,6 +3,7 @@
 #include "trax/message.h"
 #include "trax/options.h"
 #include "trax/output.h"
+#include "trax/reads.h"
 
 #include <stdlib.h>
 
@@ -91,6 +92,7 @@ static int compare(const char *path_a, const char *path_b, const struct argument
 int main(int argc, char **argv) {
   struct arguments arguments = {.at_least = 100};
   trax_error error;
+  trax_reads_begin();
   const trax_parsed parsed = trax_command_parse(&command, &arguments, &argc, argv, &error);
   if (parsed == TRAX_PARSED_WRONG)
     return fail(error.message);

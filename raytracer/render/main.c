@@ -10,6 +10,7 @@
 #include "trax/message.h"
 #include "trax/output.h"
 #include "trax/progress.h"
+#include "trax/reads.h"
 #include "trax/signals.h"
 
 #include <signal.h>
@@ -107,6 +108,7 @@ static trax_status render(const struct options *options, trax_progress_line *pro
 int main(int argc, char **argv) {
   struct options options;
   trax_error error = {""};
+  trax_reads_begin();
   trax_parsed parsed = options_parse(&options, argc, argv, &error);
   int exit_status = 0;
   if (parsed == TRAX_PARSED_WRONG) {

@@ -6,6 +6,7 @@
 #include "trax/message.h"
 #include "trax/output.h"
 #include "trax/progress.h"
+#include "trax/reads.h"
 #include "trax/signals.h"
 
 #include <errno.h>
@@ -218,6 +219,7 @@ static int end_of_output(int status) {
 int main(int argc, char **argv) {
   struct arguments arguments;
   trax_error error;
+  trax_reads_begin();
   const trax_parsed parsed = arguments_parse(&arguments, argc, argv, &error);
   if (parsed != TRAX_PARSED_RUN)
     return parsed == TRAX_PARSED_DONE ? end_of_output(0) : complain(&error);

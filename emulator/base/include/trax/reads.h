@@ -2,8 +2,9 @@
    a source includes, a texture that a mesh refers to. So each input is noted when it is opened, and trax_output_open
    and trax_output_commit compare the output with all of them, by device and inode.
 
-   The list belongs to the process and to its children from fork. A program that starts others for one purpose, as the
-   compiler starts the linker, shares its list with them. */
+   The list belongs to a program of this project, and to its children from fork. A program that starts others for one
+   purpose, as the compiler starts the linker, shares its list with them. A program of others that uses the emulator as
+   a library reads and writes what it likes, in any order: there is no list. */
 #ifndef TRAX_READS_H
 #define TRAX_READS_H
 
@@ -14,6 +15,8 @@
 extern "C" {
 #endif
 
+/* From now on there is a list. At the beginning of main. */
+void trax_reads_begin(void);
 /* Notes a file. Devices, pipes and folders are ignored. trax_input_open and the list of trax/files.h do it themselves.
  */
 void trax_reads_note(const struct stat *file);
