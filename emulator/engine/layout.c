@@ -2,6 +2,7 @@
 
 #include "machine/stats.h"
 #include "machine/text.h"
+#include "state_sources.h"
 
 #include <assert.h>
 #include <stdio.h>
@@ -54,5 +55,7 @@ size_t trax_layout_of(const struct trax_engine *engine, void *chip, struct trax_
 #define CAUSE(ID, NAME, ...) add_text(causes, NAME);
   TRAX_CAUSES(CAUSE)
 #undef CAUSE
+  /* The rest: orders of other enumerations, and what fields mean. It is last, so that a known difference is named. */
+  *new_entry(&layouts, "sources") = (struct trax_layout){.name = "sources", .hash = TRAX_STATE_SOURCES};
   return layouts.count;
 }

@@ -12,7 +12,8 @@ struct trax_layout {
   uint64_t hash; /* of its fields: types, names, sizes, order */
 };
 
-/* Makes an entry for each name of a section with fields, and for each enumeration whose numbers the fields hold.
+/* Makes an entry for each name of a section with fields, for operations and causes, whose numbers the fields hold, and
+   for the sources that give the fields their meaning.
    Returns the number of entries, which is less than TRAX_MOST_LAYOUTS. */
 size_t trax_layout_of(const struct trax_engine *engine, void *chip, struct trax_layout *layouts);
 
