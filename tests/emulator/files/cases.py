@@ -67,6 +67,24 @@ def moved(tools, _):
         tools.check(f"{label} after it", status == 0 and contents(folder / NAME) is None and len(contents(folder / "q" / "c") or "") == 20000, message)
 
 
+def resumed(tools, _):
+    """What a checkpoint has is complete, whether the host's files are those before or after the changes that belong to it."""
+    begin = "Q q\nF a 20000 1 644 0\nF b 10 2 644 0\n"
+    new = [line for name in "nk" for line in (f"o 1 {name} wct", "w 1 9 1", "c 1")]
+    for committed in (True, False):
+        folder = tools.fresh("guest-files", begin)
+        whole = contents(folder / NAME)
+        path = tools.write(tools.root / "script", "\n".join(["Q q", "R a c", "u b", *new, *1000 * ["f 1"], "R n m", "u k", "R c d", ""]))
+        tools.run(tools.simulate("--checkpoint", tools.root / "state", "--max-cycles", "600000"), folder, path)
+        tools.check("committed at the checkpoint", sorted(os.listdir(folder / "q")) == ["c", "k", "n"], os.listdir(folder / "q"))
+        if not committed:
+            tools.fresh("guest-files", begin)
+            tools.write(path, "\n".join(["Q q", "R a c", "u b", *new, *1000 * ["f 1"], "R n m", "u k", "R c d", ""]))
+        status, _, message = tools.run(tools.simulate("--resume", tools.root / "state"), folder, path)
+        tools.check(f"resumed, {committed}", status == 0 and sorted(os.listdir(folder / "q")) == ["d", "m"] and
+                    contents(folder / "q" / "d") == whole, (status, message, os.listdir(folder / "q")))
+
+
 def put_link(path):
     path.symlink_to("../../outside/a")
 
@@ -122,4 +140,4 @@ def library(tools, options):
         tools.check(f"input by the library: {way}", done == (0, "Q q\no 3\nw 5\nc 0\nS file 5 600\n", ""), done)
 
 
-PARTS = {"limits": limits, "moved": moved, "obstacles": obstacles, "library": library}
+PARTS = {"limits": limits, "moved": moved, "resumed": resumed, "obstacles": obstacles, "library": library}

@@ -3,7 +3,7 @@
 compiled for the machine and for the host. Results, error numbers and the folders that are left must be equal. A sequence follows from
 its seed. Parts: sequences; rights, by a user who may not write everything; checkpoints, a run in pieces; kills, a run with checkpoints
 that is killed and resumed; killed and limited, where each file is as a whole one of its versions; disturbed, while another process
-changes the folder; limits, moved, obstacles and library, which are fixed cases.
+changes the folder; limits, moved, resumed, obstacles and library, which are fixed cases.
 
   files_test.py BIN SOURCE [--library PROGRAM] [--count N] [--seed N] [--only PART] [--sim PROGRAM] [--reduce]"""
 
@@ -218,7 +218,7 @@ def pieces(tools, options):
     def perform(folder, script):
         whole, cycle, status, messages, resume = "", 0, 124, "", []
         while status == 124:
-            cycle += int(10 ** chance.uniform(4.5, 6.7))
+            cycle += int(10 ** chance.uniform(4, 6.4))
             state = tools.root / f"state{cycle}"
             status, output, message = tools.run(tools.simulate("--checkpoint", state, "--max-cycles", str(cycle), *resume), folder, script)
             whole, messages, resume = whole + output, messages + ended(message), ["--resume", state]
