@@ -167,10 +167,6 @@ static int rename_later(struct trax_calls *calls, const struct trax_place *from,
 
 static int rename_file(struct trax_calls *calls, const struct trax_place *from, const struct trax_place *to,
                        mode_t kind, mode_t to_kind, struct trax_name *name, const struct trax_name *to_name) {
-  const bool is_same =
-      name || to_name ? name && to_name && name->file == to_name->file : has_same_file(calls, from, to);
-  if (is_same)
-    return 0;
   const int failure = calls->deferred ? rename_later(calls, from, to, kind, to_kind, &name)
                                       : rename_at_once(calls, from, to, kind, to_kind, name != NULL);
   if (failure)

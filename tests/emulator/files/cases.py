@@ -39,7 +39,11 @@ def limits(tools, _):
         case = Case(*[line for name in files for line in (f"o 1 {name} wc", "w 1 5 3", "c 1")], begin=begin)
         for how in (("--engine", "functional"), deferred):
             run_same(tools, f"{len(names)} folders {how[0]}", case, *how, limit=100, kind=resource.RLIMIT_NOFILE)
-    ends = [line for i in range(14) for line in (f"o {i} n{i} bc", f"t {i} 4294967296", f"s {i} -1 2", f"w {i} 1 {i}", f"s {i} -5 2", f"r {i} 9")]
+    ends = [
+        line
+        for i in range(14)
+        for line in (f"o {i} n{i} bc", f"t {i} 4294967296", f"s {i} -1 2", f"w {i} 1 {i}", f"s {i} -5 2", f"r {i} 9")
+    ]
     for how in (("--engine", "functional"), deferred):
         run_same(tools, f"holes {how[0]}", Case(*ends), *how, limit=1 << 32, kind=resource.RLIMIT_AS)
 
@@ -51,20 +55,67 @@ def contents(path):
 def moved(tools, _):
     """What cannot be written under its new name stays under its old one: at the end, and at a checkpoint."""
     begin = "Q q\nF q/a 20000 1 644 0\nF q/b 10 2 644 0\n".replace("q/", "")
-    for label, lines in (("renamed", ["R a c"]), ("exchanged", ["R a c", "R b a", "R c b"]), ("replaced", ["R a c", "o 1 a wct", "w 1 9 1", "c 1"])):
+    for label, lines in (
+        ("renamed", ["R a c"]),
+        ("exchanged", ["R a c", "R b a", "R c b"]),
+        ("replaced", ["R a c", "o 1 a wct", "w 1 9 1", "c 1"]),
+    ):
         folder = tools.fresh("guest-files", begin)
         path = tools.write(tools.root / "script", "\n".join(["Q q", *lines, ""]))
         before = contents(folder / NAME)
         status, _, message = tools.run(tools.simulate("--checkpoint", tools.root / "none"), folder, path, 10000)
-        tools.check(f"{label} without room", status == 1 and "cannot be written" in message and contents(folder / NAME) == before and
-                    (folder / "q" / "b").exists() and len(os.listdir(folder / "q")) == 2, (status, message, os.listdir(folder / "q")))
+        tools.check(
+            f"{label} without room",
+            status == 1
+            and "cannot be written" in message
+            and contents(folder / NAME) == before
+            and (folder / "q" / "b").exists()
+            and len(os.listdir(folder / "q")) == 2,
+            (status, message, os.listdir(folder / "q")),
+        )
     for label, lines in (("open", ["o 1 a b", "R a c"]), ("written", ["o 1 a b", "w 1 5 5", "R a c"])):
         folder = tools.fresh("guest-files", begin)
         path = tools.write(tools.root / "script", "\n".join(["Q q", *lines, *1000 * ["f 1"], ""]))
-        status, _, message = tools.run(tools.simulate("--checkpoint", tools.root / "state", "--max-cycles", "400000"), folder, path)
-        tools.check(f"{label} at the checkpoint", status == 124 and contents(folder / NAME) == before, (status, os.listdir(folder / "q")))
+        status, _, message = tools.run(
+            tools.simulate("--checkpoint", tools.root / "state", "--max-cycles", "400000"), folder, path
+        )
+        tools.check(
+            f"{label} at the checkpoint",
+            status == 124 and contents(folder / NAME) == before,
+            (status, os.listdir(folder / "q")),
+        )
         status, _, message = tools.run(tools.simulate("--resume", tools.root / "state"), folder, path)
-        tools.check(f"{label} after it", status == 0 and contents(folder / NAME) is None and len(contents(folder / "q" / "c") or "") == 20000, message)
+        tools.check(
+            f"{label} after it",
+            status == 0 and contents(folder / NAME) is None and len(contents(folder / "q" / "c") or "") == 20000,
+            message,
+        )
+
+
+def resumed(tools, _):
+    """What a checkpoint has is complete, whether the host's files are those before or after the changes that belong to it."""
+    begin = "Q q\nF a 20000 1 644 0\nF b 10 2 644 0\n"
+    new = [line for name in "nk" for line in (f"o 1 {name} wct", "w 1 9 1", "c 1")]
+    for committed in (True, False):
+        folder = tools.fresh("guest-files", begin)
+        whole = contents(folder / NAME)
+        path = tools.write(
+            tools.root / "script",
+            "\n".join(["Q q", "R a c", "u b", *new, *1000 * ["f 1"], "R n m", "u k", "R c d", ""]),
+        )
+        tools.run(tools.simulate("--checkpoint", tools.root / "state", "--max-cycles", "600000"), folder, path)
+        tools.check(
+            "committed at the checkpoint", sorted(os.listdir(folder / "q")) == ["c", "k", "n"], os.listdir(folder / "q")
+        )
+        if not committed:
+            tools.fresh("guest-files", begin)
+            tools.write(path, "\n".join(["Q q", "R a c", "u b", *new, *1000 * ["f 1"], "R n m", "u k", "R c d", ""]))
+        status, _, message = tools.run(tools.simulate("--resume", tools.root / "state"), folder, path)
+        tools.check(
+            f"resumed, {committed}",
+            status == 0 and sorted(os.listdir(folder / "q")) == ["d", "m"] and contents(folder / "q" / "d") == whole,
+            (status, message, os.listdir(folder / "q")),
+        )
 
 
 def put_link(path):
@@ -87,8 +138,14 @@ def obstacles(tools, _):
             (folder.parent / "outside" / "a").write_text("SECRET")
             lines = {"renamed": ["o 1 t wct", "w 1 9 1", "R t a"]}.get(way, ["o 1 a wct", "w 1 9 1"])
             options = ("--checkpoint", tools.root / "none") if way == "checkpoint" else ("--engine", "functional")
-            with subprocess.Popen(tools.simulate(*options), cwd=folder, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                  bufsize=0) as process:
+            with subprocess.Popen(
+                tools.simulate(*options),
+                cwd=folder,
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                bufsize=0,
+            ) as process:
                 process.stdin.write("\n".join(["Q q", *lines, "Z", ""]).encode())
                 output = b""
                 while (b"R 0\n" if way == "renamed" else b"w 9\n") not in output:
@@ -104,10 +161,15 @@ def obstacles(tools, _):
             after = os.lstat(folder / NAME)
             failed = process.returncode == 1 and b"a: the program's file cannot be written" in message
             failed = failed if way in ("left open", "checkpoint") else f"c -1 {number}".encode() in output + rest
-            tools.check(f"{what}, {way}", failed and (before.st_ino, before.st_mode) == (after.st_ino, after.st_mode) and
-                        (folder.parent / "outside" / "a").read_text() == "SECRET" and
-                        sorted(os.listdir(folder.parent / "outside")) == ["a"] and not list(folder.rglob(".trax*")),
-                        (process.returncode, output + rest, message))
+            tools.check(
+                f"{what}, {way}",
+                failed
+                and (before.st_ino, before.st_mode) == (after.st_ino, after.st_mode)
+                and (folder.parent / "outside" / "a").read_text() == "SECRET"
+                and sorted(os.listdir(folder.parent / "outside")) == ["a"]
+                and not list(folder.rglob(".trax*")),
+                (process.returncode, output + rest, message),
+            )
 
 
 def library(tools, options):
@@ -122,4 +184,4 @@ def library(tools, options):
         tools.check(f"input by the library: {way}", done == (0, "Q q\no 3\nw 5\nc 0\nS file 5 600\n", ""), done)
 
 
-PARTS = {"limits": limits, "moved": moved, "obstacles": obstacles, "library": library}
+PARTS = {"limits": limits, "moved": moved, "resumed": resumed, "obstacles": obstacles, "library": library}

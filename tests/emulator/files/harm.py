@@ -34,7 +34,9 @@ class Versions:
             written, way = contents(size, seed), pick.randrange(4)
             path, flags = (name, "wct") if way == 0 else (name, "wa") if way == 1 else ("t", "wct")
             written = self.last[name] + written if way == 1 else written
-            self.lines += [f"o 1 {path} {flags}", f"w 1 {size} {seed}"] + (["R t " + name] if way == 2 else []) + ["c 1"]
+            self.lines += (
+                [f"o 1 {path} {flags}", f"w 1 {size} {seed}"] + (["R t " + name] if way == 2 else []) + ["c 1"]
+            )
             self.lines += [f"R t {name}"] if way == 3 else []
             self.all[name].append(written)
             if len(written) <= room:
@@ -59,7 +61,9 @@ def killed(tools, options):
         versions = Versions(options.seed + i)
         begin, script = versions.scripts()
         folder = tools.fresh("guest-files", begin)
-        with tools.start(tools.simulate("--engine", "functional"), folder, tools.write(tools.root / "script", script)) as process:
+        with tools.start(
+            tools.simulate("--engine", "functional"), folder, tools.write(tools.root / "script", script)
+        ) as process:
             time.sleep(pick.uniform(0, 0.06))
             process.kill()
             process.communicate()
@@ -79,13 +83,20 @@ def limited(tools, options):
         status, output, message = tools.run(tools.simulate("--engine", "functional"), folder, path, room)
         found = {name: (folder / "q" / name).read_bytes() for name in NAMES}
         begun = {name: text[0] for name, text in versions.all.items()}
-        tools.check(f"limited {options.seed + i}", status == 0 and output.count("c -1 27") == versions.failed and
-                    {name for name in NAMES if found[name] != versions.last[name] and len(begun[name]) <= room} == set(),
-                    (status, output.count("c -1 27"), versions.failed, message))
+        tools.check(
+            f"limited {options.seed + i}",
+            status == 0
+            and output.count("c -1 27") == versions.failed
+            and {name for name in NAMES if found[name] != versions.last[name] and len(begun[name]) <= room} == set(),
+            (status, output.count("c -1 27"), versions.failed, message),
+        )
         folder = tools.fresh("guest-files", begin)
         status, _, message = tools.run(tools.simulate("--checkpoint", tools.root / "none"), folder, path, room)
-        tools.check(f"limited with checkpoints {options.seed + i}", not wrong(versions, folder) and
-                    (status == 0 or "cannot be written" in message), (status, message, wrong(versions, folder)))
+        tools.check(
+            f"limited with checkpoints {options.seed + i}",
+            not wrong(versions, folder) and (status == 0 or "cannot be written" in message),
+            (status, message, wrong(versions, folder)),
+        )
     full(tools, options, count)
     print(f"limited: {count} runs", flush=True)
 
@@ -94,20 +105,34 @@ def full(tools, options, count):
     place = tools.root / "guest-files"
     subprocess.run(["rm", "-rf", place], check=True)
     place.mkdir()
-    if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=80k", "none", place], capture_output=True, check=False).returncode != 0:
+    if (
+        subprocess.run(
+            ["mount", "-t", "tmpfs", "-o", "size=80k", "none", place], capture_output=True, check=False
+        ).returncode
+        != 0
+    ):
         print("full: skipped, because no small file system can be mounted")
         return
     try:
         for i in range(count):
             versions = Versions(options.seed + i)
             begin, script = versions.scripts()
-            for how in (["--engine", "functional"], ["--checkpoint", tools.root / "none", "--checkpoint-every", "300000"]):
+            for how in (
+                ["--engine", "functional"],
+                ["--checkpoint", tools.root / "none", "--checkpoint-every", "300000"],
+            ):
                 subprocess.run(f"rm -rf {place}/*", shell=True, check=True)
                 (place / "q").mkdir()
                 tools.run([tools.host], place, tools.write(tools.root / "script", begin))
-                status, output, message = tools.run(tools.simulate(*how), place, tools.write(tools.root / "script", script))
-                tools.check(f"full {how[0]} {options.seed + i}", not wrong(versions, place) and
-                            ("c -1 28" in output or status == 0 or "cannot be written" in message), (status, output[-200:], message))
+                status, output, message = tools.run(
+                    tools.simulate(*how), place, tools.write(tools.root / "script", script)
+                )
+                tools.check(
+                    f"full {how[0]} {options.seed + i}",
+                    not wrong(versions, place)
+                    and ("c -1 28" in output or status == 0 or "cannot be written" in message),
+                    (status, output[-200:], message),
+                )
                 tools.check(f"full {how[0]} {options.seed + i}: what it left", not list(place.rglob(".trax-*")))
     finally:
         subprocess.run(["umount", place], check=True)
@@ -124,8 +149,15 @@ def disturbed(tools, options):
         (outside / "secret").write_text("SECRET" * 1000)
         (outside / "a").write_text("SECRET" * 2)
         before = listing(outside)
-        kind, how = (("all", ["--engine", "functional"]), ("pending", ["--checkpoint", work / "state", "--checkpoint-every", "300000"]))[i % 2]
-        lines = [line for number in range(60 if i % 2 else 200) for line in ["Q q", *sequences.Sequence(1000 * seed + number, kind, tools.huge, options.small).lines]]
+        kind, how = (
+            ("all", ["--engine", "functional"]),
+            ("pending", ["--checkpoint", work / "state", "--checkpoint-every", "300000"]),
+        )[i % 2]
+        lines = [
+            line
+            for number in range(60 if i % 2 else 200)
+            for line in ["Q q", *sequences.Sequence(1000 * seed + number, kind, tools.huge, options.small).lines]
+        ]
         script = tools.write(tools.root / "script", "\n".join([*lines, ""]))
         with subprocess.Popen([tools.host, "DISTURB", "20", str(seed)], cwd=inside) as other:
             try:
@@ -140,7 +172,9 @@ def disturbed(tools, options):
 
 
 def listing(folder):
-    return {str(path): path.read_bytes() for path in pathlib.Path(folder).rglob("*") if path.is_file()} | {"count": len(os.listdir(folder))}
+    return {str(path): path.read_bytes() for path in pathlib.Path(folder).rglob("*") if path.is_file()} | {
+        "count": len(os.listdir(folder))
+    }
 
 
 PARTS = {"killed": killed, "limited": limited, "disturbed": disturbed}

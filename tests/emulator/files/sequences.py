@@ -42,7 +42,9 @@ class Sequence:
             if "/" in name and name.rsplit("/", 1)[0] not in made or self.chance(3):
                 continue
             hole = pick.choice((0, 0, 0, 0, 5000, self.far[0] - 30000))
-            self.begin.append(f"F {name} {pick.choice(SIZES)} {pick.randrange(100)} {pick.choice(('644', '600', '640'))} {hole}")
+            self.begin.append(
+                f"F {name} {pick.choice(SIZES)} {pick.randrange(100)} {pick.choice(('644', '600', '640'))} {hole}"
+            )
             made.add(name)
         if "a" in made and self.chance(3):
             self.begin.append("H h a")
@@ -58,7 +60,9 @@ class Sequence:
                     rights.append(f"P {name} {pick.choice(('444', '000'))}")
             for folder in sorted(made & {"d", "e"}):
                 if self.chance(3):  # what is there cannot be written: the program's files are replaced
-                    rights += [f"P {name} 444" for name in sorted(made) if name.startswith(folder + "/") and name != "d/e"]
+                    rights += [
+                        f"P {name} 444" for name in sorted(made) if name.startswith(folder + "/") and name != "d/e"
+                    ]
                     rights.append(f"P {folder} {pick.choice(('555', '444'))}")
         self.begin += rights
 
@@ -66,7 +70,9 @@ class Sequence:
         pick = self.random
         name = pick.choice(LONG) if self.chance(25) else pick.choice(NAMES)
         if self.chance(8):
-            name = pick.choice(("l", "ll", "loop", "l2", "d", "e", ".", "..", "d/.", "ll/b", "d/..", "''", "none/x", "a/x"))
+            name = pick.choice(
+                ("l", "ll", "loop", "l2", "d", "e", ".", "..", "d/.", "ll/b", "d/..", "''", "none/x", "a/x")
+            )
         if self.chance(8):
             name = pick.choice(("./", "d/../", ".//", "ll/../", "d/./../", "e/../")) + name
         if self.chance(12):
@@ -74,7 +80,18 @@ class Sequence:
         return "''" if os.path.normpath(name).startswith("..") else name  # nothing above the sequence's folder
 
     def step(self):
-        kinds = {"open": 6, "read": 4, "write": 7, "seek": 3, "truncate": 2, "close": 5, "look": 3, "unlink": 3, "rename": 5, "folder": 3}
+        kinds = {
+            "open": 6,
+            "read": 4,
+            "write": 7,
+            "seek": 3,
+            "truncate": 2,
+            "close": 5,
+            "look": 3,
+            "unlink": 3,
+            "rename": 5,
+            "folder": 3,
+        }
         getattr(self, "do_" + self.random.choices(tuple(kinds), tuple(kinds.values()))[0])()
 
     def slot(self):
@@ -86,7 +103,9 @@ class Sequence:
         slot = self.random.randrange(16)
         if slot in self.open:
             self.do_close(slot)
-        flags = self.random.choice(("r", "w", "b", "b")) + "".join(c for c, one in (("c", 2), ("t", 3), ("x", 8), ("a", 5)) if self.chance(one))
+        flags = self.random.choice(("r", "w", "b", "b")) + "".join(
+            c for c, one in (("c", 2), ("t", 3), ("x", 8), ("a", 5)) if self.chance(one)
+        )
         if "x" in flags and "c" not in flags:
             flags = flags.replace("x", "")
         name = self.name()
@@ -126,7 +145,9 @@ class Sequence:
         self.lines.append(f"t {self.slot()} {size}")
 
     def do_look(self):
-        self.lines.append(self.random.choice((f"f {self.slot()}", f"S {self.name()}", f"L {self.name()}", f"S {self.name()}")))
+        self.lines.append(
+            self.random.choice((f"f {self.slot()}", f"S {self.name()}", f"L {self.name()}", f"S {self.name()}"))
+        )
         if self.chance(4):
             name = self.name()
             self.lines.append(f"i {name} {self.random.choice(('./', 'd/../')) + name}")
@@ -143,7 +164,11 @@ class Sequence:
     def is_link(self, name):
         """A link itself, which a run with checkpoints does not change; or a folder."""
         last = [part for part in name.split("/") if part not in (".", "")]
-        return not last or last[-1] in ("l", "ll", "dead", "loop", "l2", "d", "e", "f", "..", "''") or name.endswith(("/", "/."))
+        return (
+            not last
+            or last[-1] in ("l", "ll", "dead", "loop", "l2", "d", "e", "f", "..", "''")
+            or name.endswith(("/", "/."))
+        )
 
     def do_rename(self):
         one, other = self.name(), self.name()
