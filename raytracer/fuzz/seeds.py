@@ -76,11 +76,13 @@ add_case("trax-scene-mesh", "glass:2", ("a.ply", PLY), ("a.png", image))
 add_case("trax-scene-mesh", "", ("a.ply", BINARY_PLY))
 add_case("trax-scene-mesh", "", ("a.obj", gzip.compress(OBJ, mtime=0)), ("a.mtl", MTL), ("a.png", image))
 add_case("trax-scene-mesh", "", ("a.ply", lzma.compress(PLY)), ("a.png", image))
-GLTF = b'{"scenes":[{"nodes":[0]}],"nodes":[{"children":[1,2]},{},{"mesh":0}],"extensionsRequired":["KHR_texture_transform"]}'
+GLTF = (b'{"scenes":[{"nodes":[0]}],"nodes":[{"children":[1,2]},{},{"mesh":0}],'
+        b'"extensionsRequired":["KHR_texture_transform"]}')
 GLTF_1 = b'{"scenes":{"s":{"nodes":["a"]}},"nodes":{"a":{"children":["b"]},"b":{}}}'
 add_case("trax-scene-mesh", "", ("a.gltf", GLTF))
 add_case("trax-scene-mesh", "", ("a.gltf", GLTF_1))
-add_case("trax-scene-mesh", "", ("a.glb", b"glTF" + struct.pack("<4I", 2, 20 + len(GLTF), len(GLTF), 0x4E4F534A) + GLTF))
+glb = b"glTF" + struct.pack("<4I", 2, 20 + len(GLTF), len(GLTF), 0x4E4F534A) + GLTF
+add_case("trax-scene-mesh", "", ("a.glb", glb))
 comb = b"".join(b"v %d %d 0\n" % (i, 5 * (i // 2 % 2)) for i in range(40)) + b"f " + b" ".join(b"%d" % (i + 1) for i in range(40))
 add_case("trax-scene-mesh", "", ("a.obj", comb))
 

@@ -151,7 +151,8 @@ def main():
             return SKIPPED if not failures else 1
         for depth in (30, 24):
             reader, writer = os.pipe()
-            display = subprocess.Popen(["Xvfb", "-displayfd", str(writer), "-screen", "0", f"1280x1024x{depth}", "-nolisten", "tcp"],
+            display = subprocess.Popen(["Xvfb", "-displayfd", str(writer), "-screen", "0", f"1280x1024x{depth}",
+                                        "-nolisten", "tcp"],
                                        pass_fds=[writer], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
             os.close(writer)
             os.environ["DISPLAY"] = ":" + os.read(reader, 100).decode().strip()
