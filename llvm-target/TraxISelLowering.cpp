@@ -75,6 +75,7 @@ TraxTargetLowering::TraxTargetLowering(const TargetMachine &TM, const TraxSubtar
                       ISD::LROUND, ISD::LLROUND, ISD::LRINT, ISD::LLRINT},
                      MVT::f32, Expand);
   setOperationAction({ISD::FP_TO_SINT_SAT, ISD::FP_TO_UINT_SAT}, MVT::i32, Custom);
+  setOperationAction(ISD::FCANONICALIZE, MVT::f32, Custom); // a part of conversions to bfloat
   for (MVT VT : {MVT::f16, MVT::bf16}) {
     setLoadExtAction(ISD::EXTLOAD, MVT::f32, VT, Expand);
     setTruncStoreAction(MVT::f32, VT, Expand);
@@ -148,6 +149,8 @@ SDValue TraxTargetLowering::LowerOperation(SDValue Op, SelectionDAG &DAG) const 
   case ISD::FP_TO_SINT_SAT:
   case ISD::FP_TO_UINT_SAT:
     return lowerFPToIntSat(Op, DAG);
+  case ISD::FCANONICALIZE:
+    return DAG.getNode(ISD::FMINNUM, SDLoc(Op), MVT::f32, Op.getOperand(0), Op.getOperand(0));
   case ISD::VASTART:
     return lowerVAStart(Op, DAG);
   case ISD::FRAMEADDR:

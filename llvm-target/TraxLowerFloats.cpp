@@ -53,13 +53,50 @@ static Value *createCanonical(IRBuilder<> &Builder, Value *X) {
   return Builder.CreateSelect(Builder.CreateFCmpUNO(X, X), ConstantFP::getQNaN(Ty), X);
 }
 
+/// The lesser or the greater number, -0 below +0; a NaN if there is one.
+static Value *createExtreme(IRBuilder<> &Builder, Value *X, Value *Y, bool IsLeast) {
+  Type *Ty = X->getType();
+  Type *Bits = Ty->getWithNewType(Builder.getIntNTy(Ty->getScalarSizeInBits()));
+  Value *First = IsLeast ? Builder.CreateFCmpOLT(X, Y) : Builder.CreateFCmpOGT(X, Y);
+  Value *XBits = Builder.CreateBitCast(X, Bits), *YBits = Builder.CreateBitCast(Y, Bits);
+  Value *Both =
+      IsLeast ? Builder.CreateOr(XBits, YBits) : Builder.CreateAnd(XBits, YBits); // of equal numbers, or of zeros
+  Value *Number = Builder.CreateSelect(Builder.CreateFCmpOEQ(X, Y), Builder.CreateBitCast(Both, Ty),
+                                       Builder.CreateSelect(First, X, Y));
+  return Builder.CreateSelect(Builder.CreateFCmpUNO(X, Y), ConstantFP::getQNaN(Ty), Number);
+}
+
 static Value *createOther(IRBuilder<> &Builder, IntrinsicInst &Call) {
   if (auto *Constrained = dyn_cast<ConstrainedFPIntrinsic>(&Call))
     return createPlain(Builder, *Constrained);
   if (Call.getIntrinsicID() == Intrinsic::canonicalize)
     return createCanonical(Builder, Call.getArgOperand(0));
-  if (Call.getIntrinsicID() != Intrinsic::fptrunc_round)
+  const Type *Operand = Call.arg_size() ? Call.getArgOperand(0)->getType()->getScalarType() : nullptr;
+  const bool IsHalf = Operand && (Operand->isHalfTy() || Operand->isBFloatTy());
+  switch (Call.getIntrinsicID()) {
+  case Intrinsic::arithmetic_fence:
+    return IsHalf ? Call.getArgOperand(0) : nullptr;
+  case Intrinsic::lrint:
+  case Intrinsic::llrint:
+  case Intrinsic::lround:
+  case Intrinsic::llround:
+    return IsHalf ? Builder.CreateIntrinsic(Call.getType(), Call.getIntrinsicID(),
+                                            {Builder.CreateFPExt(Call.getArgOperand(0), Builder.getFloatTy())})
+                  : nullptr;
+  case Intrinsic::minimum:
+  case Intrinsic::maximum: // selection expands these of binary32 numbers only
+    return Operand->isFloatTy() || IsHalf ? nullptr
+                                          : createExtreme(Builder, Call.getArgOperand(0), Call.getArgOperand(1),
+                                                          Call.getIntrinsicID() == Intrinsic::minimum);
+  case Intrinsic::set_rounding:
+    Call.getContext().diagnose(
+        DiagnosticInfoUnsupported(*Call.getFunction(), "the machine rounds to nearest", Call.getDebugLoc()));
+    return PoisonValue::get(Builder.getInt32Ty()); // no value is used
+  case Intrinsic::fptrunc_round:
+    break;
+  default:
     return nullptr;
+  }
   const Metadata *Mode = cast<MetadataAsValue>(Call.getArgOperand(1))->getMetadata();
   if (cast<MDString>(Mode)->getString() != "round.tonearest")
     Call.getContext().diagnose(
@@ -78,18 +115,19 @@ public:
   void getAnalysisUsage(AnalysisUsage &AU) const override { AU.setPreservesCFG(); }
 
   bool runOnFunction(Function &F) override {
-    bool Changed = false;
+    bool Changed = F.hasFnAttribute(Attribute::StrictFP);
+    F.removeFnAttr(Attribute::StrictFP); // arguments are converted strictly, too
     for (Instruction &I : make_early_inc_range(instructions(F))) {
       auto *Call = dyn_cast<IntrinsicInst>(&I);
       IRBuilder<> Builder(&I);
       Value *Other = Call ? createOther(Builder, *Call) : nullptr;
       if (!Other)
         continue;
-      if (auto *Operation = dyn_cast<Instruction>(Other))
+      if (auto *Operation = dyn_cast<Instruction>(Other); Operation && Operation != Call->getArgOperand(0))
         if (isa<FPMathOperator>(Operation) && isa<FPMathOperator>(Call))
           Operation->copyFastMathFlags(Call);
-      Other->takeName(Call);
-      Call->replaceAllUsesWith(Other);
+      if (!Call->use_empty())
+        Call->replaceAllUsesWith(Other);
       Call->eraseFromParent();
       Changed = true;
     }

@@ -68,3 +68,18 @@ define float @rounded(double %a) {
   %r = call float @llvm.fptrunc.round.f32.f64(double %a, metadata !"round.tonearest")
   ret float %r
 }
+
+; CHECK-LABEL: sum_bfloat:
+; CHECK: fadd
+define bfloat @sum_bfloat(bfloat %a, bfloat %b) {
+  %r = fadd bfloat %a, %b
+  ret bfloat %r
+}
+
+; CHECK-LABEL: rounded_half:
+; CHECK: lrintf
+define i32 @rounded_half(half %a) {
+  %f = call half @llvm.arithmetic.fence.f16(half %a)
+  %r = call i32 @llvm.lrint.i32.f16(half %f)
+  ret i32 %r
+}
