@@ -6,6 +6,7 @@
 #include "llvm/MC/MCParser/AsmLexer.h"
 #include "llvm/MC/MCParser/MCAsmParser.h"
 #include "llvm/MC/MCStreamer.h"
+#include "llvm/MC/MCSymbol.h"
 #include "llvm/Support/ErrorHandling.h"
 #include "llvm/Support/Signals.h"
 #include "llvm/Support/SourceMgr.h"
@@ -119,8 +120,10 @@ void trax::guardCrashes(const char *Program, bool Always) {
   for (size_t I = 0; I < std::size(Signals); I++) {
     struct sigaction Earlier;
     sigaction(Signals[I], &Action, &Earlier);
-    if (Earlier.sa_handler != onCrash)
-      Before[I] = Earlier;
+    if (Earlier.sa_handler == onCrash)
+      continue;
+    Before[I] = Earlier;
+    Before[I].sa_flags |= SA_ONSTACK;
   }
   // What cannot be allocated is a crash like others, without words of the library's.
   install_bad_alloc_error_handler([](void *, const char *, bool) { abort(); });
@@ -216,6 +219,27 @@ std::optional<int64_t> valueAhead(MCAsmParser &Parser) {
   return Known ? std::optional(Number) : std::nullopt;
 }
 
+/// A cycle of aliases would be followed when the object is written, without a place.
+void checkAlias(MCAsmParser &Parser, SMLoc Loc) {
+  AsmToken Next[2];
+  if (Parser.getTok().isNot(AsmToken::Identifier) || Parser.getLexer().peekTokens(Next) != 2 ||
+      Next[1].isNot(AsmToken::Identifier))
+    return;
+  StringRef Name = Next[1].getIdentifier();
+  for (unsigned Steps = 0; Steps < 1000; Steps++) {
+    if (Name == Parser.getTok().getIdentifier()) {
+      Parser.Error(Loc, "an alias of itself");
+      return;
+    }
+    const MCSymbol *Symbol = Parser.getContext().lookupSymbol(Name);
+    const auto *Reference =
+        Symbol && Symbol->isVariable() ? dyn_cast<MCSymbolRefExpr>(Symbol->getVariableValue(false)) : nullptr;
+    if (!Reference)
+      return;
+    Name = Reference->getSymbol().getName();
+  }
+}
+
 } // namespace
 
 void trax::AsmLimits::check(const MCAsmParser &Parser, SMLoc Loc) {
@@ -247,6 +271,8 @@ void trax::AsmLimits::check(const MCAsmParser &Parser, SMLoc Loc) {
 void trax::AsmLimits::checkDirective(MCAsmParser &Parser, StringRef Name, SMLoc Loc) {
   const std::string Lower = Name.lower();
   const bool Counted = Lower == ".rept" || Lower == ".rep", Listed = Lower == ".irp" || Lower == ".irpc";
+  if (Lower == ".weakref")
+    checkAlias(Parser, Loc);
   if (Lower == ".bundle_align_mode" && valueAhead(Parser).value_or(0) > 16)
     stopAssembly(&Parser.getSourceManager(), Loc, "bundles of more than 64 kB");
   const bool Macro = Lower == ".macro",

@@ -44,6 +44,8 @@ public:
 /// What .skip, .org and alignment fill is a number until here, and would now be written.
 void TraxAsmBackend::finishLayout(const MCAssembler &Asm) const {
   constexpr uint64_t Most = 256 << 20;
+  MCContext &Context = Asm.getContext();
+  const SourceMgr *Sources = Context.getSourceManager() ? Context.getSourceManager() : Context.getInlineSourceManager();
   uint64_t Filled = 0;
   for (const MCSection &Section : Asm) {
     const bool Written = !Section.isVirtualSection();
@@ -60,11 +62,11 @@ void TraxAsmBackend::finishLayout(const MCAssembler &Asm) const {
         continue;
       Filled += Written ? std::min(Size, Most + 1) : 0;
       if (Written ? Filled > Most : Size > UINT32_MAX)
-        trax::stopAssembly(Asm.getContext().getSourceManager(), Place,
+        trax::stopAssembly(Sources, Place,
                            Written ? "more than 256 MB of an object are filled" : "is larger than the address space");
     }
     if (Written && Rest > Most)
-      trax::stopAssembly(Asm.getContext().getSourceManager(), SMLoc(), "more than 256 MB of an object are filled");
+      trax::stopAssembly(Sources, SMLoc(), "more than 256 MB of an object are filled");
   }
 }
 

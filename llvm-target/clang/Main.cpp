@@ -37,6 +37,7 @@
 #include "llvm/Support/VirtualFileSystem.h"
 #include "llvm/TargetParser/Host.h"
 
+#include <csignal>
 #include <cstdlib>
 #include <string>
 #include <unistd.h>
@@ -149,6 +150,10 @@ void checkFiles(Compilation &C, DiagnosticsEngine &Diags) {
   trax_error Reason;
   for (const std::string &Input : C.getArgs().getAllArgValues(options::OPT_INPUT))
     trax_files_input(&Files, nullptr, Input.c_str());
+  for (const unsigned Id : {options::OPT_fprofile_sample_use_EQ, options::OPT_fprofile_instr_use_EQ,
+                            options::OPT_fprofile_use_EQ, options::OPT_include, options::OPT_imacros})
+    for (const std::string &Input : C.getArgs().getAllArgValues(Id)) // not all are read whenever they are given
+      trax_files_input(&Files, nullptr, Input.c_str());
   for (const Command &Job : C.getJobs())
     for (const std::string &Output : Job.getOutputFilenames())
       if (!Output.empty() && !llvm::is_contained(C.getTempFiles(), Output))
@@ -234,6 +239,7 @@ int drive(ArgVector Args, llvm::StringSaver &Strings, bool &Executed) {
 
 int main(int Argc, char **Argv) {
   const llvm::InitLLVM Init(Argc, Argv);
+  signal(SIGXFSZ, SIG_IGN); // to LLVM a file beyond the size limit is a crash, and not a full disk
   llvm::setBugReportMsg("PLEASE attach the command line, the preprocessed source and this trace to a bug report.\n");
   if (llvm::sys::Process::FixupStandardFileDescriptors())
     return 1;

@@ -12,6 +12,7 @@ import pathlib
 import sys
 import urllib.parse
 
+from trax_eval.outputs import IsInput, write_output
 from trax_eval.util import Problem, check_files, complain
 
 from . import estimates, rays, tables
@@ -179,16 +180,6 @@ def page(results, paper, base, folder, gnuplot="gnuplot"):
     return "<!DOCTYPE html>\n" + el("html", head, body, lang="en") + "\n"
 
 
-def write(path, text):
-    """Beside its name, then renamed: the page is whole or not there."""
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.part")
-    try:
-        temporary.write_text(text, encoding="utf-8", errors="backslashreplace")
-        os.replace(temporary, path)
-    finally:
-        temporary.unlink(missing_ok=True)
-
-
 def new_parser():
     parser = argparse.ArgumentParser(prog="trax-eval report", description="Makes one HTML page of a file of results.")
     parser.add_argument("results", type=pathlib.Path, metavar="RESULTS.json")
@@ -209,8 +200,9 @@ def main(arguments=None):
         check_files([options.results], [output])
         results, paper = read_results(options.results), Paper(options.paper)
         folder = output.absolute().parent
-        write(output, page(results, paper, options.results.absolute().parent, folder, options.gnuplot))
-    except (Problem, ResultsError, PlotError) as error:
+        text = page(results, paper, options.results.absolute().parent, folder, options.gnuplot)
+        write_output(output, text.encode("utf-8", errors="backslashreplace"), foreign=True)
+    except (Problem, ResultsError, PlotError, IsInput) as error:
         complain("trax-eval report", error)
         return 1
     except OSError as error:

@@ -5,10 +5,10 @@ import json
 import math
 import os
 import pathlib
-import socket
 import stat
 import sys
-import threading
+
+from .outputs import write_output
 
 
 class Problem(Exception):
@@ -50,16 +50,10 @@ def hash_file(path):
 def write_file(path, data):
     """Replaces path at once by data (bytes or text). A process that dies on the way leaves path as it was."""
     path = pathlib.Path(path)
-    beside = path.with_name(f".{path.name}.{socket.gethostname()}.{os.getpid()}.{threading.get_native_id()}")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        with open(beside, "wb") as file:
-            file.write(data.encode() if isinstance(data, str) else data)
-            file.flush()
-            os.fsync(file.fileno())
-        os.replace(beside, path)
+        write_output(path, data)
     except OSError as error:
-        beside.unlink(missing_ok=True)
         raise Problem(f"{path}: {error.strerror}") from error
 
 
