@@ -16,7 +16,6 @@
 #include "engine/run.h"
 #include "trax/input.h"
 #include "trax/output.h"
-#include "trax/reads.h"
 
 #include <fcntl.h>
 #include <inttypes.h>
@@ -305,7 +304,6 @@ static trax_status read_checkpoint(struct trax_checkpoint *checkpoint, trax_erro
   if (status == TRAX_OK)
     status = expand_file(checkpoint, &input, error);
   trax_input_close(&input);
-  trax_reads_drop_path(checkpoint->options.resume); /* a later checkpoint of the process may take its place */
   return status;
 }
 
