@@ -14,9 +14,10 @@ struct trax_file_use {
   bool is_output;
   /* ANY_NUMBER: may be written any number of times; STREAM: a standard stream redirected to a file. */
   enum { ANY_NUMBER, STREAM, REGULAR } kind;
-  dev_t device;                              /* of the file, or of its nearest folder that exists */
+  dev_t device; /* of the file, or of its nearest folder that exists */
   ino_t inode;
-  char *rest; /* the part of the path below that folder, which does not exist yet; "" if the file exists */
+  struct timespec changed; /* its change time */
+  char *rest;              /* the part of the path below that folder, which does not exist yet; "" if the file exists */
 };
 
 /* --- which file a path names --- */
@@ -79,6 +80,7 @@ static bool identify(struct trax_file_use *use) {
   use->kind = !S_ISREG(status.st_mode) ? ANY_NUMBER : stream >= 0 ? STREAM : REGULAR;
   use->device = status.st_dev;
   use->inode = status.st_ino;
+  use->changed = status.st_ctim;
   if (!use->is_output)
     trax_reads_note(&status);
   return (use->rest = strdup("")) != NULL;
@@ -159,7 +161,8 @@ trax_status trax_files_check(const trax_files *files, trax_error *error) {
     return trax_fail(error, "out of memory");
   for (size_t i = 0; i < files->count; i++) {
     const struct trax_file_use *output = &files->uses[i];
-    const struct stat file = {.st_dev = output->device, .st_ino = output->inode, .st_mode = S_IFREG};
+    const struct stat file = {
+        .st_dev = output->device, .st_ino = output->inode, .st_ctim = output->changed, .st_mode = S_IFREG};
     const bool exists = output->kind == REGULAR && !*output->rest;
     for (size_t j = 0; output->is_output && j < files->count; j++) {
       const struct trax_file_use *other = &files->uses[j];

@@ -11,6 +11,7 @@
 /* The list is a file in memory, to which every process appends whole records: they need no lock. */
 struct record {
   uint64_t device, inode;
+  uint64_t changed; /* its change time in ns: a later file may have the inode of one that is gone */
   uint64_t kind;
 };
 
@@ -55,8 +56,12 @@ static int list_descriptor(void) {
   return list;
 }
 
+static uint64_t change_time(const struct stat *file) {
+  return (uint64_t)file->st_ctim.tv_sec * 1000000000u + (uint64_t)file->st_ctim.tv_nsec;
+}
+
 static void append(const struct stat *file, uint64_t kind) {
-  const struct record added = {file->st_dev, file->st_ino, kind};
+  const struct record added = {file->st_dev, file->st_ino, change_time(file), kind};
   if (!has_begun || !S_ISREG(file->st_mode) || list_descriptor() < 0)
     return;
   if (write(list_descriptor(), &added, sizeof added) != sizeof added)
@@ -92,7 +97,7 @@ bool trax_reads_has(const struct stat *file) {
   for (off_t at = 0; (got = pread(list_descriptor(), records, sizeof records, at)) > 0; at += got)
     for (size_t i = 0; i < (size_t)got / sizeof *records; i++)
       if (records[i].device == file->st_dev && records[i].inode == file->st_ino)
-        found = records[i].kind == READ;
+        found = records[i].kind == READ && (found || records[i].changed == change_time(file));
   return found;
 }
 

@@ -111,8 +111,8 @@ static const trax_option rows[] = {
     {"stats", .argument = "FILE.json", OUTPUT(stats, NULL), .meaning = "writes every statistic of the run"},
     {"explore", .argument = "FILE.html", OUTPUT(explain.explore, NULL),
      .meaning = "writes a page that explains the whole run, pixel by pixel too, for a browser"},
-    {"source-folder", .argument = "DIR", PARSED(take_source_folder, explain),
-     .meaning = "lets that page contain the sources in DIR, too (repeatable)"},
+    {"source-folder", .argument = "FOLDER", PARSED(take_source_folder, explain),
+     .meaning = "lets that page contain the sources in FOLDER, too (repeatable)"},
     {"ray-trace", .argument = "FILE", OUTPUT(ray_trace, NULL),
      .meaning = "every ray with what it found, by the native twin; CSV for FILE.csv, else binary; alone,\n"
                 "it renders nothing"},

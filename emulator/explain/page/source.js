@@ -73,7 +73,7 @@ function drawSource({ stats, run, causes, lines }) {
   };
   choice.addEventListener("change", show);
   byId("source-files").append(element("summary", {}, `${Object.keys(run.sources).length} source files are copied into this page`), element("p", {}, Object.keys(run.sources).join(", ")),
-    run.left_out ? element("p", {}, `Left out, since they do not lie in the program's folder: ${run.left_out}. --source-folder DIR allows others.`) : undefined);
+    run.left_out ? element("p", {}, `Left out, since they do not lie in the program's folder: ${run.left_out}. --source-folder FOLDER allows others.`) : undefined);
   const first = lines.find((line) => line.name);
   if (first) choice.value = String(ranked.findIndex(([file]) => file === fileOf(first.name)));
   toLine(show(), first ? numberOf(first.name) : 0);

@@ -12,7 +12,12 @@ import threading
 
 MOST_LINKS = 40
 DESCRIPTORS = re.compile(r"/dev/(?:(stdin)|(stdout)|(stderr)|fd/(\d{1,7}))|/proc/self/fd/(\d{1,7})")
-read = set()  # (device, inode) of every file that this process has opened for reading
+read = set()  # identities of all files that this process has opened for reading
+
+
+def identity(found):
+    """Of a file, by its status. A later file may have the inode of one that is gone."""
+    return found.st_dev, found.st_ino, found.st_ctime_ns
 
 
 class IsInput(Exception):
@@ -29,7 +34,7 @@ def note(event, arguments):
         found = os.stat(arguments[0])
     except (OSError, ValueError):
         return
-    read.add((found.st_dev, found.st_ino))
+    read.add(identity(found))
 
 
 sys.addaudithook(note)
@@ -78,7 +83,7 @@ def check_target(target, path, foreign):
         return None
     if not stat.S_ISREG(found.st_mode):
         fail(errno.EISDIR if stat.S_ISDIR(found.st_mode) else errno.EEXIST, path)
-    if foreign and (found.st_dev, found.st_ino) in read:
+    if foreign and identity(found) in read:
         raise IsInput(f"{path}: is an input and the output")
     if not os.access(target, os.W_OK):
         fail(errno.EACCES, path)

@@ -1,6 +1,6 @@
 /* The list of the files that were read. No output may be one of them, and many of them become known late: a header that
    a source includes, a texture that a mesh refers to. So each input is noted when it is opened, and trax_output_open
-   and trax_output_commit compare the output with all of them, by device and inode.
+   and trax_output_commit compare the output with all of them, by device, inode and change time.
 
    The list belongs to a program of this project, and to its children from fork. A program that starts others for one
    purpose, as the compiler starts the linker, shares its list with them. A program of others that uses the emulator as
