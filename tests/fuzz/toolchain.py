@@ -89,6 +89,7 @@ class Target:
         self.build = pathlib.Path(build).resolve()
         self.clang, self.clangxx, self.sim = (self.build / "bin" / name for name in ("clang", "clang++", "trax-sim"))
         self.flags = ["--target=trax", "-w", "-mllvm", "-verify-machineinstrs", *flags]
+        self.compiled = {}  # object: (arguments, language)
         for program in (self.clang, self.sim, self.build / "lib/trax/libc.a"):
             if not program.exists():
                 raise SetupError(f"{program} does not exist: build first, or name the build directory with --build")
@@ -106,17 +107,23 @@ class Target:
         result = run([compiler, *self.flags, *arguments])
         if result.status != 0:
             raise Failure(f"the compiler {result.reason()}", result.command)
+        if "-o" in arguments:
+            self.compiled[arguments[arguments.index("-o") + 1]] = arguments, language
         return result
 
     def link(self, objects, image):
         """Links with the stack in local memory, or in global memory if the linker says that it does not fit. Returns
-        which of them."""
+        which of them. The objects are compiled for it again then."""
         command = [self.clang, *self.flags, *objects, "-o", image]
         result = run(command)
         if result.status == 0:
             return "local"
         if "stack" not in result.error:
             raise Failure(f"the linker {result.reason()}", result.command)
+        for name in objects:
+            if name in self.compiled:
+                arguments, language = self.compiled[name]
+                self.compile([*arguments, "-mstack=global"], language)
         result = run([*command, "-mstack=global", "-mstack-size=1048576"])
         if result.status != 0:
             raise Failure(f"the linker {result.reason()}", result.command)

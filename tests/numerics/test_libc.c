@@ -824,7 +824,9 @@ static void formatted_doubles(void **unused) {
   static char got[SIZE];
   rt_snprintf(got, SIZE, "%#.2g %#.3g %#.2g %#g %#.1g %#.3g", 99.6, 999.6, 100.0, 0.5, 2.0, 1e-5);
   assert_string_equal(got, "1.0e+02 1.00e+03 1.0e+02 0.500000 2. 1.00e-05");
-  CHECK_FORMAT("%Lf|%lf", (long double)1.5, 1.5);
+  /* The TP's long double is double; the host passes its own in other places. */
+  rt_snprintf(got, SIZE, "%Lf|%lf", 1.5, 2.5);
+  assert_string_equal(got, "1.500000|2.500000");
 }
 
 static void truncated_output(void **state) {

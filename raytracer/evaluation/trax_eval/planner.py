@@ -177,9 +177,9 @@ class Planner:
                 return "-" + hash_value([point.scene, point.program.file, machine, point.size, point.mode, point.series, point.lockstep, point.ray_kinds, point.workload,
                                          [pair for pair in point.settings if option_of(pair[0])], point.error, point.hits]), None
             job = make_job(self.tools, inputs, point)
-            return key_of(job) if self.only_look else write_job(self.out, job), None
         except Problem as problem:
             return None, str(problem)
+        return key_of(job) if self.only_look else write_job(self.out, job), None
 
 
 def label(point):
