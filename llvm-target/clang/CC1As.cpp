@@ -208,7 +208,10 @@ int trax::runCC1As(llvm::ArrayRef<const char *> RawArgs, const char *) {
   IntrusiveRefCntPtr<DiagnosticOptions> Options(new DiagnosticOptions());
   DiagnosticsEngine Diags(new DiagnosticIDs(), &*Options, new TextDiagnosticPrinter(llvm::errs(), &*Options));
 
-  const llvm::ScopedFatalErrorHandler FatalErrors(reportFatalError, &Diags);
+  // What LLVM's assembler gives up on is a mistake of the source, not of the compiler.
+  const llvm::ScopedFatalErrorHandler FatalErrors(
+      [](void *Engine, const char *Message, bool) { reportFatalError(Engine, Message, /*GenCrashDiag=*/false); },
+      &Diags);
   guardCrashes("clang", /*Always=*/true);
 
   unsigned MissingIndex, MissingCount;

@@ -96,13 +96,18 @@ static void measure(double figures[TRAX_ERROR_FIGURE_COUNT], struct trax_method 
 enum { WHOLE = 24 }; /* bits */
 #define FIGURE(NAME) (figures[TRAX_ERROR_##NAME])
 
+/* What the place of a shadow ray's start does to a channel. The program takes the angle to a plain light from there, up
+   to 3 x 2^-17 of a triangle's edges from the point: edges of 2, a light at 0.85 and more. */
+#define OF_THE_START (3 * 0x1p-17 * 2 / 0.85 * 255)
+
 /* Binary32 as it should be: the rounding of channels is far below a byte's, no hit is wrong, and what is left is for
    want of samples. */
 static void test_the_default(void **state) {
   (void)state;
   double figures[TRAX_ERROR_FIGURE_COUNT];
   measure(figures, (struct trax_method){0}, 0, WHOLE);
-  assert_true(FIGURE(RMSE) > 0 && FIGURE(RMSE) < 1e-3);
+  assert_true(FIGURE(RMSE) > 0 && FIGURE(RMSE) < OF_THE_START / 4);
+  assert_true(FIGURE(LARGEST) < OF_THE_START);
   assert_true(FIGURE(WRONG) == 0 && FIGURE(SHADOW) == 0 && FIGURE(CHANGED) == 0);
   assert_true(FIGURE(SAMPLING_RMSE) > 1);
   assert_true(fabs(FIGURE(TOTAL_RMSE) - FIGURE(SAMPLING_RMSE)) < 1e-3);
@@ -122,8 +127,8 @@ static void test_shrunk_boxes(void **state) {
 
 static void test_fewer_bits(void **state) {
   (void)state;
-  double before = 0;
-  for (unsigned bits = WHOLE; bits >= 6; bits -= 6) {
+  double before = OF_THE_START / 16; /* which hides the difference between 24 bits and 18 */
+  for (unsigned bits = WHOLE - 12; bits >= 6; bits -= 6) {
     double figures[TRAX_ERROR_FIGURE_COUNT];
     measure(figures, (struct trax_method){0}, 0, bits);
     assert_true(FIGURE(RMSE) > 4 * before);

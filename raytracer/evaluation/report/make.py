@@ -12,7 +12,7 @@ import pathlib
 import sys
 import urllib.parse
 
-from trax_eval.outputs import IsInput, write_output
+from trax_eval.outputs import IsInput, read, write_output
 from trax_eval.util import Problem, check_files, complain
 
 from . import estimates, rays, tables
@@ -190,6 +190,7 @@ def new_parser():
 
 
 def main(arguments=None):
+    read.clear()
     options = new_parser().parse_args(arguments)
     output = pathlib.Path(options.output or "report.html")
     try:

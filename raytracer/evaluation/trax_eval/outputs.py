@@ -12,7 +12,7 @@ import threading
 
 MOST_LINKS = 40
 DESCRIPTORS = re.compile(r"/dev/(?:(stdin)|(stdout)|(stderr)|fd/(\d{1,7}))|/proc/self/fd/(\d{1,7})")
-read = set()  # identities of all files that this process has opened for reading
+read = set()  # identities of all files that the command under way has opened for reading
 
 
 def identity(found):
