@@ -28,7 +28,9 @@ class Tools:
     """The programs, and a folder for the work."""
 
     def __init__(self, options, root):
-        self.root, self.sim = pathlib.Path(root), pathlib.Path(options.sim or options.bin / "trax-sim").resolve()
+        self.root = pathlib.Path(root)
+        # A copy: the user of `rights` may not be able to reach the build.
+        self.sim = pathlib.Path(shutil.copy(options.sim or options.bin / "trax-sim", self.root)).resolve()
         self.guest, self.host = self.root / "guest", self.root / "host"
         source = options.source / "operations.c"
         warnings = ["-Wall", "-Wextra", "-Werror"]
