@@ -3,6 +3,7 @@
 #include "llvm/ADT/STLExtras.h"
 #include "llvm/DebugInfo/DWARF/DWARFCompileUnit.h"
 #include <map>
+#include <tuple>
 
 using namespace llvm;
 using namespace trax;
@@ -34,9 +35,12 @@ Expected<SourceLines> SourceLines::read(const ElfFile &File, function_ref<void(E
     const char *Directory = Directories[Parser.getOffset()];
     Lines.Tables.push_back(Parser.parseNext(Warning, Warning));
     for (const DWARFDebugLine::Sequence &S : Lines.Tables.back().Sequences)
-      Lines.Sequences.push_back({S.LowPC, S.HighPC, &Lines.Tables.back(), Directory ? Directory : ""});
+      Lines.Sequences.push_back({S.LowPC, S.HighPC, &Lines.Tables.back(), Directory ? Directory : "",
+                                 Lines.Sequences.size()});
   }
-  llvm::stable_sort(Lines.Sequences, [](const Sequence &A, const Sequence &B) { return A.Begin < B.Begin; });
+  llvm::sort(Lines.Sequences, [](const Sequence &A, const Sequence &B) {
+    return std::tie(A.Begin, A.Number) < std::tie(B.Begin, B.Number);
+  });
   return Lines;
 }
 

@@ -27,11 +27,12 @@ private:
     uint64_t Begin, End;
     const llvm::DWARFDebugLine::LineTable *Table;
     const char *Directory; ///< where the unit was compiled
+    size_t Number;         ///< in the order of the file
   };
   llvm::StringMap<std::unique_ptr<llvm::MemoryBuffer>> Contents; ///< of the sections, by name without the dot
   std::unique_ptr<llvm::DWARFContext> Context;                    ///< refers to them
   std::deque<llvm::DWARFDebugLine::LineTable> Tables;
-  std::vector<Sequence> Sequences; ///< by Begin
+  std::vector<Sequence> Sequences; ///< by Begin and Number
 };
 
 } // namespace trax
