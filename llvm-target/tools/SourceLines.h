@@ -30,7 +30,7 @@ private:
     size_t Number;         ///< in the order of the file
   };
   llvm::StringMap<std::unique_ptr<llvm::MemoryBuffer>> Contents; ///< of the sections, by name without the dot
-  std::unique_ptr<llvm::DWARFContext> Context;                    ///< refers to them
+  std::unique_ptr<llvm::DWARFContext> Context;                   ///< refers to them
   std::deque<llvm::DWARFDebugLine::LineTable> Tables;
   std::vector<Sequence> Sequences; ///< by Begin and Number
 };
