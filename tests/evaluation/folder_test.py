@@ -18,21 +18,16 @@ import time
 import traceback
 import zlib
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import checking  # noqa: E402
+from checking import check  # noqa: E402
+
 QUAD = ("mtllib quad.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl a\n"
         "f 1/1 2/2 3/3 4/4\n")
 VIEW = ("eye = [0.0, 0.0, 3.0];\nlook_at = [0.0, 0.0, 0.0];\nup = [0.0, 1.0, 0.0];\nfov = 45.0;\n"
         "light = [1.0, 1.0, 4.0];\n")
 SWEEP = {"name": "quad", "scenes": [{"name": "quad", "meshes": ["../quad.obj"], "view": "../quad.view"}],
          "programs": ["ours"], "chips": ["1x32"], "size": "8x8", "series": 500}
-
-failures = 0
-
-
-def check(condition, text):
-    global failures
-    if not condition:
-        failures += 1
-        print(f"FAILED: {text}", flush=True)
 
 
 def grey(path, value):
@@ -239,7 +234,6 @@ TESTS = (test_read, test_own_tree, test_scene_file, test_damage, test_killed)
 
 
 def main():
-    global failures
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--bin", type=pathlib.Path, required=True)
     parser.add_argument("--only", help="a test's name without test_")
@@ -251,10 +245,10 @@ def main():
                 try:
                     test(Folder(options.bin.resolve(), pathlib.Path(temporary).resolve() / test.__name__))
                 except Exception:
-                    failures += 1
+                    checking.failures += 1
                     print(f"FAILED: {test.__name__}: {traceback.format_exc()}", flush=True)
                 print(f"{test.__name__}: {time.monotonic() - begin:.1f} s", flush=True)
-    return 1 if failures else 0
+    return 1 if checking.failures else 0
 
 
 if __name__ == "__main__":

@@ -16,6 +16,10 @@ import unittest.mock
 
 from inside import Inside
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import checking  # noqa: E402
+from checking import check  # noqa: E402
+
 STUB = """#!/bin/sh
 echo "$0" "$@" >>"$LOG"
 case $0 in
@@ -23,14 +27,6 @@ case $0 in
 */squeue) . "$LOG.squeue" ;;
 esac
 """
-failures = 0
-
-
-def check(condition, text):
-    global failures
-    if not condition:
-        failures += 1
-        print(f"FAILED: {text}", flush=True)
 
 
 class Slurm:
@@ -148,7 +144,6 @@ TESTS = (test_failing_squeue, test_dead_squeue, test_asked_seldom, test_late_res
 
 
 def main():
-    global failures
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--bin", type=pathlib.Path, required=True)
     Inside(parser.parse_args().bin.resolve())
@@ -157,9 +152,9 @@ def main():
             try:
                 test(pathlib.Path(temporary).resolve() / test.__name__)
             except Exception:
-                failures += 1
+                checking.failures += 1
                 print(f"FAILED: {test.__name__}: {traceback.format_exc()}", flush=True)
-    return 1 if failures else 0
+    return 1 if checking.failures else 0
 
 
 if __name__ == "__main__":
