@@ -23,9 +23,6 @@ FunctionPass *createTraxLowerVAArgPass();
 /// Splits branches on double words, and lets phis take values that branches have compared.
 FunctionPass *createTraxBranchesPass();
 
-/// Finds a block to save registers in, and one to restore them in, where LLVM's pass has found none.
-extern char &TraxShrinkWrapID;
-
 /// Makes calls of atomic operations that the machine lacks.
 FunctionPass *createTraxLowerAtomicsPass();
 
@@ -42,7 +39,6 @@ void initializeTraxDAGToDAGISelLegacyPass(PassRegistry &);
 void initializeTraxLowerAtomicsPass(PassRegistry &);
 void initializeTraxLowerFloatsPass(PassRegistry &);
 void initializeTraxLowerVAArgPass(PassRegistry &);
-void initializeTraxShrinkWrapPass(PassRegistry &);
 
 } // namespace llvm
 

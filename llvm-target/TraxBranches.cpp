@@ -6,13 +6,11 @@
 //   comparison of 64 bits takes up to five instructions.
 // - Where a branch has found that a value equals a constant, a phi takes the value instead of the constant: it may be
 //   in the phi's register already.
-// - A comparison with a constant that is computed from its neighbour becomes one with the neighbour.
 //
 //===----------------------------------------------------------------------===//
 #include "Trax.h"
 #include "llvm/Analysis/ValueTracking.h"
 #include "llvm/IR/IRBuilder.h"
-#include "llvm/IR/InstIterator.h"
 #include "llvm/IR/Module.h"
 #include "llvm/IR/PatternMatch.h"
 #include "llvm/IR/ProfDataUtils.h"
@@ -83,7 +81,7 @@ static bool isDoubleWordComparison(const Value *Condition, const BasicBlock *Blo
   if (!Compare || !Compare->hasOneUse() || Compare->getParent() != Block ||
       !Compare->getOperand(0)->getType()->isIntegerTy(64))
     return false;
-  // Pieces of words that may be unaligned are compared together (TraxUnaligned.cpp).
+  // Words that may be unaligned are compared in pieces (performUnalignedCombine).
   if (Compare->isEquality() && any_of(Compare->operands(), [](const Use &Operand) {
         const auto *Load = dyn_cast<LoadInst>(Operand);
         return Load && Load->getAlign() < 4;
@@ -92,7 +90,7 @@ static bool isDoubleWordComparison(const Value *Condition, const BasicBlock *Blo
   const APInt *C;
   if (!match(Compare->getOperand(1), m_APInt(C)))
     return true;
-  // Comparisons that need but one half, or both in one word.
+  // Comparisons that need only one half, or both halves combined in one word.
   switch (Compare->getPredicate()) {
   case ICmpInst::ICMP_SLT:
   case ICmpInst::ICMP_SGE:
@@ -238,28 +236,10 @@ static bool forwardKnownValue(BranchInst *Branch) {
   return Changed;
 }
 
-/// Constant hoisting computes a constant from its neighbour: x < C + 1 is x <= C, and x > C - 1 is x >= C.
-static bool compareWithNeighbour(ICmpInst *Compare) {
-  Value *Hoisted;
-  const APInt *C, *Step;
-  if (!match(Compare->getOperand(1), m_Add(m_CombineAnd(m_Value(Hoisted), m_BitCast(m_APInt(C))), m_APInt(Step))))
-    return false;
-  const CmpInst::Predicate Predicate = Compare->getPredicate();
-  const bool IsNext = ICmpInst::isLT(Predicate) ? Step->isOne() : ICmpInst::isGT(Predicate) && Step->isAllOnes();
-  if (!IsNext || !ICmpInst::compare(*C, *C + *Step, Predicate)) // the latter: it is no neighbour where it wraps
-    return false;
-  Compare->setPredicate(ICmpInst::getNonStrictPredicate(Predicate));
-  Compare->setOperand(1, Hoisted);
-  return true;
-}
-
 bool TraxBranches::runOnFunction(Function &F) {
   if (skipFunction(F))
     return false;
   bool Changed = false;
-  for (Instruction &I : instructions(F))
-    if (auto *Compare = dyn_cast<ICmpInst>(&I))
-      Changed |= compareWithNeighbour(Compare);
   SmallVector<BranchInst *, 32> Branches;
   for (BasicBlock &Block : F)
     if (auto *Branch = dyn_cast<BranchInst>(Block.getTerminator()); Branch && Branch->isConditional())

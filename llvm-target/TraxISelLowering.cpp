@@ -1,10 +1,9 @@
-//===- TraxISelLowering.cpp - What the machine can do, and the rest ------===//
+//===- TraxISelLowering.cpp - Operations that the machine lacks ----------===//
 #include "TraxISelLowering.h"
 #include "Trax.h"
 #include "TraxMachineFunctionInfo.h"
 #include "TraxSubtarget.h"
 #include "trax/abi.h"
-#include "llvm/Analysis/ValueTracking.h"
 #include "llvm/CodeGen/MachineFrameInfo.h"
 #include "llvm/CodeGen/MachineJumpTableInfo.h"
 #include "llvm/CodeGen/MachineRegisterInfo.h"
@@ -40,7 +39,7 @@ TraxTargetLowering::TraxTargetLowering(const TargetMachine &TM, const TraxSubtar
   for (MVT VT : {MVT::i8, MVT::i16, MVT::i32})
     setLoadExtAction({ISD::EXTLOAD, ISD::SEXTLOAD, ISD::ZEXTLOAD}, VT, MVT::i1, Promote);
 
-  // Overflow checks of i64 compute with i128, which is no type of C here: inline, there is no library for it.
+  // Overflow checks of i64 compute with i128, which has no library functions here: the code is inline.
   for (RTLIB::Libcall Call : {RTLIB::MULO_I32, RTLIB::MULO_I64, RTLIB::MULO_I128, RTLIB::MUL_I128, RTLIB::SHL_I128,
                               RTLIB::SRL_I128, RTLIB::SRA_I128})
     setLibcallName(Call, nullptr);
@@ -178,7 +177,8 @@ SDValue TraxTargetLowering::LowerOperation(SDValue Op, SelectionDAG &DAG) const 
   }
 }
 
-/// The cycle counter's two words are read until no carry can lie between them: if it does, the word below it is 0.
+/// Reads the upper word before and after the lower one. If they differ, the counter carried in between: the lower word
+/// is taken as 0.
 void TraxTargetLowering::ReplaceNodeResults(SDNode *N, SmallVectorImpl<SDValue> &Results, SelectionDAG &DAG) const {
   if (N->getOpcode() != ISD::READCYCLECOUNTER)
     return;
@@ -220,7 +220,7 @@ SDValue TraxTargetLowering::lowerGlobalAddress(SDValue Op, SelectionDAG &DAG) co
   auto *N = cast<GlobalAddressSDNode>(Op);
   if (!N->getGlobal()->isThreadLocal())
     return lowerAddress(N, DAG);
-  // Thread-local objects lie at the same addresses of every thread's local memory, which any immediate reaches.
+  // Thread-local objects have the same addresses in every thread's local memory. Any immediate reaches them.
   SDLoc DL(N);
   SDValue Symbol = DAG.getTargetGlobalAddress(N->getGlobal(), DL, MVT::i32, N->getOffset(), TraxII::MO_ABS);
   return DAG.getNode(TraxISD::ABS_ADDR, DL, MVT::i32, Symbol);
@@ -231,22 +231,6 @@ bool TraxTargetLowering::isLegalAddressingMode(const DataLayout &, const AddrMod
   if (AM.BaseGV || AM.ScalableOffset || !isInt<16>(AM.BaseOffs))
     return false;
   return AM.Scale == 0 || (AM.Scale == 1 && !AM.HasBaseReg);
-}
-
-bool llvm::isLocalMemory(const MemSDNode *N, const SelectionDAG &DAG) {
-  const bool StackIsLocal = DAG.getSubtarget<TraxSubtarget>().getStack() == TRAX_EF_STACK_LOCAL;
-  SDValue Base = N->getBasePtr();
-  while (Base.getOpcode() == ISD::ADD || Base.getOpcode() == ISD::OR)
-    Base = Base.getOperand(0);
-  if (isa<FrameIndexSDNode>(Base))
-    return StackIsLocal;
-  if (Base.getOpcode() == TraxISD::ABS_ADDR)
-    return true;
-  const Value *V = N->getMemOperand()->getValue();
-  V = V ? getUnderlyingObject(V) : nullptr;
-  if (const auto *GV = dyn_cast_or_null<GlobalVariable>(V))
-    return GV->isThreadLocal();
-  return StackIsLocal && isa_and_nonnull<AllocaInst>(V);
 }
 
 //--- conversion ----------------------------------------------------------------
@@ -273,7 +257,7 @@ SDValue TraxTargetLowering::getSqrtEstimate(SDValue Operand, SelectionDAG &DAG, 
   return Reciprocal ? Result : DAG.getNode(ISD::FMUL, DL, MVT::f32, Operand, Result);
 }
 
-/// Where x * rsqrt(x) is 0 * infinity: +0 and -0. An integer test, off the shared adder.
+/// Finds +0 and -0, for which x * rsqrt(x) is 0 * infinity. An integer test does not need the shared adder.
 SDValue TraxTargetLowering::getSqrtInputTest(SDValue Operand, SelectionDAG &DAG, const DenormalMode &) const {
   SDLoc DL(Operand);
   SDValue Bits =
@@ -366,12 +350,10 @@ SDValue TraxTargetLowering::lowerAtomicFence(SDValue Op, SelectionDAG &DAG) cons
   return DAG.getNode(TraxISD::FENCE, DL, MVT::Other, Chain, DAG.getTargetConstant(Kind, DL, MVT::i32));
 }
 
-/// Caches of different TMs are not coherent, so an atomic load must go to memory, unless it is of local memory, which
-/// has no cache. Bytes and halves are taken from their word.
+/// Caches of different TMs are not coherent, so an atomic load must go to memory. TraxLowerAtomics has made plain loads
+/// of those of local memory. Bytes and halves are taken from their word.
 SDValue TraxTargetLowering::lowerAtomicLoad(SDValue Op, SelectionDAG &DAG) const {
   auto *Load = cast<AtomicSDNode>(Op);
-  if (isLocalMemory(Load, DAG))
-    return Op;
   SDLoc DL(Op);
   EVT MemVT = Load->getMemoryVT();
   SDValue Address = Load->getBasePtr();
@@ -391,7 +373,7 @@ SDValue TraxTargetLowering::lowerAtomicLoad(SDValue Op, SelectionDAG &DAG) const
                               DAG.getNode(ISD::AND, DL, MVT::i32, Address, DAG.getConstant(3, DL, MVT::i32)),
                               DAG.getConstant(3, DL, MVT::i32));
   SDValue Value = DAG.getNode(ISD::SRL, DL, MVT::i32, Word, Shift);
-  // The bits above are what the legalizer asked the load for.
+  // The legalizer asked for these upper bits.
   if (Load->getExtensionType() == ISD::SEXTLOAD)
     Value = DAG.getNode(ISD::SIGN_EXTEND_INREG, DL, MVT::i32, Value, DAG.getValueType(MemVT));
   else
@@ -399,22 +381,14 @@ SDValue TraxTargetLowering::lowerAtomicLoad(SDValue Op, SelectionDAG &DAG) const
   return DAG.getMergeValues({Value, Word.getValue(1)}, DL);
 }
 
-/// The increment is the machine's one read-modify-write; TraxLowerAtomics has made calls of the others. The thread's
-/// later accesses may overtake it, but for those behind an instruction that needs its result (docs/isa.md, "Order").
+/// The increment is the machine's only read-modify-write; TraxLowerAtomics has made calls of the others. The thread's
+/// later accesses may overtake it, except those after an instruction that needs its result (docs/isa.md, "Order").
 SDValue TraxTargetLowering::lowerAtomicRMW(SDValue Op, SelectionDAG &DAG) const {
   auto *N = cast<AtomicSDNode>(Op);
   SDLoc DL(Op);
-  if (isLocalMemory(N, DAG)) { // of this thread alone, and out of the memory controller's reach
-    SDValue Old = DAG.getLoad(MVT::i32, DL, N->getChain(), N->getBasePtr(), MachinePointerInfo(), Align(4),
-                              MachineMemOperand::MOVolatile);
-    SDValue New = DAG.getNode(ISD::ADD, DL, MVT::i32, Old, DAG.getConstant(1, DL, MVT::i32));
-    SDValue Chain = DAG.getStore(Old.getValue(1), DL, New, N->getBasePtr(), MachinePointerInfo(), Align(4),
-                                 MachineMemOperand::MOVolatile);
-    return DAG.getMergeValues({Old, Chain}, DL);
-  }
   SDValue Old = DAG.getMemIntrinsicNode(TraxISD::AINC, DL, DAG.getVTList(MVT::i32, MVT::Other),
                                         {N->getChain(), N->getBasePtr()}, MVT::i32, N->getMemOperand());
-  // Whatever its order: the thread's later accesses to the word come behind the increment.
+  // For every ordering: the thread's later accesses to the word come after the increment.
   SDValue Chain = DAG.getNode(TraxISD::WAIT, DL, MVT::Other, Old.getValue(1), Old);
   return DAG.getMergeValues({Old, Chain}, DL);
 }

@@ -128,10 +128,6 @@ private:
   SDValue performUnalignedCombine(SDNode *N, DAGCombinerInfo &DCI) const;
 };
 
-/// Whether this memory access is known to be of local memory (thread-local objects; the stack, unless it is in global
-/// memory).
-bool isLocalMemory(const MemSDNode *N, const SelectionDAG &DAG);
-
 } // namespace llvm
 
 #endif

@@ -1,14 +1,17 @@
-//===- TraxLowerAtomics.cpp - Atomic operations that the machine lacks ---===//
+//===- TraxLowerAtomics.cpp - Accesses by the memory that they reach -----===//
 //
-// The machine loads, stores and increments atomically. Every other read-modify-write becomes a call of the runtime's
-// function of libatomic's name, which takes a lock. An increment or a store between the load and the store of such a
-// call would be lost, so both are the machine's own only where all uses of the object are in sight and none is such a
-// call; elsewhere they take the lock as well. A load never needs it.
+// This pass alone decides whether an access is known to reach local memory (isLocalMemory). Only one thread reaches
+// local memory, and it lies beside the caches: atomic accesses of it become plain ones, and nontemporal ones temporal.
 //
-// Nothing orders the machine's own accesses but its fences, which are put before and behind them here (docs/abi.md,
-// "Atomics"); the library's functions have theirs.
+// In global memory the machine loads, stores and increments atomically. Every other read-modify-write becomes a call of
+// the runtime's function with libatomic's name, which takes a lock. An increment or a store between the load and the
+// store of such a call would be lost. So both stay machine instructions only if all uses of the object are visible and
+// none is such a call; otherwise they take the lock as well. A load never needs it.
 //
-// Runs behind AtomicExpand, which has reduced operations without a function to compare-and-exchange, and has made calls
+// Only fences order the machine's own accesses. This pass adds them (docs/abi.md, "Atomics"); the library's functions
+// have theirs.
+//
+// Runs after AtomicExpand, which has reduced operations without a function to compare-and-exchange, and has made calls
 // of operations wider than a word.
 //
 //===----------------------------------------------------------------------===//
@@ -17,6 +20,7 @@
 #include "TraxSubtarget.h"
 #include "TraxTargetMachine.h"
 #include "llvm/ADT/STLExtras.h"
+#include "llvm/Analysis/MemoryLocation.h"
 #include "llvm/Analysis/ValueTracking.h"
 #include "llvm/CodeGen/TargetPassConfig.h"
 #include "llvm/IR/Constants.h"
@@ -29,6 +33,7 @@
 #include "llvm/InitializePasses.h"
 #include "llvm/Pass.h"
 #include "llvm/Support/AtomicOrdering.h"
+#include "llvm/Transforms/Utils/LowerAtomic.h"
 
 using namespace llvm;
 
@@ -86,7 +91,7 @@ private:
 
 } // namespace
 
-/// NAME##SIZE(Arguments...), small integers extended as C has them, unsigned.
+/// Calls NAME##SIZE(Arguments...). Small integers are zero-extended, as those of an unsigned C type.
 static CallInst *callLibrary(IRBuilder<> &Builder, StringRef Name, Type *ObjectTy, Type *ResultTy,
                              ArrayRef<Value *> Arguments) {
   Module &M = *Builder.GetInsertBlock()->getModule();
@@ -130,22 +135,22 @@ static bool isOnlyCounted(const Value &Pointer) {
   });
 }
 
-/// Whether the object is in local memory, where no other thread reaches it.
-static bool isPrivate(const Value *Address, const TraxSubtarget &Subtarget) {
-  const Value *Object = getUnderlyingObject(Address);
-  if (isa<AllocaInst>(Object))
-    return Subtarget.getStack() == TRAX_EF_STACK_LOCAL;
-  const auto *Global = dyn_cast<GlobalVariable>(Object);
-  return Global && Global->isThreadLocal();
+/// Whether the address is known to be in local memory: of a thread-local object, or of the stack if that is there.
+static bool isLocalMemory(const Value *Address, const TraxSubtarget &Subtarget) {
+  const Value *Object = getUnderlyingObject(Address, /*MaxLookup=*/0);
+  if (const auto *Global = dyn_cast<GlobalVariable>(Object))
+    return Global->isThreadLocal();
+  const auto *Passed = dyn_cast<Argument>(Object);
+  return (isa<AllocaInst>(Object) || (Passed && Passed->hasByValAttr())) && Subtarget.getStack() == TRAX_EF_STACK_LOCAL;
 }
 
-/// Whether an increment of or a store to this address needs no lock.
+/// Whether an increment of or a store to this address, in global memory, needs no lock.
 static bool isLockFree(const Value *Address, const TraxSubtarget &Subtarget) {
   const Value *Object = getUnderlyingObject(Address);
   const auto *Global = dyn_cast<GlobalVariable>(Object);
   const bool HasVisibleUses = isa<AllocaInst>(Object) ? Subtarget.getStack() == TRAX_EF_STACK_GLOBAL // else ainc faults
                                                       : Global && Global->hasLocalLinkage();
-  return isPrivate(Address, Subtarget) || (HasVisibleUses && isOnlyCounted(*Object));
+  return HasVisibleUses && isOnlyCounted(*Object);
 }
 
 static void fenceBefore(Instruction &I, AtomicOrdering Ordering) {
@@ -204,30 +209,48 @@ void TraxLowerAtomics::lower(AtomicCmpXchgInst &CmpXchg) {
   CmpXchg.eraseFromParent();
 }
 
-/// Makes a call of an atomic access, or adds the fences that it needs.
+/// Makes a plain access of one to local memory.
+static void makePlain(Instruction &I) {
+  I.setMetadata(LLVMContext::MD_nontemporal, nullptr);
+  if (auto *Load = dyn_cast<LoadInst>(&I))
+    Load->setAtomic(AtomicOrdering::NotAtomic);
+  else if (auto *Store = dyn_cast<StoreInst>(&I))
+    Store->setAtomic(AtomicOrdering::NotAtomic);
+  else if (auto *RMW = dyn_cast<AtomicRMWInst>(&I))
+    lowerAtomicRMWInst(RMW);
+  else
+    lowerAtomicCmpXchgInst(cast<AtomicCmpXchgInst>(&I));
+}
+
+/// Replaces an atomic access by a plain one or by a call, or adds the fences that it needs.
 bool TraxLowerAtomics::lowerOrKeep(Instruction &I, const TraxSubtarget &Subtarget) {
+  const bool IsAtomic = I.isAtomic() && !isa<FenceInst>(I);
+  if (!IsAtomic && !I.hasMetadata(LLVMContext::MD_nontemporal))
+    return false;
+  const std::optional<MemoryLocation> Location = MemoryLocation::getOrNone(&I);
+  if (!Location)
+    return false;
+  const Value *Address = Location->Ptr;
+  if (isLocalMemory(Address, Subtarget)) {
+    makePlain(I);
+    return true;
+  }
+  if (!IsAtomic)
+    return false;
   if (auto *Load = dyn_cast<LoadInst>(&I)) {
-    if (!Load->isAtomic() || isPrivate(Load->getPointerOperand(), Subtarget))
-      return false;
     addFences(*Load, Load->getOrdering());
   } else if (auto *Store = dyn_cast<StoreInst>(&I)) {
-    if (!Store->isAtomic() || isPrivate(Store->getPointerOperand(), Subtarget))
-      return false;
-    if (isLockFree(Store->getPointerOperand(), Subtarget))
+    if (isLockFree(Address, Subtarget))
       addFences(*Store, Store->getOrdering());
     else
       lower(*Store);
   } else if (auto *RMW = dyn_cast<AtomicRMWInst>(&I)) {
-    if (!isTraxAtomicIncrement(*RMW) || !isLockFree(RMW->getPointerOperand(), Subtarget))
-      lower(*RMW);
-    else if (!isPrivate(RMW->getPointerOperand(), Subtarget))
+    if (isTraxAtomicIncrement(*RMW) && isLockFree(Address, Subtarget))
       addFences(*RMW, RMW->getOrdering());
     else
-      return false;
-  } else if (auto *CmpXchg = dyn_cast<AtomicCmpXchgInst>(&I)) {
-    lower(*CmpXchg);
+      lower(*RMW);
   } else {
-    return false;
+    lower(cast<AtomicCmpXchgInst>(I));
   }
   return true;
 }

@@ -339,12 +339,10 @@ def : PatStore<truncstorei16, SH>;
 def : PatStore<store, SW>;
 def : PatStore<store, SW, f32>;
 
-// Past the cache, unless the address is known to be in local memory, which lies beside it.
-def nt_load : PatFrag<(ops node:$p), (load node:$p), [{
-  return cast<LoadSDNode>(N)->isNonTemporal() && !isLocalMemory(cast<LoadSDNode>(N), *CurDAG);
-}]>;
+// Past the cache. TraxLowerAtomics has removed the mark from accesses of local memory.
+def nt_load : PatFrag<(ops node:$p), (load node:$p), [{ return cast<LoadSDNode>(N)->isNonTemporal(); }]>;
 def nt_store : PatFrag<(ops node:$v, node:$p), (store node:$v, node:$p), [{
-  return cast<StoreSDNode>(N)->isNonTemporal() && !isLocalMemory(cast<StoreSDNode>(N), *CurDAG);
+  return cast<StoreSDNode>(N)->isNonTemporal();
 }]>;
 let AddedComplexity = 10 in {
 def : PatLoad<nt_load, LWNT>;
@@ -359,10 +357,7 @@ def : PatStore<nt_store, SWNT, f32>;
 def : PatStore<atomic_store_8, SB>;
 def : PatStore<atomic_store_16, SH>;
 def : PatStore<atomic_store_32, SW>;
-// Loads of what only this thread can write. Others become trax_lwnt: caches of different TMs are not coherent.
-def : PatLoad<atomic_load_8, LBU>;
-def : PatLoad<atomic_load_16, LHU>;
-def : PatLoad<atomic_load_32, LW>;
+// Atomic loads become trax_lwnt: caches of different TMs are not coherent.
 def : PatLoad<trax_lwnt, LWNT>;
 def : PatLoad<trax_ainc, AINC>;
 def : Pat<(trax_wait i32:$ra), (PseudoWAIT GPR:$ra)>;

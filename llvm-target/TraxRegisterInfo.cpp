@@ -52,7 +52,7 @@ Register TraxRegisterInfo::getFrameRegister(const MachineFunction &MF) const {
   return MF.getSubtarget().getFrameLowering()->hasFP(MF) ? Trax::R3 : Trax::R2;
 }
 
-/// Every instruction with a frame index has its immediate right behind it: addi, loads and stores.
+/// An instruction with a frame index is addi, a load or a store: the immediate is the next operand.
 bool TraxRegisterInfo::eliminateFrameIndex(MachineBasicBlock::iterator II, int, unsigned FIOperandNum,
                                            RegScavenger *) const {
   MachineInstr &MI = *II;
@@ -64,16 +64,12 @@ bool TraxRegisterInfo::eliminateFrameIndex(MachineBasicBlock::iterator II, int, 
   Register FrameReg;
   int FrameIndex = MI.getOperand(FIOperandNum).getIndex();
   int64_t Offset = STI.getFrameLowering()->getFrameIndexReference(MF, FrameIndex, FrameReg).getFixed();
-  if (MI.isDebugValue()) {
-    MI.getOperand(FIOperandNum).ChangeToRegister(FrameReg, /*isDef=*/false);
-    return false;
-  }
   MachineOperand &Imm = MI.getOperand(FIOperandNum + 1);
   Offset += Imm.getImm();
 
   bool Kill = false;
   if (!isInt<16>(Offset)) {
-    // lui and add the upper part; the instruction's immediate is the lower.
+    // lui and add make the upper part; the instruction's immediate is the lower part.
     const TraxInstrInfo &TII = *STI.getInstrInfo();
     MachineRegisterInfo &MRI = MF.getRegInfo();
     Register Upper = MRI.createVirtualRegister(&Trax::GPRRegClass);

@@ -1,4 +1,4 @@
-//===- TraxTargetMachine.cpp - What the target is made of ----------------===//
+//===- TraxTargetMachine.cpp - Subtargets and the order of passes --------===//
 #include "TraxTargetMachine.h"
 #include "LLVMTrax.h"
 #include "TargetInfo/TraxTargetInfo.h"
@@ -25,7 +25,6 @@ void LLVMInitializeTraxTarget() {
   initializeTraxLowerAtomicsPass(PR);
   initializeTraxLowerFloatsPass(PR);
   initializeTraxLowerVAArgPass(PR);
-  initializeTraxShrinkWrapPass(PR);
 }
 
 TraxTargetMachine::TraxTargetMachine(const Target &T, const Triple &TT, StringRef CPU, StringRef FS,
@@ -41,7 +40,7 @@ TraxTargetMachine::TraxTargetMachine(const Target &T, const Triple &TT, StringRe
 
 TraxTargetMachine::~TraxTargetMachine() = default;
 
-// A function may say where its stack is; those that do not follow the command line.
+// A function's attributes may name its stack mode. Other functions have the command line's.
 const TraxSubtarget *TraxTargetMachine::getSubtargetImpl(const Function &F) const {
   auto OwnOr = [&](StringRef Name, const std::string &Default) {
     const Attribute Own = F.getFnAttribute(Name);
@@ -76,9 +75,7 @@ namespace {
 
 class TraxPassConfig : public TargetPassConfig {
 public:
-  TraxPassConfig(TraxTargetMachine &TM, PassManagerBase &PM) : TargetPassConfig(TM, PM) {
-    insertPass(&ShrinkWrapID, &TraxShrinkWrapID);
-  }
+  TraxPassConfig(TraxTargetMachine &TM, PassManagerBase &PM) : TargetPassConfig(TM, PM) {}
 
   TraxTargetMachine &getTraxTargetMachine() const { return getTM<TraxTargetMachine>(); }
 
@@ -109,13 +106,13 @@ public:
   }
 
   void addPreEmitPass() override {
-    // Copies are addi by now: those that block placement brought next to their uses go.
+    // Copies are addi by now. Removes those that block placement moved next to their uses.
     if (getOptLevel() >= CodeGenOptLevel::Default)
       addPass(createMachineCopyPropagationPass(/*UseCopyInstr=*/true));
     addPass(&BranchRelaxationPassID);
   }
 
-  // Last: blocks are in their order. One behind an epilogue is told again what the frame is.
+  // Runs last, when the order of blocks is final. Repeats the frame's CFI for a block that follows an epilogue.
   void addPreEmitPass2() override { addPass(createCFIInstrInserter()); }
 };
 

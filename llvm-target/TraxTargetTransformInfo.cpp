@@ -17,7 +17,7 @@ bool TraxTTIImpl::isLoweredToCall(const Function *F) const {
   return BaseT::isLoweredToCall(F);
 }
 
-/// Whether a value takes a step with each round of a loop.
+/// Whether a value changes by a step in each iteration of the loop.
 static bool advancesIn(const Loop &L, const SCEV *Value) {
   return SCEVExprContains(Value, [&](const SCEV *Part) {
     const auto *Recurrence = dyn_cast<SCEVAddRecExpr>(Part);
@@ -25,8 +25,33 @@ static bool advancesIn(const Loop &L, const SCEV *Value) {
   });
 }
 
-/// Of the loads in the only, innermost loop in this one: how many vary with this one for each that does not; 0 if none
-/// is of the latter kind. Copies of the inner loop, run as one, load these once.
+/// The limits of unrolling. Sizes count instructions, as getInstructionCost does. The instruction cache holds 1,024
+/// instructions, shared by all threads.
+struct UnrollingLimits {
+  int FullSize;   ///< of a loop that is replaced by its iterations
+  int CopiesSize; ///< of all copies of a loop together
+  int Copies;     ///< of a loop
+  int Blocks;     ///< of a loop that is copied
+};
+
+// At -O2 unrolling must turn a small array's indices into constants, or save most of the counting of a short loop.
+constexpr UnrollingLimits UnrollingO2 = {/*FullSize=*/120, /*CopiesSize=*/40, /*Copies=*/4, /*Blocks=*/1};
+constexpr UnrollingLimits UnrollingO3 = {/*FullSize=*/350, /*CopiesSize=*/80, /*Copies=*/8, /*Blocks=*/4};
+
+constexpr int MostExits = 2;     // copies of a search have all its tests
+constexpr int AlwaysCopied = 11; // size of a loop that is copied although it is not known to pay
+
+// The following limits hold at -O3.
+constexpr int CountedCopiesSize = 240; // if the number of iterations is known, or the outer loop was copied first
+constexpr int SearchCopies = 2;        // of a search through arrays with two exits, which usually ends early
+constexpr int LongestUncounted = 12;   // size of a loop that pays for computing the number of iterations left over
+constexpr int JammedCopiesSize = 160;  // unroll-and-jam: of the outer loop, of the inner loop
+constexpr int JammedInnerSize = 100;
+constexpr int FullSizeBeforeJam = 80;
+constexpr int EnoughLoadsPerShared = 4; // with more varying loads for each shared one, jamming saves too little
+
+/// The loads of the only loop in this one, if that is innermost: how many vary with the outer loop for each one that
+/// does not; 0 if all vary. Unroll-and-jam executes those that do not vary once for all copies.
 static unsigned loadsPerSharedLoad(const Loop &Outer, ScalarEvolution &SE) {
   if (Outer.getSubLoops().size() != 1 || Outer.getSubLoops().front()->getNumBlocks() != 1)
     return 0;
@@ -39,69 +64,74 @@ static unsigned loadsPerSharedLoad(const Loop &Outer, ScalarEvolution &SE) {
   return Shared.empty() ? 0 : Varying.size() / Shared.size();
 }
 
-// The instruction cache holds 1,024 instructions, shared by all. At -O2 unrolling must pay by turning a small array's
-// indices into constants, or be of a loop of a few instructions, which it saves most of its counting. At -O3 an
-// innermost loop may be longer, and be copied more often where the number of its rounds is known; a loop around it may
-// save some of its loads.
+namespace {
+/// The properties of a loop's body that decide about copies.
+struct LoopBody {
+  InstructionCost Size = 0;
+  bool Calls = false, AccessesMemory = false, StepsThroughArray = false;
+};
+} // namespace
+
+static LoopBody inspectBody(const Loop &L, ScalarEvolution &SE, TraxTTIImpl &Costs) {
+  LoopBody Body;
+  for (const BasicBlock *Block : L.blocks())
+    for (const Instruction &I : *Block) {
+      if (const auto *Call = dyn_cast<CallBase>(&I))
+        Body.Calls |= !Call->getCalledFunction() || Costs.isLoweredToCall(Call->getCalledFunction());
+      Body.AccessesMemory |= I.mayReadOrWriteMemory();
+      if (const Value *Pointer = getLoadStorePointerOperand(&I))
+        Body.StepsThroughArray |= advancesIn(L, SE.getSCEV(const_cast<Value *>(Pointer)));
+      Body.Size +=
+          Costs.getInstructionCost(&I, SmallVector<const Value *, 4>(I.operand_values()), TTI::TCK_SizeAndLatency);
+    }
+  return Body;
+}
+
 void TraxTTIImpl::getUnrollingPreferences(Loop *L, ScalarEvolution &SE, TTI::UnrollingPreferences &UP,
                                           OptimizationRemarkEmitter *ORE) {
-  // The unroller comes with a larger threshold at -O3; nothing else tells the level.
-  bool Aggressive = UP.Threshold > 150;
+  const bool IsO3 = UP.Threshold > 150; // the unroller's own threshold is larger at -O3; nothing else tells the level
+  const UnrollingLimits &Limits = IsO3 ? UnrollingO3 : UnrollingO2;
   BaseT::getUnrollingPreferences(L, SE, UP, ORE);
-  UP.Threshold = Aggressive ? 350 : 120;
-  UP.PartialThreshold = 0;
-  UP.OptSizeThreshold = 0;
-  UP.PartialOptSizeThreshold = 0;
-  UP.Partial = false;
-  UP.Runtime = false;
-  UP.UpperBound = false;
-  if (L->getNumBlocks() > (Aggressive ? 4 : 1) || L->getHeader()->getParent()->hasOptSize())
+  UP.Threshold = Limits.FullSize;
+  UP.PartialThreshold = UP.OptSizeThreshold = UP.PartialOptSizeThreshold = 0;
+  UP.Partial = UP.Runtime = UP.UpperBound = false;
+  if (int(L->getNumBlocks()) > Limits.Blocks || L->getHeader()->getParent()->hasOptSize())
     return;
-  const unsigned EnoughPerSharedLoad = 4;
-  unsigned PerSharedLoad = Aggressive ? loadsPerSharedLoad(*L, SE) : 0;
-  UP.UnrollAndJam = PerSharedLoad != 0 && PerSharedLoad < EnoughPerSharedLoad;
-  // Before the loop around it is copied: leave room. Afterwards: the copies count once again.
+  const unsigned PerSharedLoad = IsO3 ? loadsPerSharedLoad(*L, SE) : 0;
+  UP.UnrollAndJam = PerSharedLoad != 0 && PerSharedLoad < EnoughLoadsPerShared;
+  // Unrolling runs twice: before the outer loop is copied it leaves room, and afterwards it may copy the copies.
   bool IsJammed = false;
-  if (const Loop *Parent = L->getParentLoop(); Aggressive && L->isInnermost() && Parent)
-    if (unsigned OfParent = loadsPerSharedLoad(*Parent, SE)) {
-      UP.Threshold = 80;
-      IsJammed = OfParent >= EnoughPerSharedLoad;
+  if (const Loop *Parent = L->getParentLoop(); IsO3 && L->isInnermost() && Parent)
+    if (const unsigned OfParent = loadsPerSharedLoad(*Parent, SE)) {
+      UP.Threshold = FullSizeBeforeJam;
+      IsJammed = OfParent >= EnoughLoadsPerShared;
     }
   if (!UP.UnrollAndJam && !L->isInnermost())
     return;
   SmallVector<BasicBlock *, 4> Exiting;
   L->getExitingBlocks(Exiting);
-  if (Exiting.size() > 2)
+  if (Exiting.size() > MostExits)
     return;
-  InstructionCost Cost = 0;
-  bool AccessesMemory = false, StepsThroughArray = false;
-  for (const BasicBlock *Block : L->blocks())
-    for (const Instruction &I : *Block) {
-      if (const auto *Call = dyn_cast<CallBase>(&I))
-        if (const Function *Callee = Call->getCalledFunction(); !Callee || isLoweredToCall(Callee))
-          return;
-      AccessesMemory |= I.mayReadOrWriteMemory();
-      if (const Value *Pointer = getLoadStorePointerOperand(&I))
-        StepsThroughArray |= advancesIn(*L, SE.getSCEV(const_cast<Value *>(Pointer)));
-      Cost += getInstructionCost(&I, SmallVector<const Value *, 4>(I.operand_values()), TTI::TCK_SizeAndLatency);
-    }
-  // Copies of a search have all its tests. Before copies of another loop, a dozen instructions compute how many rounds
-  // are left over: a long loop does not make up for them in a few rounds, nor does one that steps through no array. One
-  // that only computes does, since copies save moves. A search through arrays with a second end, as in the comparison
-  // of two strings, usually ends early.
-  const int LongestUncounted = 12;
+  const LoopBody Body = inspectBody(*L, SE, *this);
+  if (Body.Calls)
+    return;
+  // About twelve instructions before the copies compute how many iterations are left over. In a few iterations a long
+  // loop does not make up for them, nor does one that steps through no array. One that only computes does, because
+  // copies save moves.
   const bool IsCounted = SE.getSmallConstantTripCount(L) != 0;
   const bool Searches =
       any_of(Exiting, [&](BasicBlock *Block) { return isa<SCEVCouldNotCompute>(SE.getExitCount(L, Block)); });
-  if (Aggressive && !IsCounted && !IsJammed && !UP.UnrollAndJam && AccessesMemory &&
-      (Cost > LongestUncounted || !(StepsThroughArray || Searches)))
+  if (IsO3 && !IsCounted && !IsJammed && !UP.UnrollAndJam && Body.AccessesMemory &&
+      (Body.Size > LongestUncounted || !(Body.StepsThroughArray || Searches)))
     return;
-  const bool IsShortSearch = Searches && StepsThroughArray && Exiting.size() == 2;
-  UP.PartialThreshold = !Aggressive ? 40 : UP.UnrollAndJam ? 160 : IsJammed || IsCounted ? 240 : 80;
-  UP.UnrollAndJamInnerLoopThreshold = 100;
-  UP.MaxCount = UP.DefaultUnrollRuntimeCount = !Aggressive ? 4 : IsShortSearch ? 2 : 8;
+  const bool IsShortSearch = Searches && Body.StepsThroughArray && Exiting.size() == 2;
+  UP.PartialThreshold = UP.UnrollAndJam                   ? JammedCopiesSize
+                        : IsJammed || (IsO3 && IsCounted) ? CountedCopiesSize
+                                                          : Limits.CopiesSize;
+  UP.UnrollAndJamInnerLoopThreshold = JammedInnerSize;
+  UP.MaxCount = UP.DefaultUnrollRuntimeCount = IsO3 && IsShortSearch ? SearchCopies : Limits.Copies;
   UP.Partial = UP.Runtime = true;
-  UP.Force = L->isInnermost() && Cost < 12;
+  UP.Force = L->isInnermost() && Body.Size <= AlwaysCopied;
 }
 
 void TraxTTIImpl::getPeelingPreferences(Loop *L, ScalarEvolution &SE, TTI::PeelingPreferences &PP) {

@@ -61,7 +61,7 @@ config.substitutions += [
     ("%cmake", config.cmake),
     ("%run_c", " ".join([
         sys.executable, os.path.join(config.test_source_root, "run_c.py"), "--clang", program("clang"),
-        "--sim", program("trax-sim")])),
+        "--sim", program("trax-sim"), "--expected", os.path.join(config.trax_build_root, "tests", "c")])),
 ]
 
 try:

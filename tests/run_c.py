@@ -5,8 +5,8 @@
     // RUN: %run_c %s %t --levels -O2,-Os --cflags "-ffast-math" --simflags "--config 1x32" --status 3
     // RUN: %run_c %s %t --clang-only        (compile and link at every level, run nothing)
 
-Standard output must equal the file beside the program with the ending .expected, byte for byte, and the exit status the one given
-(default 0). With --fault TEXT the program must end in a fault report that contains TEXT, once for each --fault, with
+Standard output must equal NAME.expected beside the program, byte for byte, or the one in the folder of --expected, which the build
+made on the host (c/CMakeLists.txt). The exit status must be the one given (default 0). With --fault TEXT the program must end in a fault report that contains TEXT, once for each --fault, with
 the status 1 or, if it aborts, the one given.
 Without --levels, the level is -O2, and for every second program -O0, too; with TRAX_LEVELS=all in the environment, every one.
 The compiler verifies its machine code at every step. Exit status: 0 if every level agrees, else 1 with the first difference of
@@ -80,6 +80,7 @@ def main():
     parser.add_argument("binary", help="where the programs go; the level is appended")
     parser.add_argument("--clang", required=True)
     parser.add_argument("--sim", required=True)
+    parser.add_argument("--expected", required=True, help="a folder of expected outputs that are not beside their programs")
     parser.add_argument("--levels", help="comma separated (default: -O2, for every second program -O0, too)")
     parser.add_argument("--cflags", default="")
     parser.add_argument("--simflags", default="")
@@ -95,13 +96,15 @@ def main():
         joined.append(f"{argument}={arguments.pop(0)}" if argument in takes_value and arguments else argument)
     options = parser.parse_args(joined)
 
+    beside = os.path.splitext(options.source)[0] + ".expected"
+    made = os.path.join(options.expected, os.path.basename(beside))
+    path = beside if os.path.exists(beside) else made
     expected = None
-    expected_path = os.path.splitext(options.source)[0] + ".expected"
-    if os.path.exists(expected_path):
-        with open(expected_path, "rb") as file:
+    if os.path.exists(path):
+        with open(path, "rb") as file:
             expected = file.read()
     elif not options.clang_only and not options.fault:
-        print(f"run_c.py: error: {expected_path} is missing", file=sys.stderr)
+        print(f"run_c.py: error: {beside} is missing", file=sys.stderr)
         return 1
 
     failed = False

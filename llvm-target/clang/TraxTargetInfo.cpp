@@ -39,9 +39,8 @@ const Builtin::Info Builtins[] = {
 #define BUILTIN(ID, NAME, TYPE, ATTRIBUTES)                                                                            \
   {"__builtin_trax_" #NAME, TYPE, ATTRIBUTES "F", nullptr, HeaderDesc::NO_HEADER, ALL_LANGUAGES},
 #include "TraxBuiltins.def"
-    // Clang looks the intrinsics of generic builtins up by an architecture that it knows. This row, a call of a
-    // function
-    // that TraxBuiltinNames.cpp gives the intrinsic's name, takes the place of clang's own.
+    // Clang looks up the intrinsics of generic builtins by an architecture that it knows. This row replaces clang's: it
+    // is a call of a function to which TraxBuiltinNames.cpp gives the intrinsic's name.
     {"__builtin_debugtrap", "v", "nF", nullptr, HeaderDesc::NO_HEADER, ALL_LANGUAGES},
 };
 

@@ -61,17 +61,22 @@ static void add_to_output(ld_context *ctx, ld_map *by_name, ld_section *section)
   ld_push(ctx, &output->sections, section);
 }
 
-static int output_rank(const ld_output *output) {
-  bool zeros = output->type == SHT_NOBITS;
-  if (!(output->flags & SHF_ALLOC))
-    return 100;
-  if (output->flags & SHF_TLS)
-    return 90 + zeros;
-  if (output->flags & SHF_EXECINSTR)
-    return 0 + zeros;
-  if (!(output->flags & SHF_WRITE))
-    return 10 + zeros;
-  return output->type == SHT_INIT_ARRAY ? 20 : output->type == SHT_FINI_ARRAY ? 21 : 22 + zeros;
+static ld_class class_of(const ld_output *output) {
+  return !(output->flags & SHF_ALLOC)    ? LD_NOT_LOADED
+         : output->flags & SHF_TLS       ? LD_THREAD_LOCAL
+         : output->flags & SHF_EXECINSTR ? LD_CODE
+         : !(output->flags & SHF_WRITE)  ? LD_CONSTANTS
+                                         : LD_DATA;
+}
+
+static ld_order order_of(const ld_output *output) {
+  if (output->class == LD_NOT_LOADED)
+    return LD_CONTENTS;
+  if (output->class == LD_DATA && output->type == SHT_INIT_ARRAY)
+    return LD_CONSTRUCTORS;
+  if (output->class == LD_DATA && output->type == SHT_FINI_ARRAY)
+    return LD_DESTRUCTORS;
+  return output->type == SHT_NOBITS ? LD_ZEROS : LD_CONTENTS;
 }
 
 /* --- order within an output section --- */
@@ -131,8 +136,10 @@ static void order_sections(ld_context *ctx, ld_output *output) {
 
 int ld_compare_outputs(const void *left, const void *right) {
   const ld_output *a = *(ld_output *const *)left, *b = *(ld_output *const *)right;
-  if (a->rank != b->rank)
-    return a->rank < b->rank ? -1 : 1;
+  if (a->class != b->class)
+    return a->class < b->class ? -1 : 1;
+  if (a->order != b->order)
+    return a->order < b->order ? -1 : 1;
   return a->header_index < b->header_index ? -1 : 1; /* first mention, for now */
 }
 
@@ -205,7 +212,8 @@ void ld_gather(ld_context *ctx) {
       add_to_output(ctx, &by_name, ctx->sections.items[i]);
   for (size_t i = 0; i < ctx->outputs.count; i++) {
     ld_output *output = ctx->outputs.items[i];
-    output->rank = output_rank(output);
+    output->class = class_of(output);
+    output->order = order_of(output);
     output->header_index = (uint32_t)i;
     order_sections(ctx, output);
     ld_merge_output(ctx, output);

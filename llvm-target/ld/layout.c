@@ -12,17 +12,13 @@ ld_output *ld_output_find(const ld_context *ctx, const char *name) {
   return NULL;
 }
 
-static bool is_thread_local(const ld_output *output) {
-  return output->rank / 10 == 9;
-}
-
 /* The initial values of thread-local data lie behind the constants, from at on; each thread copies them into its local
    memory. Returns where they end, 0 if there are none. */
 static uint64_t place_initial_values(ld_context *ctx, uint64_t at) {
   bool any = false;
   for (size_t i = 0; i < ctx->outputs.count; i++) {
     ld_output *output = ctx->outputs.items[i];
-    if (!is_thread_local(output) || output->type == SHT_NOBITS || output->size == 0)
+    if (output->class != LD_THREAD_LOCAL || output->type == SHT_NOBITS || output->size == 0)
       continue;
     at = ld_align(at, output->alignment < 4 ? 4 : output->alignment);
     output->load_address = (uint32_t)at;
@@ -50,12 +46,12 @@ static uint64_t close_segment(ld_context *ctx, ld_segment segment, uint64_t file
 
 /* Sections of one class follow each other from *address on, up to one with an address of its own, which begins a new
    segment. */
-static void place_segments(ld_context *ctx, int class, uint32_t flags, uint64_t *address) {
+static void place_segments(ld_context *ctx, ld_class class, uint32_t flags, uint64_t *address) {
   ld_segment segment = {.flags = flags, .address = (uint32_t)ld_align(*address, LD_SEGMENT_ALIGNMENT)};
   uint64_t at = segment.address, file_end = at, memory_end = at;
   for (size_t i = 0; i < ctx->outputs.count; i++) {
     ld_output *output = ctx->outputs.items[i];
-    if (output->rank / 10 != class)
+    if (output->class != class)
       continue;
     const ld_section_start *start = find_start(ctx, output->name);
     if (start) {
@@ -101,7 +97,7 @@ static void check_overlap(ld_context *ctx) {
   ld_output **sorted = ld_alloc_array(ctx, ctx->outputs.count + 1, sizeof(ld_output *));
   size_t count = 0;
   for (size_t i = 0; i < ctx->outputs.count; i++)
-    if (ctx->outputs.items[i]->rank < 90 && ctx->outputs.items[i]->size)
+    if (ctx->outputs.items[i]->class < LD_THREAD_LOCAL && ctx->outputs.items[i]->size)
       sorted[count++] = ctx->outputs.items[i];
   qsort(sorted, count, sizeof(ld_output *), compare_addresses);
   for (size_t i = 1; i < count; i++) {
@@ -119,7 +115,7 @@ static void place_thread_local(ld_context *ctx) {
   bounds->tdata_start = bounds->tdata_end = TRAX_LOCAL_BASE;
   for (size_t i = 0; i < ctx->outputs.count; i++) {
     ld_output *output = ctx->outputs.items[i];
-    if (!is_thread_local(output))
+    if (output->class != LD_THREAD_LOCAL)
       continue;
     at = ld_align(at, output->alignment);
     output->address = (uint32_t)at;
@@ -162,7 +158,7 @@ static void set_bounds(ld_context *ctx, uint32_t text_end, uint32_t end) {
   bounds->bss_start = bounds->bss_end = end;
   for (size_t i = 0; i < ctx->outputs.count; i++) {
     const ld_output *output = ctx->outputs.items[i];
-    if (output->rank != 23 || !output->size)
+    if (output->class != LD_DATA || output->order != LD_ZEROS || !output->size)
       continue;
     if (bounds->bss_start == end)
       bounds->bss_start = output->address;
@@ -201,7 +197,7 @@ static void place_in_file(ld_context *ctx) {
     segment->file_offset = (uint32_t)offset;
     for (size_t o = 0; o < ctx->outputs.count; o++) {
       ld_output *output = ctx->outputs.items[o];
-      if (output->rank < 90 && output->size && output->address >= segment->address &&
+      if (output->class < LD_THREAD_LOCAL && output->size && output->address >= segment->address &&
           output->address - segment->address < segment->memory_size)
         output->file_offset = segment->file_offset + minimum(output->address - segment->address, segment->file_size);
     }
@@ -214,9 +210,9 @@ static void place_in_file(ld_context *ctx) {
   }
   for (size_t i = 0; i < ctx->outputs.count; i++) {
     ld_output *output = ctx->outputs.items[i];
-    if (output->rank < 90 || output->load_address)
+    if (output->class < LD_THREAD_LOCAL || output->load_address)
       continue;
-    offset = ld_align(offset, is_thread_local(output) ? 1 : output->alignment);
+    offset = ld_align(offset, output->class == LD_THREAD_LOCAL ? 1 : output->alignment);
     output->file_offset = (uint32_t)offset;
     if (output->type != SHT_NOBITS)
       offset += output->size;
@@ -238,10 +234,10 @@ bool ld_layout(ld_context *ctx) {
   if (ctx->error_count)
     return false;
   uint64_t address = ctx->options.text_start;
-  place_segments(ctx, 0, PF_R | PF_X, &address);
+  place_segments(ctx, LD_CODE, PF_R | PF_X, &address);
   uint32_t text_end = (uint32_t)address;
-  place_segments(ctx, 1, PF_R, &address);
-  place_segments(ctx, 2, PF_R | PF_W, &address);
+  place_segments(ctx, LD_CONSTANTS, PF_R, &address);
+  place_segments(ctx, LD_DATA, PF_R | PF_W, &address);
   check_overlap(ctx);
   place_thread_local(ctx);
   if (ctx->error_count)

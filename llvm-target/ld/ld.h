@@ -296,11 +296,17 @@ void ld_mark_live(ld_context *ctx);
 
 /* --- layout.c --- */
 
+/* The order of output sections in the image: by class, then by their order within it. The first three classes are
+   segments; thread-local data is in local memory, the rest is not loaded. */
+typedef enum ld_class { LD_CODE, LD_CONSTANTS, LD_DATA, LD_THREAD_LOCAL, LD_NOT_LOADED } ld_class;
+typedef enum ld_order { LD_CONSTRUCTORS, LD_DESTRUCTORS, LD_CONTENTS, LD_ZEROS } ld_order;
+
 struct ld_output {
   const char *name;
   uint32_t type, flags, alignment, entry_size;
   LD_VECTOR(ld_section *) sections;
-  int rank; /* order in the image */
+  ld_class class;
+  ld_order order;
   uint32_t address, size;
   uint32_t load_address; /* of .tdata: where its initial values are in the image; otherwise 0 */
   uint32_t file_offset;
@@ -326,7 +332,7 @@ ld_output *ld_output_find(const ld_context *ctx, const char *name);
 /* --- gather.c --- */
 
 void ld_gather(ld_context *ctx);
-/* By rank, then by header_index: for qsort. */
+/* By class, order and header_index: for qsort. */
 int ld_compare_outputs(const void *left, const void *right);
 
 /* --- callgraph.c --- */

@@ -1,25 +1,15 @@
 //===- Disassembly.cpp - Instructions, with what is known about them -----===//
+#include "Decoder.h"
 #include "Listing.h"
 #include "SourceLines.h"
 #include "trax/isa.h"
 #include "llvm/ADT/STLExtras.h"
 #include "llvm/ADT/StringExtras.h"
 #include "llvm/ADT/StringSet.h"
-#include "llvm/MC/MCAsmInfo.h"
-#include "llvm/MC/MCContext.h"
-#include "llvm/MC/MCDisassembler/MCDisassembler.h"
-#include "llvm/MC/MCInst.h"
-#include "llvm/MC/MCInstPrinter.h"
 #include "llvm/MC/MCInstrAnalysis.h"
-#include "llvm/MC/MCInstrInfo.h"
-#include "llvm/MC/MCRegisterInfo.h"
-#include "llvm/MC/MCSubtargetInfo.h"
-#include "llvm/MC/MCTargetOptions.h"
-#include "llvm/MC/TargetRegistry.h"
 #include "llvm/Support/Endian.h"
 #include "llvm/Support/Format.h"
 #include "llvm/Support/raw_ostream.h"
-#include "llvm/TargetParser/Triple.h"
 #include <array>
 #include <map>
 
@@ -51,15 +41,7 @@ private:
   const ElfFile &File;
   const ListingOptions &Options;
   raw_ostream &OS;
-  Triple TT{"trax"};
-  MCTargetOptions MCOptions;
-  std::unique_ptr<MCRegisterInfo> MRI;
-  std::unique_ptr<MCAsmInfo> MAI;
-  std::unique_ptr<MCInstrInfo> MII;
-  std::unique_ptr<MCSubtargetInfo> STI;
-  std::unique_ptr<MCContext> Ctx;
-  std::unique_ptr<MCDisassembler> Decoder;
-  std::unique_ptr<MCInstPrinter> Printer, PlainPrinter; ///< the latter without aliases
+  const Decoder LLVM;
   std::unique_ptr<MCInstrAnalysis> Analysis;
 
   SourceLines Lines;
@@ -81,21 +63,7 @@ private:
 } // namespace
 
 Disassembly::Disassembly(const Target &T, const ElfFile &File, const ListingOptions &Options, raw_ostream &OS)
-    : File(File), Options(Options), OS(OS) {
-  MRI.reset(T.createMCRegInfo(TT.str()));
-  MAI.reset(T.createMCAsmInfo(*MRI, TT.str(), MCOptions));
-  MII.reset(T.createMCInstrInfo());
-  STI.reset(T.createMCSubtargetInfo(TT.str(), "", ""));
-  Ctx = std::make_unique<MCContext>(TT, MAI.get(), MRI.get(), STI.get());
-  Decoder.reset(T.createMCDisassembler(*STI, *Ctx));
-  for (std::unique_ptr<MCInstPrinter> *P : {&Printer, &PlainPrinter}) {
-    P->reset(T.createMCInstPrinter(TT, 0, *MAI, *MII, *MRI));
-    (*P)->setPrintBranchImmAsAddress(true);
-    (*P)->setPrintImmHex(false);
-  }
-  PlainPrinter->applyTargetSpecificCLOption("no-aliases");
-  Analysis.reset(T.createMCInstrAnalysis(MII.get()));
-}
+    : File(File), Options(Options), OS(OS), LLVM(T), Analysis(T.createMCInstrAnalysis(LLVM.MII.get())) {}
 
 Error Disassembly::readLines() {
   if (!Options.LineNumbers && !Options.Source)
@@ -115,14 +83,14 @@ bool Disassembly::isWanted(uint32_t Address) const {
                                          (Covering->Size == 0 || Address - Covering->Value < Covering->Size));
 }
 
-/// The symbols up to and including the address become past; those at it head what follows.
+/// Passes the symbols up to and including the address, and prints those at the address as headings.
 void Disassembly::printSymbols(uint32_t Address) {
   const std::vector<const Symbol *> &Symbols = Current->Symbols;
   uint32_t Base = File.isRelocatable() ? Current->Address : 0;
   size_t First = NextSymbol;
   while (NextSymbol < Symbols.size() && Symbols[NextSymbol]->Value + Base <= Address)
     ++NextSymbol;
-  // Of several at one address, one that was asked for, else a function, else the last.
+  // Several symbols may have one address: chooses one that was asked for, else a function, else the last.
   auto Rank = [&](const Symbol *S) {
     return 2 * is_contained(Options.OnlySymbols, S->Name) + (S->Type == ELF::STT_FUNC || S->Type == ELF::STT_OBJECT);
   };
@@ -180,7 +148,7 @@ const Relocation *Disassembly::relocationAt(uint32_t Offset) const {
   return Found != Current->Relocations.end() && Found->Offset == Offset ? &*Found : nullptr;
 }
 
-/// What an instruction refers to: by its relocation, or where it branches to within the section.
+/// Prints what an instruction refers to: the symbol of its relocation, or the target of a branch.
 void Disassembly::printTarget(const MCInst &Inst, uint32_t Address, const Relocation *Patch) {
   if (Patch && Patch->Target) {
     OS << " <";
@@ -248,13 +216,12 @@ void Disassembly::printInstruction(uint32_t Address, uint32_t Offset) {
   SmallString<80> Text;
   raw_svector_ostream Line(Text);
   MCInst Inst;
-  uint64_t Size;
-  bool IsLegal = Decoder->getInstruction(Inst, Size, Bytes, Address, nulls()) == MCDisassembler::Success;
-  // "mv r4, r4" is no reading of an immediate that the linker has yet to fill in.
+  bool IsLegal = LLVM.decode(Inst, Bytes, Address);
+  // The alias "mv r4, r4" would hide an immediate that the linker has yet to fill in.
   const Relocation *Patch = relocationAt(Offset);
   bool Fills = Patch && (Patch->Type == R_TRAX_LO16 || Patch->Type == R_TRAX_IMM16);
   if (IsLegal)
-    (Options.Aliases && !Fills ? Printer : PlainPrinter)->printInst(&Inst, Address, "", *STI, Line);
+    (Options.Aliases && !Fills ? LLVM.Printer : LLVM.PlainPrinter)->printInst(&Inst, Address, "", *LLVM.STI, Line);
   else
     Line << "\t.word\t" << format_hex(Word, 10);
   OS << Text;

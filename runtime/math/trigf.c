@@ -93,8 +93,17 @@ float cosf(float x) {
 }
 
 void sincosf(float x, float *sine, float *cosine) {
-  *sine = sinf(x);
-  *cosine = cosf(x);
+  uint32_t bits = float_bits(x), magnitude = bits & ~FLOAT_SIGN;
+  if (is_tiny(magnitude)) {
+    *sine = x;
+    *cosine = 1;
+  } else if (magnitude >= FLOAT_INFINITY) {
+    *sine = *cosine = bits_float(FLOAT_NAN);
+  } else {
+    struct reduced r = reduce(magnitude);
+    *sine = quarter(r, r.quadrant, bits & FLOAT_SIGN);
+    *cosine = quarter(r, r.quadrant + 1, 0);
+  }
 }
 
 float tanf(float x) {

@@ -1,4 +1,4 @@
-/* qsort and bsearch. */
+/* qsort, qsort_r and bsearch. */
 #include <stdint.h>
 #include <stdlib.h>
 
@@ -20,31 +20,41 @@ static void swap(char *a, char *b, size_t size) {
   }
 }
 
-/* Moves the element at parent down until none of its children, at twice its number plus 1 and 2, is greater. */
-static void sift_down(char *base, size_t parent, size_t count, size_t size,
-                      int (*compare)(const void *, const void *)) {
-  size_t child;
-  while ((child = 2 * parent + 1) < count) {
-    if (child + 1 < count && compare(base + child * size, base + (child + 1) * size) < 0)
-      child++;
-    if (compare(base + parent * size, base + child * size) >= 0)
-      return;
-    swap(base + parent * size, base + child * size, size);
-    parent = child;
+typedef int compare_function(const void *, const void *);
+typedef int compare_with_context(const void *, const void *, void *);
+
+/* Heapsort, which needs no stack for parts still to be sorted. Both functions below inline it. */
+static inline __attribute__((always_inline)) void heapsort(char *base, size_t count, size_t size,
+                                                           compare_with_context *compare, void *context) {
+  for (size_t start = count / 2, end = count; end > 1;) {
+    if (start)
+      start--;
+    else
+      swap(base, base + --end * size, size);
+    /* The element at the parent moves down until none of its children is greater. */
+    for (size_t parent = start, child; (child = 2 * parent + 1) < end; parent = child) {
+      if (child + 1 < end && compare(base + child * size, base + (child + 1) * size, context) < 0)
+        child++;
+      if (compare(base + parent * size, base + child * size, context) >= 0)
+        break;
+      swap(base + parent * size, base + child * size, size);
+    }
   }
 }
 
-void qsort(void *base, size_t count, size_t size, int (*compare)(const void *, const void *)) {
-  for (size_t i = count / 2; i-- > 0;)
-    sift_down(base, i, count, size, compare);
-  for (size_t last = count; last-- > 1;) {
-    swap(base, (char *)base + last * size, size);
-    sift_down(base, 0, last, size, compare);
-  }
+void qsort_r(void *base, size_t count, size_t size, compare_with_context *compare, void *context) {
+  heapsort(base, count, size, compare, context);
 }
 
-void *bsearch(const void *key, const void *base, size_t count, size_t size,
-              int (*compare)(const void *, const void *)) {
+static int without_context(const void *a, const void *b, void *compare) {
+  return (*(compare_function **)compare)(a, b);
+}
+
+void qsort(void *base, size_t count, size_t size, compare_function *compare) {
+  heapsort(base, count, size, without_context, &compare);
+}
+
+void *bsearch(const void *key, const void *base, size_t count, size_t size, compare_function *compare) {
   const char *low = base;
   while (count) {
     const char *middle = low + count / 2 * size;

@@ -217,3 +217,18 @@ define i32 @maximum(ptr %p, i32 %x) {
   %r = atomicrmw max ptr %p, i32 %x monotonic
   ret i32 %r
 }
+
+; Only this thread reaches local memory: no operation on it takes a lock.
+; CHECK-LABEL: exchange_thread_local:
+; CHECK-NOT: call
+; CHECK: lw r{{[0-9]+}}, %abs(counter)(r0)
+; CHECK: sw r{{[0-9]+}}, %abs(counter)(r0)
+; CHECK: ret
+@counter = thread_local global i32 0
+define i32 @exchange_thread_local(i32 %mask, i32 %new) {
+  %counter = call ptr @llvm.threadlocal.address.p0(ptr @counter)
+  %old = atomicrmw or ptr %counter, i32 %mask seq_cst
+  %pair = cmpxchg ptr %counter, i32 0, i32 %new seq_cst seq_cst
+  ret i32 %old
+}
+declare ptr @llvm.threadlocal.address.p0(ptr)

@@ -99,19 +99,3 @@ define i32 @child(ptr %node, i32 %a, i32 %b) nounwind {
   %r = load i32, ptr %address
   ret i32 %r
 }
-
-; What is less than the next constant is at most this one, which is in a register for another comparison.
-; CHECK-LABEL: neighbours:
-; CHECK: lui
-; CHECK-NOT: {{ori|lui}}
-; CHECK: ret
-define i32 @neighbours(i32 %x) nounwind {
-  %below = icmp slt i32 %x, -1000999
-  br i1 %below, label %low, label %high
-low:
-  %same = icmp eq i32 %x, -1001000
-  %answer = select i1 %same, i32 5, i32 %x
-  ret i32 %answer
-high:
-  ret i32 7
-}

@@ -40,4 +40,13 @@ define void @store_stack(i32 %x) {
   store volatile i32 %x, ptr %p, !nontemporal !0
   ret void
 }
+; An aggregate that is passed in memory is on the caller's stack.
+; CHECK-LABEL: load_argument:
+; CHECK: lw r4, 4(r2)
+; CHECK: ret
+define i32 @load_argument(ptr byval([2 x i32]) %p) {
+  %q = getelementptr i8, ptr %p, i32 4
+  %r = load i32, ptr %q, !nontemporal !0
+  ret i32 %r
+}
 !0 = !{i32 1}

@@ -5,23 +5,13 @@
 //
 //===----------------------------------------------------------------------===//
 #include "LLVMTrax.h"
+#include "tools/Decoder.h"
 #include "trax/abi.h"
 #include "trax/isa.h"
-#include "llvm/MC/MCAsmInfo.h"
 #include "llvm/MC/MCCodeEmitter.h"
-#include "llvm/MC/MCContext.h"
-#include "llvm/MC/MCDisassembler/MCDisassembler.h"
 #include "llvm/MC/MCFixup.h"
-#include "llvm/MC/MCInst.h"
-#include "llvm/MC/MCInstPrinter.h"
-#include "llvm/MC/MCInstrInfo.h"
-#include "llvm/MC/MCRegisterInfo.h"
-#include "llvm/MC/MCSubtargetInfo.h"
-#include "llvm/MC/MCTargetOptions.h"
-#include "llvm/MC/TargetRegistry.h"
 #include "llvm/Support/Endian.h"
 #include "llvm/Support/raw_ostream.h"
-#include "llvm/TargetParser/Triple.h"
 #include <random>
 
 using namespace llvm;
@@ -33,39 +23,19 @@ constexpr unsigned WordsPerInstruction = 1u << 14;
 constexpr uint64_t Address = 0x00400000;
 
 class Comparison {
-  Triple TT{"trax"};
-  MCTargetOptions Options;
-  std::unique_ptr<MCRegisterInfo> MRI;
-  std::unique_ptr<MCAsmInfo> MAI;
-  std::unique_ptr<MCInstrInfo> MII;
-  std::unique_ptr<MCSubtargetInfo> STI;
-  std::unique_ptr<MCContext> Ctx;
-  std::unique_ptr<MCDisassembler> Decoder;
-  std::unique_ptr<MCCodeEmitter> Encoder;
-  std::unique_ptr<MCInstPrinter> Printer;
+  const trax::Decoder LLVM;
+  const std::unique_ptr<MCCodeEmitter> Encoder;
 
 public:
   uint64_t Legal = 0, Illegal = 0, Differences = 0;
 
-  explicit Comparison(const Target &T) {
-    MRI.reset(T.createMCRegInfo(TT.str()));
-    MAI.reset(T.createMCAsmInfo(*MRI, TT.str(), Options));
-    MII.reset(T.createMCInstrInfo());
-    STI.reset(T.createMCSubtargetInfo(TT.str(), "", ""));
-    Ctx = std::make_unique<MCContext>(TT, MAI.get(), MRI.get(), STI.get());
-    Decoder.reset(T.createMCDisassembler(*STI, *Ctx));
-    Encoder.reset(T.createMCCodeEmitter(*MII, *Ctx));
-    Printer.reset(T.createMCInstPrinter(TT, 0, *MAI, *MII, *MRI));
-    Printer->setPrintBranchImmAsAddress(true);
-    Printer->applyTargetSpecificCLOption("no-aliases");
-  }
+  explicit Comparison(const Target &T) : LLVM(T), Encoder(T.createMCCodeEmitter(*LLVM.MII, *LLVM.Ctx)) {}
 
   void check(uint32_t Word) {
     uint8_t Bytes[4];
     support::endian::write32le(Bytes, Word);
     MCInst Inst;
-    uint64_t Size;
-    bool IsLegal = Decoder->getInstruction(Inst, Size, Bytes, Address, nulls()) == MCDisassembler::Success;
+    const bool IsLegal = LLVM.decode(Inst, Bytes, Address);
     if (IsLegal != (trax_decode(Word).op != TRAX_OP_ILLEGAL)) {
       differ(Word, IsLegal ? "legal" : "illegal", IsLegal ? "illegal" : "legal");
       return;
@@ -76,7 +46,7 @@ public:
 
     std::string FromLLVM;
     raw_string_ostream OS(FromLLVM);
-    Printer->printInst(&Inst, Address, "", *STI, OS);
+    LLVM.PlainPrinter->printInst(&Inst, Address, "", *LLVM.STI, OS);
     OS.flush();
     StringRef Text = StringRef(FromLLVM).trim(); // "\tmnemonic\toperands"
     FromLLVM = Text.str();
@@ -88,15 +58,15 @@ public:
 
     SmallVector<char, 4> Encoded;
     SmallVector<MCFixup, 1> Fixups;
-    Encoder->encodeInstruction(Inst, Encoded, Fixups, *STI);
+    Encoder->encodeInstruction(Inst, Encoded, Fixups, *LLVM.STI);
     if (Encoded.size() != 4 || !Fixups.empty() || support::endian::read32le(Encoded.data()) != Word)
       differ(Word, "encoded otherwise than it was decoded", FromTable);
   }
 
 private:
-  void differ(uint32_t Word, StringRef LLVM, StringRef Table) {
+  void differ(uint32_t Word, StringRef Ours, StringRef Table) {
     if (++Differences <= 20)
-      errs() << format_hex(Word, 10) << ": LLVM: " << LLVM << ", table: " << Table << '\n';
+      errs() << format_hex(Word, 10) << ": LLVM: " << Ours << ", table: " << Table << '\n';
   }
 };
 

@@ -1,6 +1,7 @@
 /* The ray tracer's shading: the surface, the light and the colour of every ray that hit something. */
 #include "scene.h"
 
+#include "aim.h"
 #include "shade.h"
 #include "traverse.h"
 
@@ -24,7 +25,7 @@ struct result kernel_run(void) {
   for (int i = 0; i < WIDTH * HEIGHT; i++) {
     struct surface surface;
     struct light way;
-    find_surface(&surface, &hits[i], eye);
+    find_surface(&surface, &hits[i], eye, eye);
     aim_at_light(&way, &surface, params->light);
     float light = ambient_light(params, &surface);
     if (way.cosine_bits > 0)

@@ -6,11 +6,10 @@
 #include "trax/render_params.h"
 #include "trax/scene_format.h"
 
-/* What raytracer/device/run.h asks for, of this scene: twelve levels, binary nodes, a whole stack, hits in binary32. */
+/* What raytracer/device/run.h asks for, of this scene: twelve levels, binary nodes, a whole stack. */
 #define TRAX_TREE_DEPTH 12
 #define TRAX_STACK_ENTRIES 12
 #define TRAX_NODE_LAYOUT TRAX_NODES_BINARY
-#define TRAX_EXACT_HITS 0
 
 #include <stddef.h>
 
