@@ -53,7 +53,7 @@ int trax_beneath_open(int folder, const char *path, int flags) {
 
 /* --- writing --- */
 
-/* Where a file is to be: its folder, and its name there. */
+/* A place of a file: its folder, and its name there. */
 struct place {
   int folder;
   const char *name;

@@ -1,4 +1,5 @@
 #include "trax/files.h"
+#include "trax/grow.h"
 
 #include "trax/output.h"
 #include "trax/reads.h"
@@ -102,15 +103,9 @@ static void release(struct trax_file_use *use) {
 static void add(trax_files *files, const char *option, const char *path, bool is_output) {
   if (!path)
     return;
-  if (files->count == files->capacity) {
-    const size_t capacity = files->capacity ? 2 * files->capacity : 16;
-    struct trax_file_use *uses = realloc(files->uses, capacity * sizeof *uses);
-    if (!uses) {
-      files->out_of_memory = true;
-      return;
-    }
-    files->uses = uses;
-    files->capacity = capacity;
+  if (!trax_grow((void **)&files->uses, files->count, &files->capacity, sizeof *files->uses)) {
+    files->out_of_memory = true;
+    return;
   }
   struct trax_file_use *use = &files->uses[files->count];
   *use = (struct trax_file_use){.path = strdup(path), .option = option ? strdup(option) : NULL, .is_output = is_output};

@@ -202,7 +202,7 @@ static void show_given(const struct parser *parser, FILE *out) {
                                                                                   : "");
 }
 
-/* What every command has: not in the table, since it is for those who package it or call it from programs. */
+/* The options that every command has. They are not in the tables, since only packagers and programs use them. */
 static bool show_page(const struct parser *parser, const char *name) {
   if (strcmp(name, "help-man") == 0)
     trax_command_man(parser->command, stdout);

@@ -8,6 +8,8 @@
 #include <string.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 volatile sig_atomic_t trax_signal;
@@ -62,14 +64,34 @@ void trax_allow_signals(const sigset_t *before) {
   sigprocmask(SIG_SETMASK, before, NULL);
 }
 
-pid_t trax_fork(void) {
+pid_t trax_fork(int last) {
   sigset_t before;
   trax_hold_signals(&before);
-  const pid_t child = fork();
-  if (child == 0)
+  const pid_t parent = getpid(), child = fork();
+  if (child == 0) {
     trax_default_signals();
+    prctl(PR_SET_PDEATHSIG, last);
+    if (getppid() != parent)
+      _exit(127);
+  }
   trax_allow_signals(&before);
   return child;
+}
+
+trax_status trax_wait_for_child(pid_t child, int last, const volatile int *interrupt, int *status) {
+  const struct timespec pause = {.tv_nsec = 2000000};
+  bool stopped = false;
+  for (pid_t ended = 0; ended != child;) {
+    ended = waitpid(child, status, interrupt && !stopped ? WNOHANG : 0);
+    if (ended < 0 && errno != EINTR)
+      return TRAX_ERROR;
+    if (ended != child && !stopped && interrupt && *interrupt)
+      stopped = kill(child, last) == 0;
+    else if (ended == 0)
+      nanosleep(&pause, NULL);
+  }
+  /* the interrupt may also have ended the child itself */
+  return interrupt && *interrupt ? TRAX_INTERRUPTED : TRAX_OK;
 }
 
 /* Also as a zombie, which a process is until its own parent has asked for its status. */

@@ -1,6 +1,7 @@
 /* Pending changes become those of the host. */
 #define _GNU_SOURCE /* O_PATH */
 #include "calls/internal.h"
+#include "trax/reads.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -38,6 +39,7 @@ int trax_host_read(struct trax_calls *calls, const struct trax_place *place, str
   close(found);
   if (descriptor < 0)
     return -descriptor;
+  trax_reads_note(status); /* no output of the simulator may replace a file of the program */
   const int failure = trax_contents_load(contents, descriptor);
   close(descriptor);
   return failure;
@@ -97,6 +99,12 @@ static int check_target(struct trax_calls *calls, const struct trax_place *place
   return S_ISREG(status.st_mode) ? 0 : S_ISDIR(status.st_mode) ? EISDIR : EPERM;
 }
 
+static void note_written(int folder, const char *name) {
+  struct stat status;
+  if (fstatat(folder, name, &status, AT_SYMLINK_NOFOLLOW) == 0)
+    trax_reads_note(&status);
+}
+
 /* Gives the host's file the name. The first one takes the temporary file, the others are links. */
 static int commit_name(struct trax_calls *calls, struct trax_name *name) {
   struct trax_file *file = name->file;
@@ -112,6 +120,7 @@ static int commit_name(struct trax_calls *calls, struct trax_name *name) {
       return errno;
     file->temporary[0] = '\0';
     file->home = name;
+    note_written(to, name->place.name);
     return 0;
   }
   char link[24];
@@ -122,6 +131,7 @@ static int commit_name(struct trax_calls *calls, struct trax_name *name) {
     failure = errno;
     remove_temporary(to, link);
   }
+  note_written(to, name->place.name); /* the new name has changed the file's time, and so its record */
   return failure;
 }
 

@@ -8,6 +8,7 @@
    A file is kept if the host does not have it. Another one is read again, and must be what it was. Input that has been
    read is read again, and must be what it was. */
 #include "calls/internal.h"
+#include "trax/grow.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -52,15 +53,7 @@ struct writer {
 };
 
 static void put(struct writer *writer, const void *bytes, size_t size) {
-  if (!writer->failed && writer->size + size > writer->capacity) {
-    const size_t larger = 2 * (writer->size + size);
-    uint8_t *grown = realloc(writer->bytes, larger);
-    writer->failed = !grown;
-    if (grown) {
-      writer->bytes = grown;
-      writer->capacity = larger;
-    }
-  }
+  writer->failed = writer->failed || !trax_grow_to((void **)&writer->bytes, writer->size + size, &writer->capacity, 1);
   if (writer->failed || !size)
     return;
   memcpy(writer->bytes + writer->size, bytes, size);

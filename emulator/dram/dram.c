@@ -1,10 +1,7 @@
 #include "dram/dram.h"
+#include "trax/gcd.h"
 
 #include <stdlib.h>
-
-static uint64_t greatest_common_divisor(uint64_t a, uint64_t b) {
-  return b ? greatest_common_divisor(b, a % b) : a;
-}
 
 static uint64_t latest(uint64_t a, uint64_t b) {
   return a > b ? a : b;
@@ -53,7 +50,7 @@ static bool create_channel(struct trax_dram_channel *channel, const struct trax_
 struct trax_dram *trax_dram_create(const struct trax_config *config, struct trax_dram_stats *stats, trax_error *error) {
   struct trax_dram *dram = calloc(1, sizeof *dram);
   const uint64_t ticks = config->dram.mtps, cycles = 2 * (uint64_t)config->chip.clock_mhz;
-  const uint64_t divisor = greatest_common_divisor(ticks, cycles);
+  const uint64_t divisor = trax_gcd(ticks, cycles);
   bool complete = dram && (dram->channel = calloc(config->memory.channels, sizeof *dram->channel)) != NULL;
   if (complete) {
     dram->config = config;

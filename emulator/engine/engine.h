@@ -1,5 +1,5 @@
 /* The interface of an engine: a table of operations that run a machine's program. engine/run.c drives every engine with
-   one loop; host/engines.c lists the engines by name. */
+   one loop; control/engines.c lists the engines by name. */
 #ifndef TRAX_ENGINE_ENGINE_H
 #define TRAX_ENGINE_ENGINE_H
 

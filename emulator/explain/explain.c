@@ -1,8 +1,7 @@
-#include "explain/memory_trace.h"
 #include "explain/page.h"
 #include "explain/places.h"
 #include "explain/span.h"
-#include "explain/table.h"
+#include "trax/grow.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -46,7 +45,8 @@ static void notify_span(struct trax_explain *explain, uint32_t tm, uint32_t tp, 
                                  .index = index,
                                  .inst = *trax_places_inst(explain->places, index)};
   for (unsigned i = 0; i < explain->reader_count; i++)
-    explain->readers[i].span(explain->readers[i].self, &span);
+    if (explain->readers[i]->kind->span)
+      explain->readers[i]->kind->span(explain->readers[i], &span);
   open->count = 0;
   if (issue) {
     open->begin = issue->cycle + 1;
@@ -63,8 +63,8 @@ static void notify_arrivals(struct trax_explain *explain, uint64_t cycle, uint32
     if (arrival->cycle > cycle || (arrival->cycle == cycle && arrival->tm > tm))
       break;
     for (unsigned i = 0; i < explain->reader_count; i++)
-      if (explain->readers[i].arrival)
-        explain->readers[i].arrival(explain->readers[i].self, arrival);
+      if (explain->readers[i]->kind->arrival)
+        explain->readers[i]->kind->arrival(explain->readers[i], arrival);
   }
   explain->arrival_count -= notified;
   if (notified)
@@ -94,66 +94,65 @@ bool trax_window_has(const struct trax_explain_options *options, uint32_t tm, ui
 
 /* --- creation and end --- */
 
-static const struct {
-  size_t file, other_file, third_file; /* offsets in the options; the reader is created if one of the files is given */
-  bool in_page;                         /* also if the page is wanted */
-  trax_status (*create)(struct trax_explain *explain, struct trax_reader *reader, trax_error *error);
-} kinds[] = {
-#define FILE_OF(MEMBER) offsetof(struct trax_explain_options, MEMBER)
-    {FILE_OF(profile), FILE_OF(folded), FILE_OF(sample), true, trax_profile_create},
-    {FILE_OF(trace), FILE_OF(trace), FILE_OF(trace), false, trax_trace_create},
-    {FILE_OF(konata), FILE_OF(konata), FILE_OF(konata), false, trax_konata_create},
-    {FILE_OF(perfetto), FILE_OF(perfetto), FILE_OF(perfetto), false, trax_perfetto_create},
-    {FILE_OF(heat), FILE_OF(heat_lines), FILE_OF(heat), true, trax_heat_create},
-    {FILE_OF(items), FILE_OF(item_buffer), FILE_OF(items), false, trax_items_create},
-    {FILE_OF(ray_kinds), FILE_OF(ray_kinds), FILE_OF(ray_kinds), true, trax_ray_kinds_create},
-    {FILE_OF(lockstep), FILE_OF(lockstep), FILE_OF(lockstep), false, trax_lockstep_create},
-    {FILE_OF(lockstep_rays), FILE_OF(lockstep_rays), FILE_OF(lockstep_rays), false, trax_lockstep_rays_create},
+static const struct trax_reader_kind *const kinds[] = {
+#define ROW(ID) &trax_##ID##_reader,
+    TRAX_READERS(ROW)
+#undef ROW
 };
-enum { KINDS = sizeof kinds / sizeof *kinds };
 
-static const char *file_at(const struct trax_explain_options *options, size_t offset) {
-  return *(const char *const *)((const char *)options + offset);
+/* Returns the path that is wanted for a reader's file; NULL: none. */
+static const char *path_of(const struct trax_explain_options *options, const struct trax_reader_file *file) {
+  return file->path ? *(const char *const *)((const char *)options + file->path - 1) : NULL;
 }
 
-static bool is_wanted(const struct trax_explain_options *options, unsigned kind) {
-  return file_at(options, kinds[kind].file) || file_at(options, kinds[kind].other_file) ||
-         file_at(options, kinds[kind].third_file) || (options->explore && kinds[kind].in_page);
+static bool is_wanted(const struct trax_explain_options *options, const struct trax_reader_kind *kind) {
+  bool wanted = (options->explore && kind->in_page) || (kind->is_wanted && kind->is_wanted(options));
+  for (unsigned i = 0; i < TRAX_READER_FILES; i++)
+    wanted |= path_of(options, &kind->files[i]) != NULL;
+  return wanted;
 }
 
 bool trax_explain_wanted(const struct trax_explain_options *options) {
-  bool wanted = options->series != NULL || options->memory_trace != NULL || options->check_order;
-  for (unsigned i = 0; i < KINDS; i++)
-    wanted |= is_wanted(options, i);
+  bool wanted = false;
+  for (unsigned i = 0; i < TRAX_READER_KINDS; i++)
+    wanted |= is_wanted(options, kinds[i]);
   return wanted;
+}
+
+void *trax_explain_array(size_t count, size_t size, trax_error *error) {
+  void *array = calloc(count ? count : 1, size);
+  if (!array)
+    trax_fail(error, "out of memory for the explanation of the run");
+  return array;
+}
+
+static trax_status open_reader(struct trax_explain *explain, const struct trax_reader_kind *kind, trax_error *error) {
+  struct trax_reader *reader = trax_explain_array(1, kind->bytes, error);
+  const char *path = kind->files[0].put ? NULL : path_of(&explain->options, &kind->files[0]);
+  if (!reader)
+    return TRAX_ERROR;
+  explain->readers[explain->reader_count++] = reader;
+  reader->kind = kind;
+  reader->explain = explain;
+  if (path && trax_output_open(&reader->output, path, error) != TRAX_OK)
+    return TRAX_ERROR;
+  reader->out = reader->output.file;
+  return kind->open ? kind->open(reader, error) : TRAX_OK;
 }
 
 static trax_status create(struct trax_explain *explain, trax_error *error) {
   const size_t threads = explain->machine->stats.threads;
-  explain->open_spans = calloc(threads, sizeof *explain->open_spans);
+  explain->open_spans = trax_explain_array(threads, sizeof *explain->open_spans, error);
   explain->places = trax_places_create(explain->machine);
   if (!explain->open_spans || !explain->places)
     return trax_fail(error, "out of memory for the explanation of %zu threads", threads);
   for (size_t i = 0; i < threads; i++)
-    explain->open_spans[i].pc = explain->open_spans[i].previous_pc = trax_machine_entry_of(explain->machine, (uint32_t)i);
-  for (unsigned i = 0; i < KINDS; i++)
-    if (is_wanted(&explain->options, i)) {
-      struct trax_reader *reader = &explain->readers[explain->reader_count];
-      if (kinds[i].create(explain, reader, error) != TRAX_OK)
-        return TRAX_ERROR;
-      explain->reader_count++;
-    }
-  if (explain->options.check_order) {
-    if (trax_order_create(explain, &explain->readers[explain->reader_count], error) != TRAX_OK)
+    explain->open_spans[i].pc = explain->open_spans[i].previous_pc =
+        trax_machine_entry_of(explain->machine, (uint32_t)i);
+  for (unsigned i = 0; i < TRAX_READER_KINDS; i++)
+    if (is_wanted(&explain->options, kinds[i]) && open_reader(explain, kinds[i], error) != TRAX_OK)
       return TRAX_ERROR;
-    explain->reader_count++;
-  }
-  if (explain->options.series &&
-      trax_series_create(&explain->series, explain, explain->options.series, error) != TRAX_OK)
-    return TRAX_ERROR;
-  if (explain->options.memory_trace && trax_memory_trace_create(&explain->memory_trace, explain, error) != TRAX_OK)
-    return TRAX_ERROR;
-  return explain->options.explore ? trax_series_create(&explain->page_series, explain, NULL, error) : TRAX_OK;
+  return TRAX_OK;
 }
 
 static trax_status check_window(const struct trax_explain *explain, trax_error *error) {
@@ -183,10 +182,29 @@ trax_status trax_explain_begin(struct trax_explain **result, trax_machine *machi
   }
   explain->observer =
       (struct trax_observer){.context = explain, .issue = add_issue, .charge = add_charge, .arrival = add_arrival};
-  if (explain->reader_count) /* series and the trace of transfers need no observer */
-    machine->observer = &explain->observer;
+  for (unsigned i = 0; i < explain->reader_count; i++)
+    if (explain->readers[i]->kind->span) /* the others watch the machine or its transfers */
+      machine->observer = &explain->observer;
   *result = explain;
   return TRAX_OK;
+}
+
+static trax_status write_file(struct trax_reader *reader, const struct trax_reader_file *file, trax_error *error) {
+  const char *path = path_of(&reader->explain->options, file);
+  if (!path)
+    return TRAX_OK;
+  if (!reader->output.file && trax_output_open(&reader->output, path, error) != TRAX_OK)
+    return TRAX_ERROR;
+  if (!file->put || file->put(reader, reader->output.file, error) == TRAX_OK)
+    return trax_output_commit(&reader->output, error);
+  trax_output_discard(&reader->output);
+  return TRAX_ERROR;
+}
+
+/* Keeps the first failure. */
+static void note_failure(trax_status *status, trax_status part, const trax_error *reason, trax_error *error) {
+  if (part != TRAX_OK && *status == TRAX_OK)
+    *status = trax_fail(error, "%s", reason->message);
 }
 
 trax_status trax_explain_end(struct trax_explain *explain, trax_error *error) {
@@ -195,22 +213,19 @@ trax_status trax_explain_end(struct trax_explain *explain, trax_error *error) {
   const trax_machine *machine = explain->machine;
   const uint32_t tps = machine->config.chip.tps_per_tm;
   trax_status status = TRAX_OK;
+  trax_error reason;
   notify_arrivals(explain, UINT64_MAX, 0);
-  for (uint32_t thread = 0; explain->reader_count && thread < machine->stats.threads; thread++)
+  for (uint32_t thread = 0; thread < machine->stats.threads; thread++)
     notify_span(explain, thread / tps, thread % tps, NULL);
-  if (explain->out_of_memory)
+  for (unsigned i = 0; i < explain->reader_count && !explain->out_of_memory; i++) {
+    struct trax_reader *reader = explain->readers[i];
+    const trax_status ended = reader->kind->end ? reader->kind->end(reader, &reason) : TRAX_OK;
+    note_failure(&status, ended, &reason, error);
+    for (unsigned k = 0; k < TRAX_READER_FILES && ended == TRAX_OK && !explain->out_of_memory; k++)
+      note_failure(&status, write_file(reader, &reader->kind->files[k], &reason), &reason, error);
+  }
+  if (explain->out_of_memory && status == TRAX_OK)
     status = trax_fail(error, "out of memory: the explanation of the run is incomplete and not written");
-  trax_error reason; /* after a failure the other files are still written; the first failure is reported */
-  for (unsigned i = 0; i < explain->reader_count && !explain->out_of_memory; i++)
-    if (explain->readers[i].finish(explain->readers[i].self, &reason) != TRAX_OK && status == TRAX_OK)
-      status = trax_fail(error, "%s", reason.message);
-  if (explain->series && trax_series_finish(explain->series, &reason) != TRAX_OK && status == TRAX_OK)
-    status = trax_fail(error, "%s", reason.message);
-  if (explain->memory_trace && trax_memory_trace_finish(explain->memory_trace, &reason) != TRAX_OK && status == TRAX_OK)
-    status = trax_fail(error, "%s", reason.message);
-  if (explain->options.explore && !explain->out_of_memory && trax_page_write(explain, &reason) != TRAX_OK &&
-      status == TRAX_OK)
-    status = trax_fail(error, "%s", reason.message);
   trax_explain_discard(explain);
   return status;
 }
@@ -224,11 +239,13 @@ void trax_explain_discard(struct trax_explain *explain) {
   if (!explain)
     return;
   explain->machine->observer = NULL;
-  for (unsigned i = 0; i < explain->reader_count; i++)
-    explain->readers[i].destroy(explain->readers[i].self);
-  trax_series_destroy(explain->series);
-  trax_series_destroy(explain->page_series);
-  trax_memory_trace_destroy(explain->memory_trace);
+  for (unsigned i = 0; i < explain->reader_count; i++) {
+    struct trax_reader *reader = explain->readers[i];
+    trax_output_discard(&reader->output);
+    if (reader->kind->close)
+      reader->kind->close(reader);
+    free(reader);
+  }
   trax_pixels_destroy(explain->pixels);
   for (uint64_t i = 0; explain->open_spans && i < explain->machine->stats.threads; i++)
     free(explain->open_spans[i].charges);

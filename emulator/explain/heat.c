@@ -26,12 +26,11 @@ struct object {
 };
 
 struct heat {
-  struct trax_explain *explain;
+  struct trax_reader reader;
   struct object *objects; /* by address, not overlapping */
   size_t object_count;
   struct object *parts;             /* of the page */
   struct heat_counts *pages[PAGES]; /* each [LINES_PER_PAGE], or NULL */
-  bool out_of_memory;
 };
 
 static int by_address(const void *a, const void *b) {
@@ -49,14 +48,14 @@ static void add_object(struct heat *heat, const char *name, uint64_t begin, uint
 }
 
 /* Lists symbols, bound buffers, heap and stacks. Of overlapping objects, the first keeps the bytes. */
-static bool list_objects(struct heat *heat) {
-  const struct trax_machine *machine = heat->explain->machine;
+static trax_status list_objects(struct heat *heat, trax_error *error) {
+  const struct trax_machine *machine = heat->reader.explain->machine;
   const struct trax_host *host = trax_host_of(machine);
   size_t symbol_count = 0;
   const struct trax_symbol *symbols = host ? trax_image_symbols(host->image, &symbol_count) : NULL;
-  heat->objects = calloc(symbol_count + (host ? host->buffer_count : 0) + 4, sizeof *heat->objects);
+  heat->objects = trax_explain_array(symbol_count + (host ? host->buffer_count : 0) + 4, sizeof *heat->objects, error);
   if (!heat->objects)
-    return false;
+    return TRAX_ERROR;
   for (size_t i = 0; i < symbol_count; i++)
     if (!symbols[i].absolute && symbols[i].bytes &&
         (symbols[i].type == TRAX_SYMBOL_OBJECT || symbols[i].type == TRAX_SYMBOL_FUNCTION))
@@ -76,17 +75,17 @@ static bool list_objects(struct heat *heat) {
       heat->objects[kept++] = heat->objects[i];
   heat->object_count = kept;
   add_object(heat, "(other)", 0, 1); /* the last object counts for all other addresses */
-  return true;
+  return TRAX_OK;
 }
 
-static bool list_parts(struct heat *heat) {
-  const struct trax_explain_options *options = &heat->explain->options;
-  heat->parts = calloc(options->part_count + 1, sizeof *heat->parts);
+static trax_status list_parts(struct heat *heat, trax_error *error) {
+  const struct trax_explain_options *options = &heat->reader.explain->options;
+  heat->parts = trax_explain_array(options->part_count, sizeof *heat->parts, error);
   for (size_t i = 0; heat->parts && i < options->part_count; i++)
     heat->parts[i] = (struct object){.name = options->parts[i].name,
                                      .begin = options->parts[i].address,
                                      .end = (uint64_t)options->parts[i].address + options->parts[i].bytes};
-  return heat->parts != NULL;
+  return heat->parts ? TRAX_OK : TRAX_ERROR;
 }
 
 static struct object *object_at(const struct heat *heat, uint32_t address) {
@@ -105,7 +104,7 @@ static struct object *object_at(const struct heat *heat, uint32_t address) {
 static struct heat_counts *line_at(struct heat *heat, uint32_t address) {
   struct heat_counts **page = &heat->pages[address >> PAGE_SHIFT];
   if (!*page && !(*page = calloc(LINES_PER_PAGE, sizeof **page))) {
-    heat->out_of_memory = true;
+    heat->reader.explain->out_of_memory = true;
     return NULL;
   }
   return &(*page)[address >> LINE_SHIFT & (LINES_PER_PAGE - 1)];
@@ -133,12 +132,12 @@ static void add_span(void *self, const struct trax_span *span) {
   if (!span->issue || !op->access_bytes)
     return;
   const uint32_t address = span->issue->address;
-  for (size_t i = 0; i < heat->explain->options.part_count; i++)
+  for (size_t i = 0; i < heat->reader.explain->options.part_count; i++)
     if (address >= heat->parts[i].begin && address < heat->parts[i].end)
       count(&heat->parts[i].counts, op->flags, op->access_bytes, span->issue->outcome);
   count(&object_at(heat, address)->counts, op->flags, op->access_bytes, span->issue->outcome);
   struct heat_counts *line =
-      heat->explain->options.heat_lines && address < TRAX_LOCAL_BASE ? line_at(heat, address) : NULL;
+      heat->reader.explain->options.heat_lines && address < TRAX_LOCAL_BASE ? line_at(heat, address) : NULL;
   if (line)
     count(line, op->flags, op->access_bytes, span->issue->outcome);
 }
@@ -176,41 +175,24 @@ static void put_table(const struct object *objects, size_t count, FILE *out) {
   }
 }
 
-static trax_status put_objects(const void *self, FILE *out, trax_error *error) {
+static trax_status put_objects(void *self, FILE *out, trax_error *error) {
   const struct heat *heat = self;
   (void)error;
   put_table(heat->objects, heat->object_count, out);
   return TRAX_OK;
 }
 
-static trax_status put_parts(const void *self, FILE *out, trax_error *error) {
+static trax_status put_parts(void *self, FILE *out, trax_error *error) {
   const struct heat *heat = self;
   (void)error;
-  put_table(heat->parts, heat->explain->options.part_count, out);
+  put_table(heat->parts, heat->reader.explain->options.part_count, out);
   return TRAX_OK;
 }
 
-static trax_status put_members(void *self, FILE *out, trax_error *error) {
-  if (((struct heat *)self)->out_of_memory)
-    return trax_fail(error, "out of memory for the memory heat");
-  if (trax_page_text(out, "heat", put_objects, self, error) != TRAX_OK)
-    return TRAX_ERROR;
-  return trax_page_text(out, "parts", put_parts, self, error);
-}
-
-static trax_status write_objects(const struct heat *heat, trax_error *error) {
-  trax_output output;
-  if (trax_output_open(&output, heat->explain->options.heat, error) != TRAX_OK)
-    return TRAX_ERROR;
-  put_objects(heat, output.file, error);
-  return trax_output_commit(&output, error);
-}
-
-static trax_status write_lines(const struct heat *heat, trax_error *error) {
-  trax_output output;
-  if (trax_output_open(&output, heat->explain->options.heat_lines, error) != TRAX_OK)
-    return TRAX_ERROR;
-  fprintf(output.file, "address,object,offset," COLUMNS "\n");
+static trax_status put_lines(void *self, FILE *out, trax_error *error) {
+  const struct heat *heat = self;
+  (void)error;
+  fprintf(out, "address,object,offset," COLUMNS "\n");
   for (uint32_t page = 0; page < PAGES; page++)
     for (uint32_t i = 0; heat->pages[page] && i < LINES_PER_PAGE; i++) {
       const struct heat_counts *counts = &heat->pages[page][i];
@@ -218,45 +200,34 @@ static trax_status write_lines(const struct heat *heat, trax_error *error) {
         continue;
       const uint32_t address = page << PAGE_SHIFT | i << LINE_SHIFT;
       const struct object *object = object_at(heat, address); /* the object of the line's first byte */
-      fprintf(output.file, "0x%08x,", address);
-      put_name(output.file, object->name);
-      fprintf(output.file, ",%" PRIu64 ",",
+      fprintf(out, "0x%08x,", address);
+      put_name(out, object->name);
+      fprintf(out, ",%" PRIu64 ",",
               object == &heat->objects[heat->object_count - 1] ? address : address - object->begin);
-      put_counts(output.file, counts);
-      fputc('\n', output.file);
+      put_counts(out, counts);
+      fputc('\n', out);
     }
-  return trax_output_commit(&output, error);
+  return TRAX_OK;
 }
 
-static trax_status finish(void *self, trax_error *error) {
-  const struct heat *heat = self;
-  if (heat->out_of_memory)
-    return trax_fail(error, "out of memory for the memory heat");
-  trax_status status = heat->explain->options.heat ? write_objects(heat, error) : TRAX_OK;
-  if (status == TRAX_OK && heat->explain->options.heat_lines)
-    status = write_lines(heat, error);
-  return status;
+static trax_status open_heat(void *self, trax_error *error) {
+  return list_objects(self, error) == TRAX_OK ? list_parts(self, error) : TRAX_ERROR;
 }
 
-static void destroy(void *self) {
+static void close_heat(void *self) {
   struct heat *heat = self;
   for (uint32_t page = 0; page < PAGES; page++)
     free(heat->pages[page]);
   free(heat->objects);
   free(heat->parts);
-  free(heat);
 }
 
-trax_status trax_heat_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error) {
-  struct heat *heat = calloc(1, sizeof *heat);
-  if (!heat)
-    return trax_fail(error, "out of memory");
-  heat->explain = explain;
-  if (!list_objects(heat) || !list_parts(heat)) {
-    destroy(heat);
-    return trax_fail(error, "out of memory for the memory heat");
-  }
-  *reader = (struct trax_reader){
-      .self = heat, .span = add_span, .put_members = put_members, .finish = finish, .destroy = destroy};
-  return TRAX_OK;
-}
+const struct trax_reader_kind trax_heat_reader = {
+    .bytes = sizeof(struct heat),
+    .files = {{.path = TRAX_EXPLAIN_PATH(heat), .put = put_objects, .member = "heat"},
+              {.path = TRAX_EXPLAIN_PATH(heat_lines), .put = put_lines},
+              {.put = put_parts, .member = "parts"}},
+    .in_page = true,
+    .open = open_heat,
+    .span = add_span,
+    .close = close_heat};

@@ -14,8 +14,7 @@ struct item_thread {
 };
 
 struct items {
-  struct trax_explain *explain;
-  trax_output output; /* of options.items, if wanted */
+  struct trax_reader reader;
   struct item_thread *threads;
   uint32_t buffer_begin, buffer_bytes;
   void (*item)(void *context, const struct trax_item_cost *cost, bool last);
@@ -44,10 +43,10 @@ static void end_item(struct items *items, uint32_t number, uint64_t end, bool la
                                       .rays = thread->rays};
   if (items->item)
     items->item(items->item_context, &cost, last);
-  if (items->explain->pixels)
-    trax_pixels_add(items->explain->pixels, &cost, last);
-  if (items->output.file)
-    write_item(items->output.file, &cost, last);
+  if (items->reader.explain->pixels)
+    trax_pixels_add(items->reader.explain->pixels, &cost, last);
+  if (items->reader.out)
+    write_item(items->reader.out, &cost, last);
   *thread = (struct item_thread){.begin = end, .until = end, .place = TRAX_NO_PLACE};
 }
 
@@ -78,26 +77,14 @@ static void add_span(void *self, const struct trax_span *span) {
     end_item(items, span->thread, thread->until, false);
   else if (trax_op_table[span->inst.op].flags & TRAX_IS_STORE &&
            span->issue->address - items->buffer_begin < items->buffer_bytes)
-    thread->place = (span->issue->address - items->buffer_begin) / items->explain->options.item_bytes;
-}
-
-static trax_status finish(void *self, trax_error *error) {
-  struct items *items = self;
-  return items->output.file ? trax_output_commit(&items->output, error) : TRAX_OK;
-}
-
-static void destroy(void *self) {
-  struct items *items = self;
-  trax_output_discard(&items->output);
-  free(items->threads);
-  free(items);
+    thread->place = (span->issue->address - items->buffer_begin) / items->reader.explain->options.item_bytes;
 }
 
 void trax_explain_items(struct trax_explain *explain,
                         void (*item)(void *context, const struct trax_item_cost *cost, bool last), void *context) {
   for (unsigned i = 0; i < explain->reader_count; i++)
-    if (explain->readers[i].span == add_span) {
-      struct items *items = explain->readers[i].self;
+    if (explain->readers[i]->kind == &trax_items_reader) {
+      struct items *items = (struct items *)explain->readers[i];
       items->item = item;
       items->item_context = context;
     }
@@ -105,8 +92,8 @@ void trax_explain_items(struct trax_explain *explain,
 
 /* Finds the buffer to which the items store. */
 static trax_status find_buffer(struct items *items, trax_error *error) {
-  const struct trax_explain_options *options = &items->explain->options;
-  const struct trax_host *host = trax_host_of(items->explain->machine);
+  const struct trax_explain_options *options = &items->reader.explain->options;
+  const struct trax_host *host = trax_host_of(items->reader.explain->machine);
   if (!options->item_buffer)
     return TRAX_OK;
   for (size_t i = 0; host && i < host->buffer_count; i++)
@@ -114,7 +101,7 @@ static trax_status find_buffer(struct items *items, trax_error *error) {
       items->buffer_begin = host->buffers[i].address;
       items->buffer_bytes = host->buffers[i].bytes;
       if (options->explore &&
-          !(items->explain->pixels = trax_pixels_create(host->buffers[i].bytes / options->item_bytes)))
+          !(items->reader.explain->pixels = trax_pixels_create(host->buffers[i].bytes / options->item_bytes)))
         return trax_fail(error, "out of memory for the cost of %u pixels",
                          host->buffers[i].bytes / options->item_bytes);
       return TRAX_OK;
@@ -122,30 +109,37 @@ static trax_status find_buffer(struct items *items, trax_error *error) {
   return trax_fail(error, "no buffer %s is bound, to which items store", options->item_buffer);
 }
 
-trax_status trax_items_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error) {
-  struct items *items = calloc(1, sizeof *items);
-  const uint64_t threads = explain->machine->stats.threads;
-  if (!items)
-    return trax_fail(error, "out of memory");
-  items->explain = explain;
-  if (!explain->options.item_bytes)
-    explain->options.item_bytes = 4;
-  items->threads = calloc(threads, sizeof *items->threads);
-  if (!items->threads)
-    trax_fail(error, "out of memory for the items");
-  if (!items->threads || find_buffer(items, error) != TRAX_OK ||
-      (explain->options.items && trax_output_open(&items->output, explain->options.items, error) != TRAX_OK)) {
-    destroy(items);
+static trax_status open_items(void *self, trax_error *error) {
+  struct items *items = self;
+  const uint64_t threads = items->reader.explain->machine->stats.threads;
+  FILE *out = items->reader.out;
+  if (!items->reader.explain->options.item_bytes)
+    items->reader.explain->options.item_bytes = 4;
+  if (!(items->threads = trax_explain_array(threads, sizeof *items->threads, error)) ||
+      find_buffer(items, error) != TRAX_OK)
     return TRAX_ERROR;
-  }
   for (uint64_t i = 0; i < threads; i++)
     items->threads[i].place = TRAX_NO_PLACE;
-  if (items->output.file) {
-    fprintf(items->output.file, "kind,thread,place,begin,end,instructions");
-    for (unsigned cause = TRAX_CAUSE_ISSUED + 1; cause < TRAX_CAUSE_COUNT; cause++)
-      fprintf(items->output.file, ",%s", trax_cause_names[cause]);
-    fputc('\n', items->output.file);
-  }
-  *reader = (struct trax_reader){.self = items, .span = add_span, .finish = finish, .destroy = destroy};
+  if (!out)
+    return TRAX_OK;
+  fprintf(out, "kind,thread,place,begin,end,instructions");
+  for (unsigned cause = TRAX_CAUSE_ISSUED + 1; cause < TRAX_CAUSE_COUNT; cause++)
+    fprintf(out, ",%s", trax_cause_names[cause]);
+  fputc('\n', out);
   return TRAX_OK;
 }
+
+static bool has_buffer(const struct trax_explain_options *options) {
+  return options->item_buffer != NULL;
+}
+
+static void close_items(void *self) {
+  free(((struct items *)self)->threads);
+}
+
+const struct trax_reader_kind trax_items_reader = {.bytes = sizeof(struct items),
+                                                   .files = {{.path = TRAX_EXPLAIN_PATH(items)}},
+                                                   .is_wanted = has_buffer,
+                                                   .open = open_items,
+                                                   .span = add_span,
+                                                   .close = close_items};

@@ -17,7 +17,7 @@
    slot is the SIMD efficiency of Aila and Laine, "Understanding the Efficiency of Ray Traversal on GPUs" (HPG 2009). */
 #include "explain/kinds.h"
 #include "explain/span.h"
-#include "explain/table.h"
+#include "trax/grow.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -38,19 +38,17 @@ struct recording {
 };
 
 struct lockstep {
-  struct trax_explain *explain;
-  trax_output output;
+  struct trax_reader reader;
   bool by_ray;
   struct recording *threads;
   uint32_t (*generations)[TRAX_RAY_KIND_COUNT]; /* [threads], if by ray */
   struct recording *items;
   size_t count, capacity;
-  bool out_of_memory;
 };
 
 static void end_item(struct lockstep *lockstep, struct recording *thread) {
   if (!trax_grow((void **)&lockstep->items, lockstep->count, &lockstep->capacity, sizeof *lockstep->items)) {
-    lockstep->out_of_memory = true;
+    lockstep->reader.explain->out_of_memory = true;
     return;
   }
   thread->end = lockstep->count;
@@ -87,7 +85,7 @@ static void add_span(void *self, const struct trax_span *span) {
   } else if (trax_grow((void **)&thread->runs, thread->count, &thread->capacity, sizeof *thread->runs)) {
     thread->runs[thread->count++] = (struct run){span->pc, 1};
   } else {
-    lockstep->out_of_memory = true;
+    lockstep->reader.explain->out_of_memory = true;
   }
   if (trax_ends_item(span)) {
     end_item(lockstep, thread);
@@ -98,7 +96,7 @@ static void add_span(void *self, const struct trax_span *span) {
 
 static void arrive(void *self, const struct trax_arrival *arrival) {
   struct lockstep *lockstep = self;
-  lockstep->threads[arrival->tm * lockstep->explain->machine->config.chip.tps_per_tm + arrival->tp].number =
+  lockstep->threads[arrival->tm * lockstep->reader.explain->machine->config.chip.tps_per_tm + arrival->tp].number =
       arrival->value;
 }
 
@@ -188,11 +186,9 @@ static void write_rows(FILE *out, const char *name, const struct recording *item
   }
 }
 
-static trax_status finish(void *self, trax_error *error) {
+static trax_status put_table(void *self, FILE *out, trax_error *error) {
   struct lockstep *lockstep = self;
-  FILE *out = lockstep->output.file;
-  if (lockstep->out_of_memory)
-    return trax_fail(error, "out of memory for the instructions of %zu items", lockstep->count);
+  (void)error;
   if (lockstep->count) /* qsort's array is not to be NULL */
     qsort(lockstep->items, lockstep->count, sizeof *lockstep->items, by_place);
   fprintf(out, "%swidth,warps,instructions,slots,utilisation,longest\n", lockstep->by_ray ? "kind,rays," : "");
@@ -206,50 +202,36 @@ static trax_status finish(void *self, trax_error *error) {
     snprintf(name, sizeof name, "%s,%zu,", trax_ray_kind_names[kind], end - first);
     write_rows(out, name, lockstep->items + first, end - first);
   }
-  return trax_output_commit(&lockstep->output, error);
+  return TRAX_OK;
 }
 
-static void destroy(void *self) {
+static trax_status open_lockstep(void *self, trax_error *error) {
   struct lockstep *lockstep = self;
-  trax_output_discard(&lockstep->output);
+  const uint64_t threads = lockstep->reader.explain->machine->stats.threads;
+  lockstep->by_ray = lockstep->reader.kind == &trax_lockstep_rays_reader;
+  if (!(lockstep->threads = trax_explain_array(threads, sizeof *lockstep->threads, error)) ||
+      !(lockstep->generations = trax_explain_array(threads, sizeof *lockstep->generations, error)))
+    return TRAX_ERROR;
+  for (uint64_t i = 0; i < threads; i++)
+    lockstep->threads[i].kind = TRAX_NO_RAY;
+  return TRAX_OK;
+}
+
+static void close_lockstep(void *self) {
+  struct lockstep *lockstep = self;
   for (size_t i = 0; i < lockstep->count; i++)
     free(lockstep->items[i].runs);
-  for (uint64_t i = 0; lockstep->threads && i < lockstep->explain->machine->stats.threads; i++)
+  for (uint64_t i = 0; lockstep->threads && i < lockstep->reader.explain->machine->stats.threads; i++)
     free(lockstep->threads[i].runs);
   free(lockstep->items);
   free(lockstep->generations);
   free(lockstep->threads);
-  free(lockstep);
 }
 
-static trax_status create(struct trax_explain *explain, struct trax_reader *reader, const char *path, bool by_ray,
-                          trax_error *error) {
-  const uint64_t threads = explain->machine->stats.threads;
-  struct lockstep *lockstep = calloc(1, sizeof *lockstep);
-  if (!lockstep)
-    return trax_fail(error, "out of memory");
-  lockstep->explain = explain;
-  lockstep->by_ray = by_ray;
-  lockstep->threads = calloc(threads, sizeof *lockstep->threads);
-  lockstep->generations = by_ray ? calloc(threads, sizeof *lockstep->generations) : NULL;
-  const bool enough = lockstep->threads && (lockstep->generations || !by_ray);
-  if (!enough)
-    trax_fail(error, "out of memory for the threads");
-  if (!enough || trax_output_open(&lockstep->output, path, error) != TRAX_OK) {
-    destroy(lockstep);
-    return TRAX_ERROR;
+#define KIND(FILE)                                                                                                     \
+  {                                                                                                                    \
+    .bytes = sizeof(struct lockstep), .files = {{.path = TRAX_EXPLAIN_PATH(FILE), .put = put_table}},                  \
+    .open = open_lockstep, .span = add_span, .arrival = arrive, .close = close_lockstep                                \
   }
-  for (uint64_t i = 0; i < threads; i++)
-    lockstep->threads[i].kind = TRAX_NO_RAY;
-  *reader =
-      (struct trax_reader){.self = lockstep, .span = add_span, .arrival = arrive, .finish = finish, .destroy = destroy};
-  return TRAX_OK;
-}
-
-trax_status trax_lockstep_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error) {
-  return create(explain, reader, explain->options.lockstep, false, error);
-}
-
-trax_status trax_lockstep_rays_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error) {
-  return create(explain, reader, explain->options.lockstep_rays, true, error);
-}
+const struct trax_reader_kind trax_lockstep_reader = KIND(lockstep);
+const struct trax_reader_kind trax_lockstep_rays_reader = KIND(lockstep_rays);

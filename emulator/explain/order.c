@@ -5,8 +5,8 @@
    holds: both threads are in one TM; the loading thread has executed `fence r` since that fence; or no thread of its TM
    had loaded the line before that fence. */
 #include "explain/span.h"
-#include "explain/table.h"
 #include "report/backtrace.h"
+#include "trax/grow.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -33,13 +33,13 @@ struct stores {
 };
 
 struct order {
+  struct trax_reader reader;
   const trax_machine *machine;
   uint32_t tps, line_bytes;
   struct thread *threads; /* [machine->stats.threads] */
   size_t pages;
   struct stores **stores; /* [pages] */
   moment **loaded;        /* [TM * pages + page]: the first load of each of its lines */
-  bool out_of_memory;
 
   bool found; /* a load that may return an old value: */
   struct trax_issue load;
@@ -62,7 +62,7 @@ static moment moment_of(const struct order *order, const struct trax_issue *issu
 /* NULL: out of memory. */
 static void *page_at(struct order *order, void **page, size_t size) {
   if (!*page && !(*page = calloc(1, size)))
-    order->out_of_memory = true;
+    order->reader.explain->out_of_memory = true;
   return *page;
 }
 
@@ -76,7 +76,7 @@ static void note_fence(struct order *order, const struct trax_issue *issue, int3
   if (trax_grow((void **)&thread->released, thread->count, &thread->capacity, sizeof *thread->released))
     thread->released[thread->count++] = now;
   else
-    order->out_of_memory = true;
+    order->reader.explain->out_of_memory = true;
 }
 
 static void note_store(struct order *order, const struct trax_issue *issue, uint32_t bytes) {
@@ -136,7 +136,7 @@ static void check_load(struct order *order, const struct trax_issue *issue, uint
 static void add_span(void *self, const struct trax_span *span) {
   struct order *order = self;
   const trax_op_info *op = &trax_op_table[span->inst.op];
-  if (!span->issue || order->found || order->out_of_memory)
+  if (!span->issue || order->found || order->reader.explain->out_of_memory)
     return;
   if (span->inst.op == TRAX_OP_FENCE)
     note_fence(order, span->issue, span->inst.imm);
@@ -193,10 +193,8 @@ static void print(const struct order *order, FILE *out) {
             LABEL, "missing", reader, writer, cycle_of(order->release), load->tm, cycle_of(order->held));
 }
 
-static trax_status finish(void *self, trax_error *error) {
+static trax_status end_order(void *self, trax_error *error) {
   const struct order *order = self;
-  if (order->out_of_memory)
-    return trax_fail(error, "out of memory for the order of accesses");
   if (!order->found)
     return TRAX_OK;
   fflush(stdout);
@@ -204,7 +202,20 @@ static trax_status finish(void *self, trax_error *error) {
   return trax_fail(error, "the program relies on more order than the machine promises (--check-order)");
 }
 
-static void destroy(void *self) {
+static trax_status open_order(void *self, trax_error *error) {
+  struct order *order = self;
+  const trax_machine *machine = order->machine = order->reader.explain->machine;
+  order->tps = machine->config.chip.tps_per_tm;
+  order->line_bytes = machine->config.dcache.line_bytes;
+  order->pages = (size_t)(machine->space.size >> PAGE_SHIFT);
+  if (!(order->threads = trax_explain_array(machine->stats.threads, sizeof *order->threads, error)) ||
+      !(order->stores = trax_explain_array(order->pages, sizeof *order->stores, error)) ||
+      !(order->loaded = trax_explain_array(order->pages * machine->config.chip.tms, sizeof *order->loaded, error)))
+    return TRAX_ERROR;
+  return TRAX_OK;
+}
+
+static void close_order(void *self) {
   struct order *order = self;
   for (size_t i = 0; order->threads && i < order->machine->stats.threads; i++)
     free(order->threads[i].released);
@@ -215,24 +226,15 @@ static void destroy(void *self) {
   free(order->threads);
   free(order->stores);
   free(order->loaded);
-  free(order);
 }
 
-trax_status trax_order_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error) {
-  struct order *order = calloc(1, sizeof *order);
-  if (!order)
-    return trax_fail(error, "out of memory");
-  const trax_machine *machine = order->machine = explain->machine;
-  order->tps = machine->config.chip.tps_per_tm;
-  order->line_bytes = machine->config.dcache.line_bytes;
-  order->pages = (size_t)(machine->space.size >> PAGE_SHIFT);
-  order->threads = calloc(machine->stats.threads, sizeof *order->threads);
-  order->stores = calloc(order->pages, sizeof *order->stores);
-  order->loaded = calloc(order->pages * machine->config.chip.tms, sizeof *order->loaded);
-  if (!order->threads || !order->stores || !order->loaded) {
-    destroy(order);
-    return trax_fail(error, "out of memory for the order of accesses");
-  }
-  *reader = (struct trax_reader){.self = order, .span = add_span, .finish = finish, .destroy = destroy};
-  return TRAX_OK;
+static bool is_wanted(const struct trax_explain_options *options) {
+  return options->check_order;
 }
+
+const struct trax_reader_kind trax_order_reader = {.bytes = sizeof(struct order),
+                                                   .is_wanted = is_wanted,
+                                                   .open = open_order,
+                                                   .span = add_span,
+                                                   .end = end_order,
+                                                   .close = close_order};

@@ -23,9 +23,8 @@ void trax_page_quote(FILE *out, const char *text, size_t size) {
   fputc('"', out);
 }
 
-trax_status trax_page_text(FILE *out, const char *name,
-                           trax_status (*put)(const void *self, FILE *out, trax_error *error), const void *self,
-                           trax_error *error) {
+trax_status trax_page_text(FILE *out, const char *name, trax_status (*put)(void *self, FILE *out, trax_error *error),
+                           void *self, trax_error *error) {
   char *text = NULL;
   size_t size = 0;
   FILE *memory = open_memstream(&text, &size);
@@ -102,41 +101,41 @@ static trax_status put_members(struct trax_explain *explain, FILE *out, trax_err
   trax_status status = trax_stats_put_json(explain->machine, false, out, error);
   fputs(",\n", out);
   put_figures(explain->machine, out);
-  for (unsigned i = 0; i < explain->reader_count && status == TRAX_OK; i++)
-    if (explain->readers[i].put_members)
-      status = explain->readers[i].put_members(explain->readers[i].self, out, error);
-  return status == TRAX_OK ? trax_series_put_members(explain->page_series, out, error) : status;
+  for (unsigned i = 0; i < explain->reader_count && status == TRAX_OK; i++) {
+    struct trax_reader *reader = explain->readers[i];
+    if (reader->kind->put_members)
+      status = reader->kind->put_members(reader, out, error);
+    for (unsigned k = 0; k < TRAX_READER_FILES && status == TRAX_OK; k++)
+      if (reader->kind->files[k].member)
+        status = trax_page_text(out, reader->kind->files[k].member, reader->kind->files[k].put, reader, error);
+  }
+  return status;
 }
 
-trax_status trax_page_write(struct trax_explain *explain, trax_error *error) {
+/* The last reader's, so that the others have finished. */
+static trax_status put_page(void *self, FILE *out, trax_error *error) {
+  struct trax_explain *explain = ((struct trax_reader *)self)->explain;
   char *texts[2] = {NULL, NULL};
   size_t sizes[2] = {0, 0};
   FILE *members = open_memstream(&texts[0], &sizes[0]), *columns = open_memstream(&texts[1], &sizes[1]);
-  trax_status status = members && columns ? trax_series_finish(explain->page_series, error)
-                                          : trax_fail(error, "out of memory for the page");
-  if (status == TRAX_OK)
-    status = put_members(explain, members, error);
+  trax_status status = members && columns ? put_members(explain, members, error) : TRAX_ERROR;
   if (status == TRAX_OK)
     status = trax_pixels_put(explain->pixels, &explain->picture, members, columns, error);
-  if (members && (fputs("\"end\": null}\n", members) == EOF || fclose(members) != 0) && status == TRAX_OK)
+  bool complete = members && fputs("\"end\": null}\n", members) != EOF;
+  complete = members && fclose(members) == 0 && complete;
+  complete = columns && fclose(columns) == 0 && complete;
+  if (!complete)
     status = trax_fail(error, "out of memory for the page");
-  if (columns && fclose(columns) != 0 && status == TRAX_OK)
-    status = trax_fail(error, "out of memory for the page");
-  trax_output output = {0};
+  fputs(trax_page_begin, out);
   if (status == TRAX_OK)
-    status = trax_output_open(&output, explain->options.explore, error);
-  if (status == TRAX_OK) {
-    fputs(trax_page_begin, output.file);
-    status = put_script(output.file, "data", texts[0], sizes[0], error);
-    if (status == TRAX_OK)
-      status = put_script(output.file, "pixels", texts[1], sizes[1], error);
-    fputs(trax_page_end, output.file);
-    if (status == TRAX_OK)
-      status = trax_output_commit(&output, error);
-    else
-      trax_output_discard(&output);
-  }
+    status = put_script(out, "data", texts[0], sizes[0], error);
+  if (status == TRAX_OK)
+    status = put_script(out, "pixels", texts[1], sizes[1], error);
+  fputs(trax_page_end, out);
   free(texts[0]);
   free(texts[1]);
   return status;
 }
+
+const struct trax_reader_kind trax_page_reader = {.bytes = sizeof(struct trax_reader),
+                                                  .files = {{.path = TRAX_EXPLAIN_PATH(explore), .put = put_page}}};

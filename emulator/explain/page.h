@@ -6,14 +6,10 @@
 #include "explain/span.h"
 
 /* Writes `"name": text`, followed by a comma: put() writes the text. */
-trax_status trax_page_text(FILE *out, const char *name,
-                           trax_status (*put)(const void *self, FILE *out, trax_error *error), const void *self,
-                           trax_error *error);
+trax_status trax_page_text(FILE *out, const char *name, trax_status (*put)(void *self, FILE *out, trax_error *error),
+                           void *self, trax_error *error);
 /* Writes a text as JSON. Bytes that are not UTF-8 stay as they are. */
 void trax_page_quote(FILE *out, const char *text, size_t size);
-
-/* Writes the file, after all readers have finished. */
-trax_status trax_page_write(struct trax_explain *explain, trax_error *error);
 
 /* The text of the page before its data and after them, which the build made (page/embed.cmake). */
 extern const char *const trax_page_begin, *const trax_page_end;
@@ -21,7 +17,7 @@ extern const char *const trax_page_begin, *const trax_page_end;
 /* --- sources.c: members with the program's sources, and with the names of those that are left out --- */
 trax_status trax_sources_put(struct trax_explain *explain, FILE *out, trax_error *error);
 
-/* --- pixels.c: what each item cost, by its place --- */
+/* --- pixels.c: the cost of each item, by its place --- */
 struct trax_pixels;
 struct trax_pixels *trax_pixels_create(size_t places); /* NULL: out of memory */
 void trax_pixels_destroy(struct trax_pixels *pixels);  /* which may be NULL */

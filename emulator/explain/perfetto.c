@@ -22,8 +22,7 @@ struct counters {
 };
 
 struct perfetto {
-  struct trax_explain *explain;
-  trax_output output;
+  struct trax_reader reader;
   struct thread *threads; /* [threads] */
   struct counters *tms;   /* [tms] */
   uint64_t interval, counted_from;
@@ -37,14 +36,14 @@ static uint64_t clip(const struct trax_explain_options *options, uint64_t cycle)
 }
 
 static bool shows(const struct perfetto *perfetto, uint32_t tm) {
-  const uint64_t tms = perfetto->explain->options.window_tms;
+  const uint64_t tms = perfetto->reader.explain->options.window_tms;
   return !tms || tms >> tm & 1;
 }
 
 /* Writes an event up to its name. The caller writes the rest. */
 static FILE *begin_event(struct perfetto *perfetto, const char *phase, uint32_t tm, uint32_t thread, uint64_t cycle,
                          const char *name) {
-  FILE *out = perfetto->output.file;
+  FILE *out = perfetto->reader.out;
   char *quoted = NULL;
   json_t *string = json_stringn_nocheck(name, strlen(name));
   quoted = string ? json_dumps(string, JSON_ENCODE_ANY | JSON_ENSURE_ASCII) : NULL;
@@ -65,7 +64,7 @@ static void close_slice(struct perfetto *perfetto, uint32_t tm, uint32_t tp, str
 
 static void add_charge(struct perfetto *perfetto, uint32_t tm, uint32_t tp, struct thread *thread, trax_cause cause,
                        uint64_t since, uint64_t cycles) {
-  const struct trax_explain_options *options = &perfetto->explain->options;
+  const struct trax_explain_options *options = &perfetto->reader.explain->options;
   const uint64_t begin = clip(options, since), end = clip(options, since + cycles);
   if (begin == end)
     return;
@@ -81,14 +80,15 @@ static void leave_frames(struct perfetto *perfetto, uint32_t tm, uint32_t tp, st
                          uint64_t cycle) {
   while (thread->frame_count > keep) {
     const uint32_t name = thread->frames[--thread->frame_count];
-    fputc('}', begin_event(perfetto, "E", tm, 2 * tp + 1, cycle, trax_places_name(perfetto->explain->places, name)));
+    fputc('}',
+          begin_event(perfetto, "E", tm, 2 * tp + 1, cycle, trax_places_name(perfetto->reader.explain->places, name)));
   }
 }
 
 /* Opens and closes functions, since the TP is at the instruction `index` from `cycle` on. */
 static void enter_frames(struct perfetto *perfetto, uint32_t tm, uint32_t tp, struct thread *thread, uint32_t index,
                          uint64_t cycle) {
-  struct trax_places *places = perfetto->explain->places;
+  struct trax_places *places = perfetto->reader.explain->places;
   const struct trax_place *place = trax_places_at(places, index);
   const uint32_t count = place->frame_count < MAX_FRAMES ? place->frame_count : MAX_FRAMES;
   uint32_t common = 0;
@@ -104,7 +104,7 @@ static void enter_frames(struct perfetto *perfetto, uint32_t tm, uint32_t tp, st
 }
 
 static void put_counters(struct perfetto *perfetto, uint64_t end) {
-  for (uint32_t tm = 0; tm < perfetto->explain->machine->config.chip.tms; tm++) {
+  for (uint32_t tm = 0; tm < perfetto->reader.explain->machine->config.chip.tms; tm++) {
     if (!shows(perfetto, tm))
       continue;
     struct counters *counters = &perfetto->tms[tm];
@@ -119,7 +119,7 @@ static void put_counters(struct perfetto *perfetto, uint64_t end) {
 }
 
 static void count(struct perfetto *perfetto, const struct trax_issue *issue) {
-  const struct trax_explain_options *options = &perfetto->explain->options;
+  const struct trax_explain_options *options = &perfetto->reader.explain->options;
   while (issue->cycle >= perfetto->counted_from + perfetto->interval && perfetto->counted_from < options->window_end)
     put_counters(perfetto, clip(options, perfetto->counted_from + perfetto->interval));
   if (issue->cycle < options->window_begin || issue->cycle >= options->window_end)
@@ -130,11 +130,11 @@ static void count(struct perfetto *perfetto, const struct trax_issue *issue) {
 
 static void add_span(void *self, const struct trax_span *span) {
   struct perfetto *perfetto = self;
-  const struct trax_explain_options *options = &perfetto->explain->options;
+  const struct trax_explain_options *options = &perfetto->reader.explain->options;
   struct thread *thread = &perfetto->threads[span->thread];
   if (span->issue)
     count(perfetto, span->issue);
-  const uint64_t end = span->issue ? span->issue->cycle + 1 : perfetto->explain->machine->stats.cycles;
+  const uint64_t end = span->issue ? span->issue->cycle + 1 : perfetto->reader.explain->machine->stats.cycles;
   if (!trax_window_has(options, span->tm, span->tp, span->begin, end))
     return;
   const bool halts = span->count && span->charges[span->count - 1].cause == TRAX_CAUSE_HALTED;
@@ -152,8 +152,8 @@ static void add_span(void *self, const struct trax_span *span) {
 }
 
 static void put_names(struct perfetto *perfetto) {
-  const struct trax_config *config = &perfetto->explain->machine->config;
-  const struct trax_explain_options *options = &perfetto->explain->options;
+  const struct trax_config *config = &perfetto->reader.explain->machine->config;
+  const struct trax_explain_options *options = &perfetto->reader.explain->options;
   for (uint32_t tm = 0; tm < config->chip.tms; tm++) {
     if (!shows(perfetto, tm))
       continue;
@@ -168,11 +168,11 @@ static void put_names(struct perfetto *perfetto) {
   }
 }
 
-static trax_status finish(void *self, trax_error *error) {
+static trax_status end_perfetto(void *self, trax_error *error) {
   struct perfetto *perfetto = self;
-  const trax_machine *machine = perfetto->explain->machine;
+  const trax_machine *machine = perfetto->reader.explain->machine;
   const uint64_t cycles = machine->stats.cycles;
-  const uint64_t end = clip(&perfetto->explain->options, cycles);
+  const uint64_t end = clip(&perfetto->reader.explain->options, cycles);
   while (perfetto->counted_from < end && cycles > perfetto->counted_from)
     put_counters(perfetto,
                  end < perfetto->counted_from + perfetto->interval ? end : perfetto->counted_from + perfetto->interval);
@@ -182,44 +182,41 @@ static trax_status finish(void *self, trax_error *error) {
     close_slice(perfetto, tm, tp, thread);
     leave_frames(perfetto, tm, tp, thread, 0, thread->until);
   }
-  fprintf(perfetto->output.file, "\n]}\n");
-  return trax_output_commit(&perfetto->output, error);
+  (void)error;
+  fprintf(perfetto->reader.out, "\n]}\n");
+  return TRAX_OK;
 }
 
-static void destroy(void *self) {
+static trax_status open_perfetto(void *self, trax_error *error) {
   struct perfetto *perfetto = self;
-  trax_output_discard(&perfetto->output);
-  free(perfetto->threads);
-  free(perfetto->tms);
-  free(perfetto);
-}
-
-trax_status trax_perfetto_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error) {
-  const struct trax_explain_options *options = &explain->options;
+  const trax_machine *machine = perfetto->reader.explain->machine;
+  const struct trax_explain_options *options = &perfetto->reader.explain->options;
   if (!options->window_end)
     return trax_fail(error, "a time line for Perfetto needs a window of cycles");
-  struct perfetto *perfetto = calloc(1, sizeof *perfetto);
-  if (!perfetto)
-    return trax_fail(error, "out of memory");
-  perfetto->explain = explain;
-  perfetto->threads = calloc(explain->machine->stats.threads, sizeof *perfetto->threads);
-  perfetto->tms = calloc(explain->machine->config.chip.tms, sizeof *perfetto->tms);
+  if (!(perfetto->threads = trax_explain_array(machine->stats.threads, sizeof *perfetto->threads, error)) ||
+      !(perfetto->tms = trax_explain_array(machine->config.chip.tms, sizeof *perfetto->tms, error)))
+    return TRAX_ERROR;
   perfetto->counted_from = options->window_begin;
   perfetto->interval = (options->window_end - options->window_begin + COUNTERS_IN_WINDOW - 1) / COUNTERS_IN_WINDOW;
   if (perfetto->interval < 16)
     perfetto->interval = 16;
-  if (!perfetto->threads || !perfetto->tms)
-    trax_fail(error, "out of memory for the time line");
-  if (!perfetto->threads || !perfetto->tms ||
-      trax_output_open(&perfetto->output, options->perfetto, error) != TRAX_OK) {
-    destroy(perfetto);
-    return TRAX_ERROR;
-  }
-  fprintf(perfetto->output.file,
+  fprintf(perfetto->reader.out,
           "{\"displayTimeUnit\":\"ns\",\"otherData\":{\"time\":\"a cycle is shown as a microsecond\",\"clock_mhz\":%u},"
           "\"traceEvents\":[",
-          explain->machine->config.chip.clock_mhz);
+          machine->config.chip.clock_mhz);
   put_names(perfetto);
-  *reader = (struct trax_reader){.self = perfetto, .span = add_span, .finish = finish, .destroy = destroy};
   return TRAX_OK;
 }
+
+static void close_perfetto(void *self) {
+  struct perfetto *perfetto = self;
+  free(perfetto->threads);
+  free(perfetto->tms);
+}
+
+const struct trax_reader_kind trax_perfetto_reader = {.bytes = sizeof(struct perfetto),
+                                                      .files = {{.path = TRAX_EXPLAIN_PATH(perfetto)}},
+                                                      .open = open_perfetto,
+                                                      .span = add_span,
+                                                      .end = end_perfetto,
+                                                      .close = close_perfetto};

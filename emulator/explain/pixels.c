@@ -1,4 +1,4 @@
-/* What each item cost, by its place, for the picture of the page. */
+/* The cost of each item, by its place, for the picture of the page. */
 #include "explain/kinds.h"
 #include "explain/page.h"
 

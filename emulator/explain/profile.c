@@ -6,13 +6,14 @@
    A recursive program has as many call stacks as calls, so their number is limited: a stack that is one too many counts
    as the first one that ended with the same call. */
 #include "explain/profile.h"
+#include "trax/grow.h"
 
 #include <stdlib.h>
 
 enum {
   STACK_POINTER = 2,
   MAX_DEPTH = 512,
-  /* With so many records, or so many calls in all stacks, no new stack is kept. */
+  /* No new stack is kept beyond this number of records, or of calls in all stacks. */
   MAX_RECORDS = 1 << 18,
   MAX_CALLS = 1 << 22
 };
@@ -36,13 +37,15 @@ static struct trax_profile_counts *counts_of(struct trax_profile *profile, uint3
     *record = *latest - 1;
     return &profile->records[*record].counts;
   }
-  if (!trax_table_find(&profile->record_of, (uint64_t)context << 32 | index, (uint32_t)profile->record_count, record) ||
-      !trax_grow((void **)&profile->records, profile->record_count, &profile->record_capacity,
-                 sizeof *profile->records)) {
-    profile->out_of_memory = true;
+  const struct trax_map_entry *entry = trax_map_put(&profile->record_of, sizeof *entry, (uint64_t)context << 32 | index,
+                                                    (uint32_t)profile->record_count);
+  if (!entry || !trax_grow((void **)&profile->records, profile->record_count, &profile->record_capacity,
+                           sizeof *profile->records)) {
+    profile->reader.explain->out_of_memory = true;
     *record = UINT32_MAX;
     return &discarded;
   }
+  *record = entry->value;
   if (*record == profile->record_count)
     profile->records[profile->record_count++] = (struct trax_profile_record){.context = context, .index = index};
   *latest = *record + 1;
@@ -59,12 +62,13 @@ static bool is_below(uint32_t stack_pointer, uint32_t other) {
 /* Returns the context of a call at `index`, below `depth` others; 0: out of memory. */
 static uint32_t context_of(struct trax_profile *profile, uint32_t parent, uint32_t index, size_t depth) {
   const uint64_t key = (uint64_t)parent << 32 | index;
-  uint32_t context;
-  if (trax_table_has(&profile->context_of, key, &context))
-    return context;
+  const struct trax_map_entry *entry = trax_map_find(&profile->context_of, sizeof *entry, key);
+  if (entry)
+    return entry->value;
   if ((profile->record_count >= MAX_RECORDS || profile->call_count >= MAX_CALLS) && profile->first_of[index])
     return profile->first_of[index];
-  if (!trax_table_find(&profile->context_of, key, (uint32_t)profile->context_count, &context) ||
+  const uint32_t context = (uint32_t)profile->context_count;
+  if (!trax_map_put(&profile->context_of, sizeof *entry, key, context) ||
       !trax_grow((void **)&profile->contexts, profile->context_count, &profile->context_capacity,
                  sizeof *profile->contexts))
     return 0;
@@ -80,7 +84,7 @@ static void call(struct trax_profile *profile, struct trax_profile_thread *threa
     return;
   const uint32_t context = context_of(profile, thread->context, index, thread->depth);
   if (!context || !trax_grow((void **)&thread->calls, thread->depth, &thread->capacity, sizeof *thread->calls)) {
-    profile->out_of_memory = true;
+    profile->reader.explain->out_of_memory = true;
     return;
   }
   thread->calls[thread->depth++] = (struct call){return_pc, thread->stack_pointer, context};
@@ -97,7 +101,7 @@ static uint32_t function_at(struct trax_places *places, uint32_t pc) {
    latest call. A function's jump within itself leaves nothing, though it may have called itself. */
 static bool leaves_call(const struct trax_profile *profile, const struct trax_profile_thread *thread, uint32_t from,
                         uint32_t to) {
-  struct trax_places *places = profile->explain->places;
+  struct trax_places *places = profile->reader.explain->places;
   const struct call *latest = &thread->calls[thread->depth - 1];
   if (latest->return_pc == to || latest->stack_pointer != thread->stack_pointer)
     return false;
@@ -135,7 +139,7 @@ static void follow(struct trax_profile *profile, struct trax_profile_thread *thr
 static void add_span(void *self, const struct trax_span *span) {
   struct trax_profile *profile = self;
   struct trax_profile_thread *thread = &profile->threads[span->thread];
-  const struct trax_places *places = profile->explain->places;
+  const struct trax_places *places = profile->reader.explain->places;
   const uint32_t index = span->index, previous = thread->latest;
   struct trax_profile_counts *counts = NULL; /* created only if it counts something */
   if (span->issue) {
@@ -162,73 +166,44 @@ static void add_span(void *self, const struct trax_span *span) {
     follow(profile, thread, span, index);
 }
 
-static trax_status write_file(const struct trax_profile *profile, const char *path,
-                              trax_status (*write)(const struct trax_profile *profile, FILE *out, trax_error *error),
-                              trax_error *error) {
-  trax_output output;
-  if (!path)
-    return TRAX_OK;
-  if (trax_output_open(&output, path, error) != TRAX_OK)
-    return TRAX_ERROR;
-  if (write(profile, output.file, error) != TRAX_OK) {
-    trax_output_discard(&output);
-    return TRAX_ERROR;
-  }
-  return trax_output_commit(&output, error);
-}
-
-static trax_status finish(void *self, trax_error *error) {
+static trax_status open_profile(void *self, trax_error *error) {
   struct trax_profile *profile = self;
-  const struct trax_explain_options *options = &profile->explain->options;
-  if (profile->out_of_memory)
+  const struct trax_explain_options *options = &profile->reader.explain->options;
+  const uint64_t threads = profile->reader.explain->machine->stats.threads;
+  const size_t places = (size_t)trax_places_count(profile->reader.explain->places) + 2;
+  profile->by_call = options->profile || options->folded || options->explore;
+  if (!(profile->threads = trax_explain_array(threads, sizeof *profile->threads, error)) ||
+      !(profile->latest_of = trax_explain_array(places, sizeof *profile->latest_of, error)) ||
+      !(profile->first_of = trax_explain_array(places, sizeof *profile->first_of, error)))
+    return TRAX_ERROR;
+  if (!trax_grow((void **)&profile->contexts, 0, &profile->context_capacity, sizeof *profile->contexts))
     return trax_fail(error, "out of memory for the profile");
-  const struct {
-    const char *path;
-    trax_status (*write)(const struct trax_profile *profile, FILE *out, trax_error *error);
-  } files[] = {{options->profile, trax_profile_write},
-               {options->folded, trax_profile_write_folded},
-               {options->sample, trax_profile_write_sample}};
-  trax_status status = TRAX_OK;
-  trax_error reason;
-  for (size_t i = 0; i < sizeof files / sizeof *files; i++)
-    if (write_file(profile, files[i].path, files[i].write, &reason) != TRAX_OK && status == TRAX_OK)
-      status = trax_fail(error, "%s", reason.message);
-  return status;
+  profile->contexts[profile->context_count++] = (struct trax_profile_context){0, 0};
+  for (uint64_t i = 0; i < threads; i++)
+    profile->threads[i].latest = UINT32_MAX;
+  return TRAX_OK;
 }
 
-static void destroy(void *self) {
+static void close_profile(void *self) {
   struct trax_profile *profile = self;
-  for (uint64_t i = 0; profile->threads && i < profile->explain->machine->stats.threads; i++)
+  for (uint64_t i = 0; profile->threads && i < profile->reader.explain->machine->stats.threads; i++)
     free(profile->threads[i].calls);
   free(profile->threads);
   free(profile->contexts);
   free(profile->records);
   free(profile->latest_of);
   free(profile->first_of);
-  trax_table_free(&profile->context_of);
-  trax_table_free(&profile->record_of);
-  free(profile);
+  trax_map_free(&profile->context_of);
+  trax_map_free(&profile->record_of);
 }
 
-trax_status trax_profile_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error) {
-  struct trax_profile *profile = calloc(1, sizeof *profile);
-  const uint64_t threads = explain->machine->stats.threads;
-  if (!profile)
-    return trax_fail(error, "out of memory");
-  profile->explain = explain;
-  profile->threads = calloc(threads, sizeof *profile->threads);
-  profile->by_call = explain->options.profile || explain->options.folded || explain->options.explore;
-  profile->latest_of = calloc((size_t)trax_places_count(explain->places) + 2, sizeof *profile->latest_of);
-  profile->first_of = calloc((size_t)trax_places_count(explain->places) + 2, sizeof *profile->first_of);
-  if (!profile->threads || !profile->latest_of || !profile->first_of ||
-      !trax_grow((void **)&profile->contexts, 0, &profile->context_capacity, sizeof *profile->contexts)) {
-    destroy(profile);
-    return trax_fail(error, "out of memory");
-  }
-  profile->contexts[profile->context_count++] = (struct trax_profile_context){0, 0};
-  for (uint64_t i = 0; i < threads; i++)
-    profile->threads[i].latest = UINT32_MAX;
-  *reader = (struct trax_reader){
-      .self = profile, .span = add_span, .put_members = trax_profile_put_members, .finish = finish, .destroy = destroy};
-  return TRAX_OK;
-}
+const struct trax_reader_kind trax_profile_reader = {
+    .bytes = sizeof(struct trax_profile),
+    .files = {{.path = TRAX_EXPLAIN_PATH(profile), .put = trax_profile_put},
+              {.path = TRAX_EXPLAIN_PATH(folded), .put = trax_profile_put_folded},
+              {.path = TRAX_EXPLAIN_PATH(sample), .put = trax_profile_put_sample}},
+    .in_page = true,
+    .open = open_profile,
+    .span = add_span,
+    .put_members = trax_profile_put_members,
+    .close = close_profile};

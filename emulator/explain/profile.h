@@ -4,7 +4,7 @@
 
 #include "explain/places.h"
 #include "explain/span.h"
-#include "explain/table.h"
+#include "trax/map.h"
 
 /* The counts of one instruction in one context, or a sum of such counts. */
 struct trax_profile_counts {
@@ -23,21 +23,20 @@ struct trax_profile_context {
 };
 
 struct trax_profile {
-  struct trax_explain *explain;
+  struct trax_reader reader;
   struct trax_profile_thread *threads; /* [threads] */
 
   struct trax_profile_context *contexts;
   size_t context_count, context_capacity;
-  size_t call_count;            /* of all contexts together */
-  struct trax_table context_of; /* (parent, index) */
-  uint32_t *first_of;           /* [places]: the first context of the call at the instruction; 0: none */
-  bool by_call;                 /* a file that is wanted needs contexts; else all is in context 0 */
+  size_t call_count;          /* of all contexts together */
+  struct trax_map context_of; /* (parent, index) */
+  uint32_t *first_of;         /* [places]: the first context of the call at the instruction; 0: none */
+  bool by_call;               /* a file that is wanted needs contexts; else all is in context 0 */
 
   struct trax_profile_record *records;
   size_t record_count, record_capacity;
-  struct trax_table record_of; /* (context, index) */
-  uint32_t *latest_of;         /* [places]: the latest record of the instruction, + 1; a cache of record_of */
-  bool out_of_memory;
+  struct trax_map record_of; /* (context, index) */
+  uint32_t *latest_of;       /* [places]: the latest record of the instruction, + 1; a cache of record_of */
 };
 
 static inline uint64_t trax_profile_cycles(const struct trax_profile_counts *counts) {
@@ -54,14 +53,10 @@ static inline void trax_profile_add(struct trax_profile_counts *sum, const struc
   sum->hits += counts->hits;
 }
 
-/* --- profile_text.c --- */
-trax_status trax_profile_write(const struct trax_profile *profile, FILE *out, trax_error *error);
-trax_status trax_profile_write_folded(const struct trax_profile *profile, FILE *out, trax_error *error);
-
-/* --- profile_page.c: put_members of the reader; self is a trax_profile --- */
+/* --- the files and members of the page; self is a trax_profile --- */
+trax_status trax_profile_put(void *self, FILE *out, trax_error *error);
+trax_status trax_profile_put_folded(void *self, FILE *out, trax_error *error);
+trax_status trax_profile_put_sample(void *self, FILE *out, trax_error *error);
 trax_status trax_profile_put_members(void *self, FILE *out, trax_error *error);
-
-/* --- profile_sample.c --- */
-trax_status trax_profile_write_sample(const struct trax_profile *profile, FILE *out, trax_error *error);
 
 #endif

@@ -7,20 +7,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-static trax_status put_folded(const void *self, FILE *out, trax_error *error) {
-  return trax_profile_write_folded(self, out, error);
-}
-
 /* [pc or null, text, symbol, offset, [[function, line], ... from the innermost], [cycles by cause], loads, hits] */
 static void put_instruction(const struct trax_profile *profile, uint32_t index,
                             const struct trax_profile_counts *counts, FILE *out) {
-  struct trax_places *places = profile->explain->places;
+  struct trax_places *places = profile->reader.explain->places;
   const struct trax_place *place = trax_places_at(places, index);
   char text[128] = "";
   if (index < trax_places_count(places)) {
     const uint32_t pc = trax_places_pc(places, index);
     uint32_t word;
-    memcpy(&word, profile->explain->machine->space.bytes + pc, sizeof word);
+    memcpy(&word, profile->reader.explain->machine->space.bytes + pc, sizeof word);
     trax_disassemble(word, pc, text, sizeof text);
     fprintf(out, "[%u, ", pc);
   } else {
@@ -40,13 +36,11 @@ static void put_instruction(const struct trax_profile *profile, uint32_t index,
 
 trax_status trax_profile_put_members(void *self, FILE *out, trax_error *error) {
   const struct trax_profile *profile = self;
-  struct trax_places *places = profile->explain->places;
+  struct trax_places *places = profile->reader.explain->places;
   const uint32_t count = trax_places_count(places) + 2;
-  struct trax_profile_counts *counts = calloc(count, sizeof *counts);
-  if (!counts || profile->out_of_memory) {
-    free(counts);
-    return trax_fail(error, "out of memory for the profile");
-  }
+  struct trax_profile_counts *counts = trax_explain_array(count, sizeof *counts, error);
+  if (!counts)
+    return TRAX_ERROR;
   for (size_t i = 0; i < profile->record_count; i++)
     trax_profile_add(&counts[profile->records[i].index], &profile->records[i].counts);
   fputs("\"instructions\": [\n", out);
@@ -55,7 +49,7 @@ trax_status trax_profile_put_members(void *self, FILE *out, trax_error *error) {
       put_instruction(profile, i, &counts[i], out);
   fputs("null],\n", out);
   free(counts);
-  if (trax_page_text(out, "folded", put_folded, profile, error) != TRAX_OK)
+  if (trax_page_text(out, "folded", trax_profile_put_folded, self, error) != TRAX_OK)
     return TRAX_ERROR;
   fputs("\"names\": [\"\"", out); /* after all look-ups */
   for (uint32_t name = 1; name <= trax_places_names(places); name++) {
@@ -63,5 +57,5 @@ trax_status trax_profile_put_members(void *self, FILE *out, trax_error *error) {
     trax_page_quote(out, trax_places_name(places, name), strlen(trax_places_name(places, name)));
   }
   fputs("],\n", out);
-  return trax_sources_put(profile->explain, out, error);
+  return trax_sources_put(profile->reader.explain, out, error);
 }

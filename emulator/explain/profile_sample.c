@@ -5,10 +5,11 @@
       LINE.DISCRIMINATOR: INLINED:TOTAL
        LINE: COUNT
 
-   Lines are relative to the first one of their function. Of the instructions of a line in one place, the one that was
-   executed most often counts. */
+   Lines are relative to the first one of their function. A line's count is that of its instruction that was
+   executed most often. */
 #include "explain/profile.h"
 #include "program/program.h"
+#include "trax/grow.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -142,10 +143,11 @@ static void put_body(FILE *out, const struct node *function, int depth) {
   }
 }
 
-trax_status trax_profile_write_sample(const struct trax_profile *profile, FILE *out, trax_error *error) {
+trax_status trax_profile_put_sample(void *self, FILE *out, trax_error *error) {
+  const struct trax_profile *profile = self;
   enum { MAX_FRAMES = 64 };
-  const struct trax_host *host = trax_host_of(profile->explain->machine);
-  struct trax_places *places = profile->explain->places;
+  const struct trax_host *host = trax_host_of(profile->reader.explain->machine);
+  struct trax_places *places = profile->reader.explain->places;
   const uint32_t count = trax_places_count(places);
   uint64_t *executions = calloc((size_t)count + 2, sizeof *executions);
   struct tree tree = {.out_of_memory = !executions};

@@ -3,6 +3,7 @@
 #include "explain/profile.h"
 #include "explain/texts.h"
 #include "report/statistics.h"
+#include "trax/grow.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -29,7 +30,7 @@ static double percent(uint64_t part, uint64_t whole) {
 
 /* Adds the cycles to the frames of a place. A function counts once for each record, even if it is recursive. */
 static void add_frames(struct tables *tables, uint32_t index, uint32_t stamp, uint64_t cycles) {
-  const struct trax_place *place = trax_places_at(tables->profile->explain->places, index);
+  const struct trax_place *place = trax_places_at(tables->profile->reader.explain->places, index);
   for (uint32_t i = 0; i < place->frame_count; i++) {
     const struct trax_frame_place *frame = &place->frames[i];
     if (tables->seen[frame->function] != stamp) {
@@ -46,7 +47,7 @@ static void add_frames(struct tables *tables, uint32_t index, uint32_t stamp, ui
 static void add_record(struct tables *tables, size_t number) {
   const struct trax_profile *profile = tables->profile;
   const struct trax_profile_record *record = &profile->records[number];
-  const struct trax_frame_place *innermost = trax_places_at(profile->explain->places, record->index)->frames;
+  const struct trax_frame_place *innermost = trax_places_at(profile->reader.explain->places, record->index)->frames;
   const uint64_t cycles = trax_profile_cycles(&record->counts);
   trax_profile_add(&tables->total, &record->counts);
   trax_profile_add(&tables->functions[innermost->function].own, &record->counts);
@@ -94,7 +95,7 @@ static void print_counts(FILE *out, const struct trax_profile_counts *counts, ui
 }
 
 static void print_table(const struct tables *tables, FILE *out, struct row *rows, const char *title) {
-  const struct trax_places *places = tables->profile->explain->places;
+  const struct trax_places *places = tables->profile->reader.explain->places;
   const uint64_t total_cycles = trax_profile_cycles(&tables->total);
   for (size_t i = 0; i <= tables->names; i++) {
     rows[i].name = i ? trax_places_name(places, (uint32_t)i) : "(no line)";
@@ -117,14 +118,15 @@ static void print_table(const struct tables *tables, FILE *out, struct row *rows
 /* Looks up all places, so that the number of names is final. */
 static void look_up_all(const struct trax_profile *profile) {
   for (size_t i = 0; i < profile->record_count; i++)
-    trax_places_at(profile->explain->places, profile->records[i].index);
+    trax_places_at(profile->reader.explain->places, profile->records[i].index);
   for (size_t i = 1; i < profile->context_count; i++)
-    trax_places_at(profile->explain->places, profile->contexts[i].index);
+    trax_places_at(profile->reader.explain->places, profile->contexts[i].index);
 }
 
-trax_status trax_profile_write(const struct trax_profile *profile, FILE *out, trax_error *error) {
-  struct trax_places *places = profile->explain->places;
-  const trax_machine *machine = profile->explain->machine;
+trax_status trax_profile_put(void *self, FILE *out, trax_error *error) {
+  const struct trax_profile *profile = self;
+  struct trax_places *places = profile->reader.explain->places;
+  const trax_machine *machine = profile->reader.explain->machine;
   const struct trax_host *host = trax_host_of(machine);
   look_up_all(profile);
   struct tables tables = {.profile = profile, .names = trax_places_names(places)};
@@ -158,10 +160,10 @@ trax_status trax_profile_write(const struct trax_profile *profile, FILE *out, tr
 /* Stacks with equal texts are one: contexts and instructions may differ in their addresses alone. */
 struct folded {
   const struct trax_profile *profile;
-  struct trax_texts texts;    /* of calls, and of what an instruction adds to them */
-  uint32_t *calls;            /* [contexts]: the text of its calls, the outermost first; of context 0 "" */
-  uint32_t *places;           /* [places]: the instruction's functions and line; 0: not needed yet */
-  struct trax_table stack_of; /* (calls, place) */
+  struct trax_texts texts;  /* of calls, and of what an instruction adds to them */
+  uint32_t *calls;          /* [contexts]: the text of its calls, the outermost first; of context 0 "" */
+  uint32_t *places;         /* [places]: the instruction's functions and line; 0: not needed yet */
+  struct trax_map stack_of; /* (calls, place) */
   struct folded_stack *stacks;
   size_t count, capacity;
 };
@@ -190,7 +192,7 @@ static void put_frame(FILE *out, const char *name) {
 /* Returns the number of a text: `before`, the functions of a place, and its line if that is wanted; 0: out of memory.
  */
 static uint32_t text_of(struct folded *folded, const char *before, uint32_t index, bool with_line) {
-  struct trax_places *places = folded->profile->explain->places;
+  struct trax_places *places = folded->profile->reader.explain->places;
   const struct trax_place *place = trax_places_at(places, index);
   char *text = NULL;
   size_t size;
@@ -210,13 +212,15 @@ static uint32_t text_of(struct folded *folded, const char *before, uint32_t inde
 }
 
 static bool add_stack(struct folded *folded, const struct trax_profile_record *record) {
-  uint32_t *place = &folded->places[record->index], number;
+  uint32_t *place = &folded->places[record->index];
   if (!*place && !(*place = text_of(folded, "", record->index, true)))
     return false;
   const uint32_t calls = folded->calls[record->context];
-  if (!trax_table_find(&folded->stack_of, (uint64_t)calls << 32 | *place, (uint32_t)folded->count, &number) ||
-      !trax_grow((void **)&folded->stacks, folded->count, &folded->capacity, sizeof *folded->stacks))
+  const struct trax_map_entry *entry =
+      trax_map_put(&folded->stack_of, sizeof *entry, (uint64_t)calls << 32 | *place, (uint32_t)folded->count);
+  if (!entry || !trax_grow((void **)&folded->stacks, folded->count, &folded->capacity, sizeof *folded->stacks))
     return false;
+  const uint32_t number = entry->value;
   if (number == folded->count)
     folded->stacks[folded->count++] = (struct folded_stack){.calls = calls, .place = *place};
   for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
@@ -227,7 +231,7 @@ static bool add_stack(struct folded *folded, const struct trax_profile_record *r
 static bool fold(struct folded *folded) {
   const struct trax_profile *profile = folded->profile;
   folded->calls = calloc(profile->context_count, sizeof *folded->calls);
-  folded->places = calloc((size_t)trax_places_count(profile->explain->places) + 2, sizeof *folded->places);
+  folded->places = calloc((size_t)trax_places_count(profile->reader.explain->places) + 2, sizeof *folded->places);
   bool complete = folded->calls && folded->places;
   for (size_t i = 1; complete && i < profile->context_count; i++) { /* a parent precedes its contexts */
     const struct trax_profile_context *context = &profile->contexts[i];
@@ -250,7 +254,8 @@ static void put_lines(struct line *lines, size_t count, FILE *out) {
   }
 }
 
-trax_status trax_profile_write_folded(const struct trax_profile *profile, FILE *out, trax_error *error) {
+trax_status trax_profile_put_folded(void *self, FILE *out, trax_error *error) {
+  const struct trax_profile *profile = self;
   struct folded folded = {.profile = profile};
   bool complete = fold(&folded);
   size_t count = 0;
@@ -275,7 +280,7 @@ trax_status trax_profile_write_folded(const struct trax_profile *profile, FILE *
   free(folded.calls);
   free(folded.places);
   free(folded.stacks);
-  trax_table_free(&folded.stack_of);
+  trax_map_free(&folded.stack_of);
   trax_texts_free(&folded.texts);
   return complete ? TRAX_OK : trax_fail(error, "out of memory for the folded profile");
 }

@@ -19,8 +19,7 @@ const char *const trax_ray_kind_names[TRAX_RAY_KIND_COUNT] = {
 };
 
 struct ray_kinds {
-  struct trax_explain *explain;
-  trax_output output;
+  struct trax_reader reader;
   struct trax_tm_stats kinds[KINDS];
   uint8_t *working; /* [threads]: the kind of ray that the thread works for */
 };
@@ -91,7 +90,7 @@ static void add_step(void *self, const struct trax_span *span) {
   const unsigned kind = trax_counted_kind(span);
   if (kind != TRAX_NO_RAY)
     *working = (uint8_t)kind;
-  count_instruction(&rays->kinds[*working], &rays->explain->machine->config, span);
+  count_instruction(&rays->kinds[*working], &rays->reader.explain->machine->config, span);
   if (trax_ends_item(span)) {
     rays->kinds[TRAX_NO_RAY].items += span->issue->result;
     *working = TRAX_NO_RAY;
@@ -125,7 +124,7 @@ static double share(double a, double b) {
 
 static void write_row(const struct ray_kinds *rays, FILE *out, const char *name, const struct trax_tm_stats *row,
                       uint64_t count, double joules) {
-  const struct trax_machine *machine = rays->explain->machine;
+  const struct trax_machine *machine = rays->reader.explain->machine;
   uint64_t cycles = 0;
   for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
     cycles += row->cycles[cause];
@@ -145,17 +144,17 @@ static void write_row(const struct ray_kinds *rays, FILE *out, const char *name,
   fputc('\n', out);
 }
 
-/* Of structs of counts. */
+/* Subtracts counters, of which the structure consists. */
 static void subtract(struct trax_tm_stats *from, const struct trax_tm_stats *stats) {
   uint64_t *to = (uint64_t *)from;
   for (size_t i = 0; i < sizeof *from / sizeof *to; i++)
     to[i] -= ((const uint64_t *)stats)[i];
 }
 
-static trax_status put_table(const void *self, FILE *out, trax_error *error) {
+static trax_status put_table(void *self, FILE *out, trax_error *error) {
   const struct ray_kinds *rays = self;
   (void)error;
-  const struct trax_machine *machine = rays->explain->machine;
+  const struct trax_machine *machine = rays->reader.explain->machine;
   const struct trax_config *config = &machine->config;
   const struct trax_tm_stats *total = &machine->stats.total;
   const uint64_t *counted = &total->rays_primary;
@@ -177,40 +176,23 @@ static trax_status put_table(const void *self, FILE *out, trax_error *error) {
   return TRAX_OK;
 }
 
-static trax_status put_members(void *self, FILE *out, trax_error *error) {
-  return trax_page_text(out, "ray_kinds", put_table, self, error);
-}
-
-static trax_status finish(void *self, trax_error *error) {
+static trax_status open_ray_kinds(void *self, trax_error *error) {
   struct ray_kinds *rays = self;
-  if (!rays->output.file)
-    return TRAX_OK;
-  put_table(rays, rays->output.file, error);
-  return trax_output_commit(&rays->output, error);
-}
-
-static void destroy(void *self) {
-  struct ray_kinds *rays = self;
-  trax_output_discard(&rays->output);
-  free(rays->working);
-  free(rays);
-}
-
-trax_status trax_ray_kinds_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error) {
-  struct ray_kinds *rays = calloc(1, sizeof *rays);
-  if (!rays)
-    return trax_fail(error, "out of memory");
-  rays->explain = explain;
-  rays->working = malloc(explain->machine->stats.threads);
-  if (!rays->working)
-    trax_fail(error, "out of memory for the kinds of rays");
-  if (!rays->working ||
-      (explain->options.ray_kinds && trax_output_open(&rays->output, explain->options.ray_kinds, error) != TRAX_OK)) {
-    destroy(rays);
+  const size_t threads = rays->reader.explain->machine->stats.threads;
+  if (!(rays->working = trax_explain_array(threads, 1, error)))
     return TRAX_ERROR;
-  }
-  memset(rays->working, TRAX_NO_RAY, explain->machine->stats.threads);
-  *reader = (struct trax_reader){
-      .self = rays, .span = add_step, .put_members = put_members, .finish = finish, .destroy = destroy};
+  memset(rays->working, TRAX_NO_RAY, threads);
   return TRAX_OK;
 }
+
+static void close_ray_kinds(void *self) {
+  free(((struct ray_kinds *)self)->working);
+}
+
+const struct trax_reader_kind trax_ray_kinds_reader = {
+    .bytes = sizeof(struct ray_kinds),
+    .files = {{.path = TRAX_EXPLAIN_PATH(ray_kinds), .put = put_table, .member = "ray_kinds"}},
+    .in_page = true,
+    .open = open_ray_kinds,
+    .span = add_step,
+    .close = close_ray_kinds};

@@ -17,11 +17,10 @@ struct interval {
   uint32_t *queued;          /* [tms]: requests in the memory queue at the end */
 };
 
-struct trax_series {
+struct series {
+  struct trax_reader reader;
   struct trax_watch watch;
-  struct trax_explain *explain;
   uint64_t length;                /* cycles of an interval */
-  trax_output output;             /* closed for the page */
   uint64_t begin;                 /* of the next interval */
   struct trax_tm_stats *previous; /* [tms] */
   struct trax_memory_stats previous_memory;
@@ -72,8 +71,8 @@ static void add(void *sum, const void *stats, size_t bytes, int sign) {
 }
 
 /* The rows of an interval: the chip, then its TMs. */
-static void put_interval(const struct trax_series *series, const struct interval *interval, FILE *out) {
-  const uint32_t tms = series->explain->machine->config.chip.tms;
+static void put_interval(const struct series *series, const struct interval *interval, FILE *out) {
+  const uint32_t tms = series->reader.explain->machine->config.chip.tms;
   struct trax_tm_stats total = {0};
   uint32_t queued = 0;
   for (uint32_t tm = 0; tm < tms; tm++) {
@@ -101,9 +100,8 @@ static struct trax_tm_stats counts_of(const struct trax_machine *machine, uint32
   return stats;
 }
 
-static void end_interval(struct trax_series *series, struct interval *interval, const struct trax_run *run,
-                         uint64_t end) {
-  const struct trax_machine *machine = series->explain->machine;
+static void end_interval(struct series *series, struct interval *interval, const struct trax_run *run, uint64_t end) {
+  const struct trax_machine *machine = series->reader.explain->machine;
   interval->begin = series->begin;
   interval->end = end;
   for (uint32_t tm = 0; tm < machine->config.chip.tms; tm++) {
@@ -122,8 +120,8 @@ static void end_interval(struct trax_series *series, struct interval *interval, 
 }
 
 /* Makes one interval of each two. */
-static void join_pairs(struct trax_series *series) {
-  const uint32_t tms = series->explain->machine->config.chip.tms;
+static void join_pairs(struct series *series) {
+  const uint32_t tms = series->reader.explain->machine->config.chip.tms;
   for (size_t i = 0; i < PAGE_INTERVALS / 2; i++) {
     struct interval *first = &series->intervals[2 * i], *second = first + 1;
     for (uint32_t tm = 0; tm < tms; tm++) {
@@ -140,10 +138,10 @@ static void join_pairs(struct trax_series *series) {
   series->length *= 2;
 }
 
-static void next_interval(struct trax_series *series, const struct trax_run *run, uint64_t end) {
-  if (series->output.file) {
+static void next_interval(struct series *series, const struct trax_run *run, uint64_t end) {
+  if (series->reader.out) {
     end_interval(series, &series->intervals[0], run, end);
-    put_interval(series, &series->intervals[0], series->output.file);
+    put_interval(series, &series->intervals[0], series->reader.out);
     return;
   }
   end_interval(series, &series->intervals[series->count++], run, end);
@@ -152,7 +150,7 @@ static void next_interval(struct trax_series *series, const struct trax_run *run
 }
 
 static trax_status inspect(struct trax_watch *watch, struct trax_run *run, uint64_t t) {
-  struct trax_series *series = watch->context;
+  struct series *series = watch->context;
   trax_run_settle(run, t);
   next_interval(series, run, t);
   watch->next = t + series->length;
@@ -161,47 +159,37 @@ static trax_status inspect(struct trax_watch *watch, struct trax_run *run, uint6
 
 /* --- creation and end --- */
 
-static bool create_intervals(struct trax_series *series, size_t count) {
-  const uint32_t tms = series->explain->machine->config.chip.tms;
-  series->previous = calloc(tms, sizeof *series->previous);
-  series->intervals = calloc(PAGE_INTERVALS, sizeof *series->intervals);
-  bool complete = series->previous && series->intervals;
-  for (size_t i = 0; complete && i < count; i++) {
-    series->intervals[i].tms = calloc(tms, sizeof *series->intervals[i].tms);
-    series->intervals[i].queued = calloc(tms, sizeof *series->intervals[i].queued);
-    complete = series->intervals[i].tms && series->intervals[i].queued;
-  }
-  return complete;
-}
-
-trax_status trax_series_create(struct trax_series **result, struct trax_explain *explain, const char *path,
-                               trax_error *error) {
-  struct trax_series *series = *result = calloc(1, sizeof *series);
-  if (!series)
-    return trax_fail(error, "out of memory");
-  series->explain = explain;
-  if (!explain->options.series_interval)
-    explain->options.series_interval = TRAX_SERIES_INTERVAL;
-  series->length = path ? explain->options.series_interval : PAGE_FIRST_INTERVAL;
-  if (!create_intervals(series, path ? 1 : PAGE_INTERVALS))
-    return trax_fail(error, "out of memory for the series");
-  if (path && trax_output_open(&series->output, path, error) != TRAX_OK)
+static trax_status open_series(void *self, trax_error *error) {
+  struct series *series = self;
+  struct trax_machine *machine = series->reader.explain->machine;
+  const uint64_t length = series->reader.explain->options.series_interval;
+  const uint32_t tms = machine->config.chip.tms;
+  const size_t count = series->reader.out ? 1 : PAGE_INTERVALS;
+  series->length = !series->reader.out ? PAGE_FIRST_INTERVAL : length ? length : TRAX_SERIES_INTERVAL;
+  if (!(series->previous = trax_explain_array(tms, sizeof *series->previous, error)) ||
+      !(series->intervals = trax_explain_array(PAGE_INTERVALS, sizeof *series->intervals, error)))
     return TRAX_ERROR;
-  if (path)
-    put_head(series->output.file);
+  for (size_t i = 0; i < count; i++)
+    if (!(series->intervals[i].tms = trax_explain_array(tms, sizeof *series->intervals[i].tms, error)) ||
+        !(series->intervals[i].queued = trax_explain_array(tms, sizeof *series->intervals[i].queued, error)))
+      return TRAX_ERROR;
+  if (series->reader.out)
+    put_head(series->reader.out);
   series->watch = (struct trax_watch){.next = series->length, .inspect = inspect, .context = series};
-  trax_machine_watch(explain->machine, &series->watch);
+  trax_machine_watch(machine, &series->watch);
   return TRAX_OK;
 }
 
-trax_status trax_series_finish(struct trax_series *series, trax_error *error) {
-  if (series->explain->machine->stats.cycles > series->begin)
-    next_interval(series, NULL, series->explain->machine->stats.cycles);
-  return series->output.file ? trax_output_commit(&series->output, error) : TRAX_OK;
+static trax_status end_series(void *self, trax_error *error) {
+  struct series *series = self;
+  (void)error;
+  if (series->reader.explain->machine->stats.cycles > series->begin)
+    next_interval(series, NULL, series->reader.explain->machine->stats.cycles);
+  return TRAX_OK;
 }
 
-static trax_status put_rows(const void *self, FILE *out, trax_error *error) {
-  const struct trax_series *series = self;
+static trax_status put_rows(void *self, FILE *out, trax_error *error) {
+  const struct series *series = self;
   (void)error;
   put_head(out);
   for (size_t i = 0; i < series->count; i++)
@@ -209,20 +197,26 @@ static trax_status put_rows(const void *self, FILE *out, trax_error *error) {
   return TRAX_OK;
 }
 
-trax_status trax_series_put_members(struct trax_series *series, FILE *out, trax_error *error) {
-  return trax_page_text(out, "series", put_rows, series, error);
-}
-
-void trax_series_destroy(struct trax_series *series) {
-  if (!series)
-    return;
-  trax_machine_unwatch(series->explain->machine, &series->watch);
-  trax_output_discard(&series->output);
+static void close_series(void *self) {
+  struct series *series = self;
+  trax_machine_unwatch(series->reader.explain->machine, &series->watch);
   for (size_t i = 0; series->intervals && i < PAGE_INTERVALS; i++) {
     free(series->intervals[i].tms);
     free(series->intervals[i].queued);
   }
   free(series->intervals);
   free(series->previous);
-  free(series);
 }
+
+const struct trax_reader_kind trax_series_reader = {.bytes = sizeof(struct series),
+                                                    .files = {{.path = TRAX_EXPLAIN_PATH(series)}},
+                                                    .open = open_series,
+                                                    .end = end_series,
+                                                    .close = close_series};
+
+const struct trax_reader_kind trax_page_series_reader = {.bytes = sizeof(struct series),
+                                                         .files = {{.put = put_rows, .member = "series"}},
+                                                         .in_page = true,
+                                                         .open = open_series,
+                                                         .end = end_series,
+                                                         .close = close_series};

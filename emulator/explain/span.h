@@ -5,9 +5,9 @@
 #define TRAX_EXPLAIN_SPAN_H
 
 #include "engine/run.h"
-#include "trax/explain.h"
 #include "program/program.h"
 #include "report/statistics.h"
+#include "trax/explain.h"
 #include "trax/output.h"
 
 /* Consecutive cycles that were charged to one cause. */
@@ -28,17 +28,59 @@ struct trax_span {
   trax_inst inst;                 /* the instruction; illegal if pc is no text */
 };
 
-struct trax_reader {
-  void *self;
+enum { TRAX_READER_FILES = 3 };
+
+/* A reader: what all of its kind have in common. Its object begins with a struct trax_reader. */
+struct trax_reader_kind {
+  size_t bytes; /* of the object, which is zero before open() */
+  struct trax_reader_file {
+    size_t path; /* TRAX_EXPLAIN_PATH: in the options; 0: the text is for the page alone */
+    /* Writes the text, after the run. Without it the file is open from the beginning, for what is written meanwhile. */
+    trax_status (*put)(void *self, FILE *out, trax_error *error);
+    const char *member; /* of the page, with the same text; NULL: none */
+  } files[TRAX_READER_FILES];
+  bool in_page;                                                  /* the page needs the reader */
+  bool (*is_wanted)(const struct trax_explain_options *options); /* also, if no file is; may be NULL */
+  trax_status (*open)(void *self, trax_error *error);
   void (*span)(void *self, const struct trax_span *span);
-  /* Called in the order of (cycle, TM), before the spans that end with issues of the same cycle and TM; may be NULL. */
+  /* Called in the order of (cycle, TM), before the spans that end with issues of the same cycle and TM. */
   void (*arrival)(void *self, const struct trax_arrival *arrival);
-  /* Writes the reader's members of the page's data (explain/page.h); NULL: it has none. */
+  trax_status (*end)(void *self, trax_error *error); /* called after the last span, before the files are written */
+  /* Writes further members of the page's data (explain/page.h). */
   trax_status (*put_members)(void *self, FILE *out, trax_error *error);
-  /* Called after the last span: writes the reader's files. */
-  trax_status (*finish)(void *self, trax_error *error);
-  void (*destroy)(void *self);
+  void (*close)(void *self); /* also of an object that open() has left unfinished */
 };
+#define TRAX_EXPLAIN_PATH(MEMBER) (offsetof(struct trax_explain_options, MEMBER) + 1)
+
+struct trax_reader {
+  const struct trax_reader_kind *kind;
+  struct trax_explain *explain;
+  FILE *out; /* of the only file, if it is written during the run */
+  trax_output output;
+};
+
+/* The kinds of readers, in the order in which the page has their members. */
+#define TRAX_READERS(X)                                                                                                \
+  X(profile)                                                                                                           \
+  X(trace)                                                                                                             \
+  X(perfetto)                                                                                                          \
+  X(heat)                                                                                                              \
+  X(items)                                                                                                             \
+  X(ray_kinds)                                                                                                         \
+  X(lockstep)                                                                                                          \
+  X(lockstep_rays)                                                                                                     \
+  X(order)                                                                                                             \
+  X(series)                                                                                                            \
+  X(page_series)                                                                                                       \
+  X(memory_trace)                                                                                                      \
+  X(page)
+
+#define DECLARE(ID) extern const struct trax_reader_kind trax_##ID##_reader;
+TRAX_READERS(DECLARE)
+#undef DECLARE
+#define COUNT(ID) +1
+enum { TRAX_READER_KINDS = 0 TRAX_READERS(COUNT) };
+#undef COUNT
 
 struct trax_explain {
   trax_machine *machine;
@@ -46,40 +88,20 @@ struct trax_explain {
   struct trax_observer observer;
   struct trax_open_span *open_spans; /* [threads]: since the latest issue of each */
   struct trax_places *places;
-  struct trax_reader readers[10];
+  struct trax_reader *readers[TRAX_READER_KINDS];
   unsigned reader_count;
   struct trax_arrival *arrivals; /* those of which the readers have not been notified yet */
   size_t arrival_count, arrival_capacity;
-  struct trax_series *series, *page_series; /* NULL: none */
-  struct trax_memory_trace *memory_trace;   /* NULL: none */
-  struct trax_explore_picture picture;      /* of the page; width 0: none */
-  struct trax_pixels *pixels;               /* for it; NULL: items store to no buffer that is known */
-  bool out_of_memory;        /* spans or arrivals were lost */
+  struct trax_explore_picture picture; /* of the page; width 0: none */
+  struct trax_pixels *pixels;          /* for it; NULL: items store to no buffer that is known */
+  bool out_of_memory;                  /* something was lost: no file is written */
 };
 
 /* Whether the window contains a part of the TP's cycles begin <= t < end. */
 bool trax_window_has(const struct trax_explain_options *options, uint32_t tm, uint32_t tp, uint64_t begin,
                      uint64_t end);
 
-/* --- readers: each is created if the options name one of its files --- */
-trax_status trax_profile_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error);
-trax_status trax_trace_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error);
-trax_status trax_konata_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error);
-trax_status trax_perfetto_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error);
-trax_status trax_heat_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error);
-trax_status trax_items_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error);
-trax_status trax_order_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error);
-trax_status trax_ray_kinds_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error);
-trax_status trax_lockstep_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error);
-trax_status trax_lockstep_rays_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error);
-
-/* --- series.c: a watch, not a reader --- */
-/* path: the file of the rows; NULL: they are for the page, a limited number whatever the length of the run. */
-trax_status trax_series_create(struct trax_series **series, struct trax_explain *explain, const char *path,
-                               trax_error *error);
-trax_status trax_series_finish(struct trax_series *series, trax_error *error);
-/* Writes the rows that are for the page, after trax_series_finish. */
-trax_status trax_series_put_members(struct trax_series *series, FILE *out, trax_error *error);
-void trax_series_destroy(struct trax_series *series); /* which may be NULL */
+/* Allocates an array of zeros. NULL, with *error set: out of memory. */
+void *trax_explain_array(size_t count, size_t size, trax_error *error);
 
 #endif

@@ -1,5 +1,6 @@
 #define _POSIX_C_SOURCE 200809L /* strdup */
 #include "explain/texts.h"
+#include "trax/grow.h"
 
 #include <string.h>
 
@@ -12,9 +13,10 @@ static uint64_t hash_of(const char *text) {
 
 uint32_t trax_texts_number(struct trax_texts *texts, const char *text) {
   for (uint64_t hash = hash_of(text);; hash++) {
-    uint32_t number;
-    if (!trax_table_find(&texts->by_hash, hash, (uint32_t)texts->count, &number))
+    const struct trax_map_entry *entry = trax_map_put(&texts->by_hash, sizeof *entry, hash, (uint32_t)texts->count);
+    if (!entry)
       return 0;
+    const uint32_t number = entry->value;
     if (number < texts->count) {
       if (strcmp(texts->texts[number], text) == 0)
         return number + 1;
@@ -32,6 +34,6 @@ void trax_texts_free(struct trax_texts *texts) {
   for (size_t i = 0; i < texts->count; i++)
     free(texts->texts[i]);
   free(texts->texts);
-  trax_table_free(&texts->by_hash);
+  trax_map_free(&texts->by_hash);
   *texts = (struct trax_texts){0};
 }

@@ -2,12 +2,12 @@
 #ifndef TRAX_EXPLAIN_TEXTS_H
 #define TRAX_EXPLAIN_TEXTS_H
 
-#include "explain/table.h"
+#include "trax/map.h"
 
 struct trax_texts {
   char **texts; /* [number - 1] */
   size_t count, capacity;
-  struct trax_table by_hash; /* if two texts have the same hash, the second one's key is the hash + 1 */
+  struct trax_map by_hash; /* if two texts have the same hash, the second one's key is the hash + 1 */
 };
 
 /* Returns the number of a text, which is copied; 0: out of memory. */

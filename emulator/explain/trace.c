@@ -8,13 +8,12 @@
 #include <string.h>
 
 struct trace {
-  struct trax_explain *explain;
-  trax_output output;
+  struct trax_reader reader;
   char **text; /* [places]: symbol, word and disassembly; NULL until needed */
 };
 
 static const char *text_of(struct trace *trace, uint32_t index, uint32_t pc, uint32_t word) {
-  struct trax_places *places = trace->explain->places;
+  struct trax_places *places = trace->reader.explain->places;
   char **text = &trace->text[index];
   if (!*text) {
     char symbol[256], disassembly[128], line[512];
@@ -27,8 +26,8 @@ static const char *text_of(struct trace *trace, uint32_t index, uint32_t pc, uin
 }
 
 static void put_place(const struct trace *trace, uint64_t cycle, uint32_t tm, uint32_t tp) {
-  fprintf(trace->output.file, "%10" PRIu64 " %4u %2u.%-2u ", cycle,
-          tm * trace->explain->machine->config.chip.tps_per_tm + tp, tm, tp);
+  fprintf(trace->reader.out, "%10" PRIu64 " %4u %2u.%-2u ", cycle,
+          tm * trace->reader.explain->machine->config.chip.tps_per_tm + tp, tm, tp);
 }
 
 static void put_outcome(FILE *out, unsigned outcome) {
@@ -41,8 +40,8 @@ static void put_outcome(FILE *out, unsigned outcome) {
 static void add_span(void *self, const struct trax_span *span) {
   struct trace *trace = self;
   const struct trax_issue *issue = span->issue;
-  FILE *out = trace->output.file;
-  if (!issue || !trax_window_has(&trace->explain->options, span->tm, span->tp, issue->cycle, issue->cycle + 1))
+  FILE *out = trace->reader.out;
+  if (!issue || !trax_window_has(&trace->reader.explain->options, span->tm, span->tp, issue->cycle, issue->cycle + 1))
     return;
   const unsigned flags = trax_op_table[span->inst.op].flags;
   put_place(trace, issue->cycle, span->tm, span->tp);
@@ -62,42 +61,32 @@ static void add_span(void *self, const struct trax_span *span) {
 static void add_arrival(void *self, const struct trax_arrival *arrival) {
   struct trace *trace = self;
   if (!arrival->rd || arrival->rd >= TRAX_NUM_REGISTERS ||
-      !trax_window_has(&trace->explain->options, arrival->tm, arrival->tp, arrival->cycle, arrival->cycle + 1))
+      !trax_window_has(&trace->reader.explain->options, arrival->tm, arrival->tp, arrival->cycle, arrival->cycle + 1))
     return;
   put_place(trace, arrival->cycle, arrival->tm, arrival->tp);
-  fprintf(trace->output.file, "arrival   r%u=%08x\n", arrival->rd, arrival->value);
+  fprintf(trace->reader.out, "arrival   r%u=%08x\n", arrival->rd, arrival->value);
 }
 
-static trax_status finish(void *self, trax_error *error) {
+static trax_status open_trace(void *self, trax_error *error) {
   struct trace *trace = self;
-  return trax_output_commit(&trace->output, error);
-}
-
-static void destroy(void *self) {
-  struct trace *trace = self;
-  for (uint32_t i = 0; trace->text && i < trax_places_count(trace->explain->places) + 2; i++)
-    free(trace->text[i]);
-  free(trace->text);
-  trax_output_discard(&trace->output);
-  free(trace);
-}
-
-trax_status trax_trace_create(struct trax_explain *explain, struct trax_reader *reader, trax_error *error) {
-  struct trace *trace = calloc(1, sizeof *trace);
-  if (!trace)
-    return trax_fail(error, "out of memory");
-  trace->explain = explain;
-  trace->text = calloc((size_t)trax_places_count(explain->places) + 2, sizeof *trace->text);
-  if (!trace->text || trax_output_open(&trace->output, explain->options.trace, error) != TRAX_OK) {
-    if (!trace->text)
-      trax_fail(error, "out of memory for the trace");
-    destroy(trace);
-    return TRAX_ERROR;
-  }
-  fprintf(trace->output.file,
+  fprintf(trace->reader.out,
           "#    cycle thread TM.TP pc     symbol                 word      instruction               result or value, "
           "address, cache, jump\n");
-  *reader = (struct trax_reader){
-      .self = trace, .span = add_span, .arrival = add_arrival, .finish = finish, .destroy = destroy};
-  return TRAX_OK;
+  trace->text =
+      trax_explain_array((size_t)trax_places_count(trace->reader.explain->places) + 2, sizeof *trace->text, error);
+  return trace->text ? TRAX_OK : TRAX_ERROR;
 }
+
+static void close_trace(void *self) {
+  struct trace *trace = self;
+  for (uint32_t i = 0; trace->text && i < trax_places_count(trace->reader.explain->places) + 2; i++)
+    free(trace->text[i]);
+  free(trace->text);
+}
+
+const struct trax_reader_kind trax_trace_reader = {.bytes = sizeof(struct trace),
+                                                   .files = {{.path = TRAX_EXPLAIN_PATH(trace)}},
+                                                   .open = open_trace,
+                                                   .span = add_span,
+                                                   .arrival = add_arrival,
+                                                   .close = close_trace};

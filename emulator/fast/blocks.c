@@ -1,15 +1,18 @@
 #define _DEFAULT_SOURCE /* MAP_ANONYMOUS, MAP_NORESERVE */
 /* The read set and the write set of the run, by blocks of global memory. A value loaded by a burst is right as long as
-   no TP writes the block that it came from. So before a block of the read set is written for the first time, every TP
-   rolls back to what it has issued, and its head executes at issue; after that, loads from the block end bursts. A
-   block costs one roll back at most, and a block that is only written, such as one of the picture, costs none. Blocks
-   are small because data that is written is often next to data that is only read. The input buffer is hardly ever
-   written: all of it counts as read until a first write, so loads from it need not be recorded. */
+   no TP writes the block that it came from. Before a LOADED block is written for the first time, every TP rolls back to
+   what it has issued, and its head executes at issue. After that the block is WRITTEN: bursts that load from it are
+   watched. Before a word is written from which a watched burst has loaded, that burst's TP rolls back. So data that is
+   only read costs nothing, and data that is only written, such as a picture, costs no roll back. The input buffer is
+   hardly ever written: all of it counts as LOADED until a first write, so loads from it need not be recorded. */
 #include "fast/head.h"
+#include "fast/store_buffer.h"
 
 #include <assert.h>
 #include <string.h>
 #include <sys/mman.h>
+
+enum { FIRST_AREA = 256 /* blocks */, MOST_DOUBLINGS = 12 };
 
 trax_status trax_fast_blocks_create(struct trax_fast_blocks *blocks, const struct trax_space *space,
                                     trax_error *error) {
@@ -22,7 +25,7 @@ trax_status trax_fast_blocks_create(struct trax_fast_blocks *blocks, const struc
   blocks->state = state;
   for (size_t i = 0; i < space->hole_count; i++) /* so that loads from holes end bursts, and fault at issue */
     for (uint64_t at = space->holes[i].begin; at < space->holes[i].end; at += 1u << TRAX_BLOCK_SHIFT)
-      blocks->state[at >> TRAX_BLOCK_SHIFT] = TRAX_BLOCK_WRITTEN;
+      blocks->state[at >> TRAX_BLOCK_SHIFT] = TRAX_BLOCK_HOLE;
   return TRAX_OK;
 }
 
@@ -66,14 +69,66 @@ void trax_fast_roll_back(struct trax_fast *fast) {
       roll_back_tp(fast, &fast->tm[i], tp);
 }
 
-void trax_fast_block_written(struct trax_fast *fast, uint32_t address) {
-  if (trax_fast_is_loaded(&fast->blocks, address))
-    trax_fast_roll_back(fast);
-  trax_fast_set_written(&fast->blocks, address);
+/* Rolls back the TPs whose bursts have loaded from WRITTEN blocks in a range of words; `bits`: those of the words. */
+static void roll_back_readers(struct trax_fast_tm *ftm, uint64_t bits, uint32_t begin, uint32_t bytes) {
+  for (unsigned number = 0; number < ftm->tm->tps; number++) {
+    const struct trax_fast_tp *ftp = &ftm->tp[number];
+    if (!(ftm->watched[number] & bits))
+      continue;
+    uint32_t i = 0;
+    while (i < ftp->load_count && (ftp->address[i] & ~3u) - begin >= bytes)
+      i++;
+    if (i < ftp->load_count)
+      roll_back_tp(ftm->fast, ftm, number);
+  }
 }
 
-void trax_fast_range_written(void *fast, uint32_t address, uint32_t bytes) {
+void trax_fast_roll_back_readers(struct trax_fast_tm *ftm, uint32_t address) {
+  roll_back_readers(ftm, trax_fast_word_bit(address), address & ~3u, 4);
+}
+
+void trax_fast_record_readers(struct trax_fast_tm *ftm) {
+  const uint8_t *const state = ftm->fast->blocks.state;
+  for (unsigned number = 0; number < ftm->tm->tps; number++)
+    for (uint32_t i = 0; ftm->watched[number] && i < ftm->tp[number].load_count; i++)
+      if (__atomic_load_n(&state[ftm->tp[number].address[i] >> TRAX_BLOCK_SHIFT], __ATOMIC_RELAXED) >=
+          TRAX_BLOCK_WRITTEN)
+        trax_store_buffer_read(ftm->tm->buffer, ftm->tp[number].address[i]);
+}
+
+/* After a roll back of all TPs: makes all blocks around an address WRITTEN, so that their first writes need no roll
+   back of their own. Each roll back does so for a larger area. */
+static void widen(struct trax_fast_blocks *blocks, uint32_t address) {
+  const size_t area =
+      (size_t)FIRST_AREA << (blocks->roll_backs < MOST_DOUBLINGS ? blocks->roll_backs++ : MOST_DOUBLINGS);
+  const size_t begin = (address >> TRAX_BLOCK_SHIFT) & ~(area - 1);
+  for (size_t i = begin; i < begin + area && i < blocks->bytes; i++)
+    if (blocks->state[i] < TRAX_BLOCK_WRITTEN)
+      blocks->state[i] = TRAX_BLOCK_WRITTEN;
+}
+
+void trax_fast_word_written(struct trax_fast *fast, uint32_t address, uint8_t state) {
+  if (trax_fast_is_loaded(&fast->blocks, address)) {
+    trax_fast_roll_back(fast);
+    widen(&fast->blocks, address);
+  }
+  for (uint32_t i = 0; i < fast->chip->tms; i++)
+    trax_fast_roll_back_readers(&fast->tm[i], address);
+  trax_fast_set_written(&fast->blocks, address, state);
+}
+
+void trax_fast_increment_outside(void *fast, uint32_t address) {
+  trax_fast_word_written(fast, address, TRAX_BLOCK_SHARED);
+}
+
+void trax_fast_range_written(void *context, uint32_t address, uint32_t bytes) {
+  struct trax_fast *fast = context;
   for (uint64_t at = address >> TRAX_BLOCK_SHIFT << TRAX_BLOCK_SHIFT; at < address + (uint64_t)bytes;
-       at += 1u << TRAX_BLOCK_SHIFT)
-    trax_fast_block_written(fast, (uint32_t)at);
+       at += 1u << TRAX_BLOCK_SHIFT) {
+    if (trax_fast_is_loaded(&fast->blocks, (uint32_t)at))
+      trax_fast_roll_back(fast);
+    trax_fast_set_written(&fast->blocks, (uint32_t)at, TRAX_BLOCK_WRITTEN);
+  }
+  for (uint32_t i = 0; i < fast->chip->tms; i++)
+    roll_back_readers(&fast->tm[i], UINT64_MAX, address & ~3u, bytes + 4);
 }

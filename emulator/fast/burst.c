@@ -1,6 +1,6 @@
 /* Bursts: instructions that are executed before their issue. A burst ends before an instruction whose effect is visible
-   to other TPs or whose result depends on time: atomic increments, stores to global memory, loads from blocks that are
-   written during the run, loads and stores past the cache, fences, reads of the cycle counter, traps, ends of threads,
+   to other TPs or whose result depends on time: atomic increments, stores to global memory, loads from shared
+   blocks, loads and stores past the cache, fences, reads of the cycle counter, traps, ends of threads,
    and all instructions that fault. */
 #include "fast/fast.h"
 #include "trax/semantics.h"
@@ -22,6 +22,13 @@ static inline void record_segment(struct trax_fast_tp *ftp, unsigned segment, un
   memcpy(ftp->step + at, step, count * sizeof *step);
   memset(ftp->segment + at, (int)segment, count);
   ftp->origin[segment] = index - at;
+}
+
+/* Loads from a WRITTEN block: before the word is written again, the TP rolls back. */
+static __attribute__((noinline, cold)) uint32_t load_written(struct trax_fast_tm *ftm, unsigned number,
+                                                             uint32_t address, unsigned bytes) {
+  ftm->watched[number] |= trax_fast_word_bit(address);
+  return trax_tm_load(ftm->tm, address, bytes);
 }
 
 #define BURST burst_whole

@@ -29,7 +29,10 @@ static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
   uint64_t resume_pc = ftp->resume_pc; /* the latest jump's target, needed if it is no text */
   int64_t *const count_deltas = ftm->count_deltas;
   uint64_t lines = 0;
+  /* A burst that is executed again may have loaded from a block before it was SHARED. */
+  const uint8_t last_loadable = EXACTLY ? TRAX_BLOCK_SHARED : TRAX_BLOCK_WRITTEN;
   ftp->undo_count = 0;
+  ftm->watched[number] = 0;
   /* The number of inst's step is its distance from `begin`, which changes with each jump. */
   uintptr_t begin = (uintptr_t)inst;
   unsigned at;
@@ -49,16 +52,20 @@ static unsigned BURST(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned
     if (address & (BYTES - 1))                                                                                         \
       goto stop;                                                                                                       \
     if (LIKELY(address - input < input_bytes) || address - TRAX_NULL_END < accessible) {                               \
+      memcpy(&word, global + address, BYTES);                                                                          \
       if (!LIKELY(address - input < input_bytes)) {                                                                    \
         uint8_t *const block = &blocks[address >> TRAX_BLOCK_SHIFT];                                                   \
         const uint8_t state = __atomic_load_n(block, __ATOMIC_RELAXED);                                                \
         if (state != TRAX_BLOCK_LOADED) {                                                                              \
-          if (state == TRAX_BLOCK_WRITTEN)                                                                             \
+          if (state > last_loadable)                                                                                   \
             goto stop;                                                                                                 \
-          __atomic_store_n(block, TRAX_BLOCK_LOADED, __ATOMIC_RELAXED);                                                \
+          if (!state) {                                                                                                \
+            __atomic_store_n(block, TRAX_BLOCK_LOADED, __ATOMIC_RELAXED);                                              \
+          } else {                                                                                                     \
+            word = load_written(ftm, number, address, BYTES);                                                          \
+          }                                                                                                            \
         }                                                                                                              \
       }                                                                                                                \
-      memcpy(&word, global + address, BYTES);                                                                          \
       loads++;                                                                                                         \
       ftp->step[at] |= (uint16_t)(TRAX_STEP_BANK | data_bank(banks, bank_mask, address) << TRAX_STEP_BANK_SHIFT);      \
     } else if (address >= TRAX_LOCAL_BASE) {                                                                           \
@@ -150,6 +157,7 @@ stop:
   ftp->resume_pc = inst == program->no_text ? (uint32_t)resume_pc : program->timing[inst - program->inst].pc;
   ftp->burst_jumps = jumps;
   ftp->burst_lines = lines;
+  ftp->load_count = loads;
   return AT;
 }
 

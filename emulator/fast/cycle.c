@@ -506,6 +506,8 @@ static ALWAYS_INLINE void run_two(struct trax_fast_tm *one, struct trax_fast_tm 
 
 void trax_fast_run_epoch(struct trax_fast *fast, uint32_t first, uint32_t count, uint64_t end) {
   struct trax_fast_tm *const one = &fast->tm[first], *const other = one + count - 1;
+  for (struct trax_fast_tm *ftm = one; ftm <= other; ftm++)
+    trax_fast_record_readers(ftm);
   if (count > 1 && one->wide)
     run_two(one, other, end, true);
   else if (count > 1)

@@ -5,6 +5,7 @@
 #include "fast/pool.h"
 #include "fast/state.h"
 #include "fast/store_buffer.h"
+#include "trax/grow.h"
 
 #include <assert.h>
 #include <stdlib.h>
@@ -28,12 +29,8 @@ struct undo {
 /* The write set of the current epoch: the writer of each word. */
 enum { BY_SEVERAL = TRAX_MAX_TMS, BY_CONTROLLER };
 
-struct writer {
-  uint64_t generation;
-  uint32_t address;
-  uint16_t tm; /* a TM's number, or BY_... */
-  bool early;  /* the controller incremented it before the epoch, for a cycle of the epoch */
-};
+/* Of a writer: the controller incremented the word before the epoch, for a cycle of the epoch. */
+#define EARLY ((uint32_t)1 << 16)
 
 struct trax_epochs {
   struct trax_chip *chip;
@@ -57,9 +54,7 @@ struct trax_epochs {
   uint64_t cautious_from, cautious_until; /* these cycles are simulated one by one */
   uint64_t pause;
 
-  struct writer *writers; /* [writer_capacity], a power of two; open addressing */
-  size_t writer_count, writer_capacity;
-  uint64_t generation;
+  struct trax_map writers;           /* by address: the number of a TM, or BY_..., with EARLY */
   bool failed;                       /* out of memory */
   size_t *next_write, *next_request; /* [tms]: the next one of the TM's store buffer to be handled */
 };
@@ -123,57 +118,17 @@ void trax_epochs_commit(struct trax_epochs *epochs) {
 
 /* --- the end of an epoch --- */
 
-static bool grow(void **array, size_t count, size_t *capacity, size_t size) {
-  if (count < *capacity)
-    return true;
-  const size_t larger = *capacity ? 2 * *capacity : 1024;
-  void *moved = realloc(*array, larger * size);
-  if (!moved)
-    return false;
-  *array = moved;
-  *capacity = larger;
-  return true;
-}
-
-static struct writer *find_writer(const struct trax_epochs *epochs, uint32_t address) {
-  const size_t mask = epochs->writer_capacity - 1;
-  size_t i = (address >> 2) * (size_t)0x9E3779B1u & mask;
-  while (epochs->writers[i].generation == epochs->generation && epochs->writers[i].address != address)
-    i = (i + 1) & mask;
-  return &epochs->writers[i];
-}
-
-static bool grow_writers(struct trax_epochs *epochs) {
-  if (2 * epochs->writer_count < epochs->writer_capacity)
-    return true;
-  struct trax_epochs larger = {.generation = epochs->generation, .writer_capacity = 2 * epochs->writer_capacity};
-  larger.writers = calloc(larger.writer_capacity, sizeof *larger.writers);
-  if (!larger.writers)
-    return false;
-  for (size_t i = 0; i < epochs->writer_capacity; i++)
-    if (epochs->writers[i].generation == epochs->generation)
-      *find_writer(&larger, epochs->writers[i].address) = epochs->writers[i];
-  free(epochs->writers);
-  epochs->writers = larger.writers;
-  epochs->writer_capacity = larger.writer_capacity;
-  return true;
-}
-
 /* Records that a TM or the controller is about to write the word at `address`. NULL: out of memory. */
-static const struct writer *record_writer(struct trax_epochs *epochs, uint32_t address, uint32_t tm) {
-  if (!grow((void **)&epochs->undo, epochs->undo_count, &epochs->undo_capacity, sizeof *epochs->undo) ||
-      !grow_writers(epochs))
+static const struct trax_map_entry *record_writer(struct trax_epochs *epochs, uint32_t address, uint32_t tm) {
+  if (!trax_grow((void **)&epochs->undo, epochs->undo_count, &epochs->undo_capacity, sizeof *epochs->undo))
     return NULL;
   struct undo *undo = &epochs->undo[epochs->undo_count++];
   undo->address = address & ~3u;
   memcpy(&undo->word, epochs->chip->machine->space.bytes + undo->address, sizeof undo->word);
-  struct writer *writer = find_writer(epochs, undo->address);
-  if (writer->generation != epochs->generation) {
-    *writer = (struct writer){epochs->generation, undo->address, (uint16_t)tm, epochs->early};
-    epochs->writer_count++;
-  } else if (writer->tm != tm) {
-    writer->tm = BY_SEVERAL;
-  }
+  struct trax_map_entry *writer =
+      trax_map_put(&epochs->writers, sizeof *writer, undo->address, tm | (epochs->early ? EARLY : 0));
+  if (writer && (writer->value & ~EARLY) != tm)
+    writer->value = BY_SEVERAL | (writer->value & EARLY);
   return writer;
 }
 
@@ -183,11 +138,11 @@ static bool perform(struct trax_epochs *epochs, const struct trax_store_buffer_w
   struct trax_fast *fast = epochs->chip->fast;
   if (trax_fast_is_loaded(&fast->blocks, write->address))
     return false;
-  trax_fast_set_written(&fast->blocks, write->address);
+  trax_fast_set_written(&fast->blocks, write->address, write->bytes ? TRAX_BLOCK_WRITTEN : TRAX_BLOCK_SHARED);
   if (!write->bytes)
     return true;
-  const struct writer *writer = record_writer(epochs, write->address, tm);
-  if (!writer || writer->early)
+  const struct trax_map_entry *writer = record_writer(epochs, write->address, tm);
+  if (!writer || writer->value & EARLY)
     return false;
   memcpy(epochs->chip->machine->space.bytes + write->address, &write->value, write->bytes);
   return true;
@@ -252,17 +207,21 @@ static bool run_controller(struct trax_epochs *epochs, uint64_t t) {
   return write_up_to(epochs, epochs->end, &next_write);
 }
 
-/* Whether a TM has read a word that another TM or the controller wrote in this epoch. */
+/* Whether a TM has read a word that another TM or the controller wrote in this epoch. Bursts do not load such words
+   again. */
 static bool has_conflict(const struct trax_epochs *epochs) {
-  for (uint32_t i = 0; epochs->writer_count && i < epochs->chip->tms; i++) {
+  bool found = false;
+  for (uint32_t i = 0; epochs->writers.count && i < epochs->chip->tms; i++) {
     const struct trax_store_buffer *buffer = &epochs->buffers[i];
     for (size_t j = 0; j < buffer->read_count; j++) {
-      const struct writer *writer = find_writer(epochs, buffer->reads[j]);
-      if (writer->generation == epochs->generation && writer->tm != i)
-        return true;
+      const struct trax_map_entry *writer = trax_map_find(&epochs->writers, sizeof *writer, buffer->reads[j]);
+      if (writer && (writer->value & ~EARLY) != i) {
+        trax_fast_set_written(&epochs->chip->fast->blocks, buffer->reads[j], TRAX_BLOCK_SHARED);
+        found = true;
+      }
     }
   }
-  return false;
+  return found;
 }
 
 static bool end_epoch(struct trax_epochs *epochs, uint64_t begin) {
@@ -293,8 +252,7 @@ static void begin_epoch(struct trax_epochs *epochs, uint64_t t, uint64_t until) 
   for (uint32_t i = 0; i < chip->tms; i++)
     if (chip->tm[i].next_cycle < t)
       chip->tm[i].next_cycle = t;
-  epochs->generation++;
-  epochs->writer_count = 0;
+  trax_map_empty(&epochs->writers, sizeof(struct trax_map_entry));
   epochs->failed = false;
   epochs->early = true;
   const uint64_t served = trax_memory_serve_early(&epochs->chip->memory, chip->tm, chip->tms, &chip->machine->space, t,
@@ -324,6 +282,7 @@ bool trax_epochs_advance(struct trax_epochs *epochs, uint64_t *t, uint64_t until
     epochs->pause = FIRST_PAUSE;
     take_snapshot(epochs, *t);
   }
+  void (*const increment_outside)(void *, uint32_t) = chip->memory.before_increment;
   chip->memory.before_increment = record_increment;
   chip->memory.context = epochs;
   begin_epoch(epochs, *t, until);
@@ -335,7 +294,8 @@ bool trax_epochs_advance(struct trax_epochs *epochs, uint64_t *t, uint64_t until
   for (uint32_t i = 0; i < chip->tms; i++)
     chip->tm[i].buffer = NULL;
   const bool ended = end_epoch(epochs, *t);
-  chip->memory.before_increment = NULL;
+  chip->memory.before_increment = increment_outside;
+  chip->memory.context = chip->fast;
   if (ended) {
     *t = epochs->end;
     return true;
@@ -365,12 +325,10 @@ trax_status trax_epochs_create(struct trax_chip *chip, unsigned threads, trax_er
   epochs->chip = chip;
   epochs->length = length;
   epochs->pause = FIRST_PAUSE;
-  epochs->writer_capacity = 1024;
   epochs->buffers = calloc(chip->tms, sizeof *epochs->buffers);
-  epochs->writers = calloc(epochs->writer_capacity, sizeof *epochs->writers);
   epochs->next_write = calloc(chip->tms, sizeof *epochs->next_write);
   epochs->next_request = calloc(chip->tms, sizeof *epochs->next_request);
-  if (!epochs->buffers || !record_sections(epochs) || !epochs->writers || !epochs->next_write || !epochs->next_request)
+  if (!epochs->buffers || !record_sections(epochs) || !epochs->next_write || !epochs->next_request)
     return trax_fail(error, "out of memory");
   epochs->snapshot = malloc(epochs->snapshot_size);
   if (!epochs->snapshot)
@@ -391,7 +349,7 @@ void trax_epochs_destroy(struct trax_epochs *epochs) {
   free(epochs->sections);
   free(epochs->snapshot);
   free(epochs->undo);
-  free(epochs->writers);
+  trax_map_free(&epochs->writers);
   free(epochs->next_write);
   free(epochs->next_request);
   free(epochs);

@@ -74,6 +74,8 @@ static trax_status create(struct trax_chip *chip, trax_error *error) {
   fast->chip = chip;
   machine->calls.before_write = trax_fast_range_written;
   machine->calls.engine = fast;
+  chip->memory.before_increment = trax_fast_increment_outside;
+  chip->memory.context = fast;
   fast->burst = machine->observer ? 1 : TRAX_BURST;
   const size_t bytes = chip->tms * sizeof *fast->tm; /* a multiple of the alignment, as aligned_alloc requires */
   fast->tm = aligned_alloc(_Alignof(struct trax_fast_tm), bytes);

@@ -30,7 +30,10 @@
 #define trax_fast_issue TRAX_FAST_NAME(trax_fast_issue, TRAX_FAST_VARIANT)
 #define trax_fast_blocks_create TRAX_FAST_NAME(trax_fast_blocks_create, TRAX_FAST_VARIANT)
 #define trax_fast_blocks_destroy TRAX_FAST_NAME(trax_fast_blocks_destroy, TRAX_FAST_VARIANT)
-#define trax_fast_block_written TRAX_FAST_NAME(trax_fast_block_written, TRAX_FAST_VARIANT)
+#define trax_fast_word_written TRAX_FAST_NAME(trax_fast_word_written, TRAX_FAST_VARIANT)
+#define trax_fast_increment_outside TRAX_FAST_NAME(trax_fast_increment_outside, TRAX_FAST_VARIANT)
+#define trax_fast_roll_back_readers TRAX_FAST_NAME(trax_fast_roll_back_readers, TRAX_FAST_VARIANT)
+#define trax_fast_record_readers TRAX_FAST_NAME(trax_fast_record_readers, TRAX_FAST_VARIANT)
 #define trax_fast_range_written TRAX_FAST_NAME(trax_fast_range_written, TRAX_FAST_VARIANT)
 #define trax_fast_roll_back TRAX_FAST_NAME(trax_fast_roll_back, TRAX_FAST_VARIANT)
 #define trax_fast_schedule_check TRAX_FAST_NAME(trax_fast_schedule_check, TRAX_FAST_VARIANT)
@@ -96,6 +99,7 @@ struct trax_fast_tp {
   uint64_t atomics;                    /* mask of registers that atomic increments under way will write */
 
   uint64_t issued, jumps; /* instructions and taken jumps that were issued in earlier bursts */
+  uint32_t load_count;    /* loads of global memory of the current burst */
   uint32_t burst_jumps;   /* taken jumps of the current burst, that of its last step included */
   uint64_t burst_lines;   /* bit line % 64: a superset of the lines of the burst's steps */
 
@@ -154,17 +158,21 @@ struct trax_fast_tm {
   trax_fast_lanes data_bank_rr_masks[TRAX_MAX_TPS_PER_TM / TRAX_FAST_LANES];
   struct trax_fast_refusal_counts refusal_counts;
 
+  /* [TP]: the words of WRITTEN blocks from which its burst has loaded, as bits of trax_fast_word_bit; 0: none. */
+  _Alignas(64) uint64_t watched[TRAX_MAX_TPS_PER_TM];
+
   uint64_t looked_up, single_hits, at_issue; /* counters of machine/fast_path.h */
 };
 
 /* The state of a block of global memory in the run (blocks.c). */
-enum { TRAX_BLOCK_SHIFT = 4, TRAX_BLOCK_LOADED = 1, TRAX_BLOCK_WRITTEN = 2 };
+enum { TRAX_BLOCK_SHIFT = 4, TRAX_BLOCK_LOADED = 1, TRAX_BLOCK_WRITTEN, TRAX_BLOCK_SHARED, TRAX_BLOCK_HOLE };
 
 struct trax_fast_blocks {
-  /* [block]: 0, then LOADED by a burst, then WRITTEN; or WRITTEN at once. Several TMs may set LOADED at the same time.
-     WRITTEN is only set while no TM runs. */
+  /* [block]: 0, then LOADED by a burst, then WRITTEN, then SHARED; or a later one at once. Several TMs may set LOADED
+     at the same time. The others are only set while no TM runs. Loads from SHARED blocks and from HOLEs end bursts. */
   uint8_t *state;
   size_t bytes;
+  unsigned roll_backs;         /* of all TPs, for the first write of a LOADED block */
   uint32_t input, input_bytes; /* trax_space.input until a first write there: all of it counts as LOADED */
 };
 
@@ -173,11 +181,17 @@ static inline bool trax_fast_is_loaded(const struct trax_fast_blocks *blocks, ui
          address - blocks->input < blocks->input_bytes;
 }
 
-/* Requires that no burst has loaded the block, or that all TPs have rolled back. */
-static inline void trax_fast_set_written(struct trax_fast_blocks *blocks, uint32_t address) {
-  blocks->state[address >> TRAX_BLOCK_SHIFT] = TRAX_BLOCK_WRITTEN;
+/* Requires that the block is not LOADED, or that all TPs have rolled back. state: WRITTEN or SHARED. */
+static inline void trax_fast_set_written(struct trax_fast_blocks *blocks, uint32_t address, uint8_t state) {
+  uint8_t *const block = &blocks->state[address >> TRAX_BLOCK_SHIFT];
+  *block = *block < state ? state : *block;
   if (address - blocks->input < blocks->input_bytes)
     blocks->input_bytes = 0;
+}
+
+/* Returns the bit of a word in trax_fast_tm.watched. */
+static inline uint64_t trax_fast_word_bit(uint32_t address) {
+  return (uint64_t)1 << ((address >> 2) * 0x9E3779B1u >> 26);
 }
 
 struct trax_fast {
@@ -266,11 +280,18 @@ void trax_fast_issue(struct trax_fast_tm *ftm, uint64_t quick, uint64_t slow, ui
 /* --- blocks.c --- */
 trax_status trax_fast_blocks_create(struct trax_fast_blocks *blocks, const struct trax_space *space, trax_error *error);
 void trax_fast_blocks_destroy(struct trax_fast_blocks *blocks);
-/* To be called before a store or atomic increment writes to a global address: rolls back all TPs if a burst has loaded
-   from its block. */
-void trax_fast_block_written(struct trax_fast *fast, uint32_t address);
-/* The same for the blocks of a range, before a host call writes it outside epochs; `fast` is a struct trax_fast. */
+/* To be called outside epochs before a store (WRITTEN) or atomic increment (SHARED) writes to a global address, and
+   when the increment is issued: rolls back all TPs whose bursts may have loaded the word. */
+void trax_fast_word_written(struct trax_fast *fast, uint32_t address, uint8_t state);
+/* The same before an atomic increment of the memory controller; `fast` is a struct trax_fast. */
+void trax_fast_increment_outside(void *fast, uint32_t address);
+/* The same for a range, before a host call writes it. */
 void trax_fast_range_written(void *fast, uint32_t address, uint32_t bytes);
+/* Rolls back the TPs of a TM whose bursts have loaded the word from a WRITTEN block: in an epoch, before the TM stores
+   to it. */
+void trax_fast_roll_back_readers(struct trax_fast_tm *ftm, uint32_t address);
+/* Records the loads of all bursts from WRITTEN blocks in the TM's store buffer, at the beginning of an epoch. */
+void trax_fast_record_readers(struct trax_fast_tm *ftm);
 /* Rolls every TP back to what it has issued; all heads execute at issue then. */
 void trax_fast_roll_back(struct trax_fast *fast);
 

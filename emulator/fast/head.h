@@ -27,6 +27,7 @@ static inline void trax_fast_execute_at_issue(struct trax_fast_tm *ftm, unsigned
                                               uint32_t address) {
   struct trax_fast_tp *ftp = &ftm->tp[number];
   ftm->executes_at_issue |= (uint64_t)1 << number;
+  ftm->watched[number] = 0;
   ftp->step[0] = step | TRAX_STEP_SLOW;
   ftp->segment[0] = 0;
   ftp->origin[0] = index;

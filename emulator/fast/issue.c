@@ -1,6 +1,6 @@
 /* Step 5: the TPs that were granted all that they need issue, in order. */
-#include "fast/store_buffer.h"
 #include "fast/head.h"
+#include "fast/store_buffer.h"
 
 /* Executes a head that executes at issue. False: it faulted. */
 static bool execute(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
@@ -8,8 +8,12 @@ static bool execute(struct trax_fast_tm *ftm, unsigned number, uint64_t t) {
   struct trax_tp *tp = &ftm->tm->tp[number];
   const struct trax_decoded *inst = tp->inst;
   const uint32_t pc = tp->pc, index = trax_fast_head(ftm, number);
-  if ((inst->is_store || inst->is_atomic) && tp->address < TRAX_LOCAL_BASE && !ftm->tm->buffer)
-    trax_fast_block_written(ftm->fast, tp->address);
+  if ((inst->is_store || inst->is_atomic) && tp->address < TRAX_LOCAL_BASE) {
+    if (!ftm->tm->buffer)
+      trax_fast_word_written(ftm->fast, tp->address, inst->is_atomic ? TRAX_BLOCK_SHARED : TRAX_BLOCK_WRITTEN);
+    else if (inst->is_store)
+      trax_fast_roll_back_readers(ftm, tp->address);
+  }
   if (inst->is_atomic && ftm->tm->buffer)
     trax_store_buffer_increment(ftm->tm->buffer, t, tp->address);
   if (inst->is_atomic)

@@ -2,16 +2,13 @@
 
 #include "fast/l2.h"
 #include "fast/tm.h"
+#include "trax/gcd.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #define MOST_LATENCY 1000000u /* cycles; longer transfers count as this in trax_memory_least_latency */
-
-static uint64_t greatest_common_divisor(uint64_t a, uint64_t b) {
-  return b ? greatest_common_divisor(b, a % b) : a;
-}
 
 static uint64_t divide_up(uint64_t a, uint64_t b) {
   return (a + b - 1) / b;
@@ -29,7 +26,7 @@ bool trax_memory_keeps_order(const struct trax_config *config) {
 static void create_bus(struct trax_memory *memory, const struct trax_config *config) {
   const uint64_t megabytes_per_second = (uint64_t)llround(config->memory.bandwidth_gbps * 1000);
   const uint64_t megahertz = (uint64_t)config->chip.clock_mhz * config->memory.channels;
-  const uint64_t divisor = greatest_common_divisor(megabytes_per_second, megahertz);
+  const uint64_t divisor = trax_gcd(megabytes_per_second, megahertz);
   memory->units_per_cycle = megabytes_per_second / divisor;
   memory->units_per_byte = megahertz / divisor;
 }
@@ -153,8 +150,7 @@ void trax_memory_submit(struct trax_memory *memory, struct trax_tm *tm) {
 /* --- transfers --- */
 
 static void increment(const struct trax_memory *memory, struct trax_request *request, struct trax_space *space) {
-  if (memory->before_increment)
-    memory->before_increment(memory->context, request->address);
+  memory->before_increment(memory->context, request->address);
   memcpy(&request->value, space->bytes + request->address, sizeof request->value);
   const uint32_t incremented = request->value + 1;
   memcpy(space->bytes + request->address, &incremented, sizeof incremented);

@@ -78,7 +78,7 @@ struct trax_memory {
   struct trax_dram *dram; /* NULL unless memory.model is dram */
   struct trax_memory_stats *stats;
   struct trax_transfer_log *transfers; /* NULL: nobody listens */
-  void (*before_increment)(void *context, uint32_t address); /* called before an atomic increment; may be NULL */
+  void (*before_increment)(void *context, uint32_t address); /* called before an atomic increment */
   void *context;
 };
 

@@ -4,6 +4,7 @@
 #define TRAX_FAST_STORE_BUFFER_H
 
 #include "machine/address_space.h"
+#include "trax/map.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -16,28 +17,28 @@ struct trax_store_buffer_write {
 
 /* A word of global memory as the TM's own stores have changed it: `mask` has the bits that they wrote. */
 struct trax_store_buffer_word {
-  uint64_t generation; /* the entry is valid if this is the buffer's round */
-  uint32_t address; /* a multiple of 4 */
-  uint32_t value, mask;
+  struct trax_map_entry entry; /* key: the address, a multiple of 4 */
+  uint32_t mask;
 };
 
 struct trax_store_buffer {
   struct trax_store_buffer_write *writes; /* [write_count], in the order of issue */
   size_t write_count, write_capacity;
-  uint32_t *reads; /* [read_count]: the words that loads at issue have read; docs/fast-engine.md, read set */
+  uint32_t *reads; /* [read_count]: the words that loads have read from blocks that are written; docs/fast-engine.md,
+                      read set */
   size_t read_count, read_capacity;
   uint64_t *requests; /* [request_count]: the cycles in which they were made */
   size_t request_count, request_capacity;
-  struct trax_store_buffer_word *words; /* [word_capacity], a power of two; open addressing */
-  size_t word_count, word_capacity;
-  uint64_t generation; /* the number of the epoch */
-  bool stop;      /* the epoch must be given up: output, or out of memory */
+  struct trax_map words; /* of struct trax_store_buffer_word */
+  bool stop;             /* the epoch must be given up: output, or out of memory */
 };
 
 void trax_store_buffer_destroy(struct trax_store_buffer *buffer);
 /* Empties the buffer for a new epoch. */
 void trax_store_buffer_begin(struct trax_store_buffer *buffer);
 
+/* Records that the TM has read a word. */
+void trax_store_buffer_read(struct trax_store_buffer *buffer, uint32_t address);
 /* Performs an aligned load or store of global memory in cycle t, which must have been checked. */
 uint32_t trax_store_buffer_load(struct trax_store_buffer *buffer, const struct trax_space *space, uint32_t address,
                                 unsigned bytes);

@@ -1,7 +1,7 @@
 #include "fast/tp.h"
 
-#include "fast/store_buffer.h"
 #include "fast/chip.h"
+#include "fast/store_buffer.h"
 #include "machine/traps.h"
 #include "trax/semantics.h"
 
@@ -39,10 +39,18 @@ static uint8_t *place(struct trax_tm *tm, struct trax_tp *tp, uint32_t address) 
   return address >= TRAX_LOCAL_BASE ? tp->local + (address - TRAX_LOCAL_BASE) : tm->machine->space.bytes + address;
 }
 
+uint32_t trax_tm_load(const struct trax_tm *tm, uint32_t address, unsigned bytes) {
+  uint32_t value = 0;
+  if (tm->buffer)
+    return trax_store_buffer_load(tm->buffer, &tm->machine->space, address, bytes);
+  memcpy(&value, tm->machine->space.bytes + address, bytes);
+  return value;
+}
+
 static uint32_t load(struct trax_tm *tm, struct trax_tp *tp, uint32_t address, unsigned bytes) {
   uint32_t value = 0;
-  if (tm->buffer && address < TRAX_LOCAL_BASE)
-    return trax_store_buffer_load(tm->buffer, &tm->machine->space, address, bytes);
+  if (address < TRAX_LOCAL_BASE)
+    return trax_tm_load(tm, address, bytes);
   memcpy(&value, place(tm, tp, address), bytes);
   return value;
 }
@@ -69,8 +77,7 @@ static bool trap(struct trax_tm *tm, unsigned number, uint32_t value, int32_t co
     tm->buffer->stop = true; /* the order of output and host calls among all threads is only known cycle by cycle */
     return true;
   }
-  const trax_fault_kind fault =
-      trax_trap(tm->machine, tm->tp[number].local, tm->stats, tm->output, value, code);
+  const trax_fault_kind fault = trax_trap(tm->machine, tm->tp[number].local, tm->stats, tm->output, value, code);
   if (fault)
     trax_tm_fault(tm, number, t, fault, value);
   return !fault;

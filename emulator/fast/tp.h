@@ -52,4 +52,7 @@ uint32_t trax_tp_special_register(const struct trax_tm *tm, unsigned tp, uint32_
    recorded in the TM. Of an atomic increment it only changes the pc; the controller performs the increment. */
 bool trax_tp_execute(struct trax_tm *tm, unsigned number, uint64_t t);
 
+/* Loads from global memory, as a load of the TM that issues now would; in an epoch its store buffer records it. */
+uint32_t trax_tm_load(const struct trax_tm *tm, uint32_t address, unsigned bytes);
+
 #endif

@@ -96,7 +96,7 @@ static void find_atomics(struct trax_fast_tm *ftm) {
     const struct trax_request *request = &queue->requests[i];
     if (trax_queue_is_taken(queue, i) && request->kind == TRAX_REQUEST_ATOMIC) {
       ftm->tp[request->tp].atomics |= (uint64_t)1 << request->rd;
-      trax_fast_set_written(&ftm->fast->blocks, request->address);
+      trax_fast_set_written(&ftm->fast->blocks, request->address, TRAX_BLOCK_SHARED);
     }
   }
 }

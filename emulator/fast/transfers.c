@@ -1,6 +1,7 @@
 #include "fast/transfers.h"
 
 #include "machine/config.h"
+#include "trax/grow.h"
 
 #include <stdlib.h>
 
@@ -9,18 +10,6 @@ static const uint8_t kinds[] = {[TRAX_REQUEST_INSTRUCTION_LINE] = TRAX_TRANSFER_
                                 [TRAX_REQUEST_LOAD] = TRAX_TRANSFER_LOAD,
                                 [TRAX_REQUEST_WRITE] = TRAX_TRANSFER_WRITE,
                                 [TRAX_REQUEST_ATOMIC] = TRAX_TRANSFER_ATOMIC};
-
-static bool grow(struct trax_transfer_log *log) {
-  if (log->count < log->capacity)
-    return true;
-  const size_t larger = log->capacity ? 2 * log->capacity : 1024;
-  void *moved = realloc(log->held, larger * sizeof *log->held);
-  if (!moved)
-    return false;
-  log->held = moved;
-  log->capacity = larger;
-  return true;
-}
 
 void trax_transfer_log_add(struct trax_transfer_log *log, uint64_t cycle, unsigned channel, uint32_t tm,
                            const struct trax_request *request) {
@@ -33,7 +22,7 @@ void trax_transfer_log_add(struct trax_transfer_log *log, uint64_t cycle, unsign
                                          .channel = (uint8_t)channel};
   if (!log->holds)
     log->to->transfer(log->to->context, &transfer);
-  else if (grow(log))
+  else if (trax_grow((void **)&log->held, log->count, &log->capacity, sizeof *log->held))
     log->held[log->count++] = transfer;
   else
     log->to->lost = true;

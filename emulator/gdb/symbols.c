@@ -24,7 +24,7 @@ static trax_status fail(const struct copy *copy, const char *what, trax_error *e
 
 /* --- expressions in .debug_info --- */
 
-/* What renumber_attribute is called for. */
+/* The context of renumber_attribute. */
 struct entry {
   const struct copy *copy;
   Dwarf_Half version; /* of the unit */

@@ -14,6 +14,7 @@
 #include "calls/calls.h"
 #include "engine/layout.h"
 #include "engine/run.h"
+#include "trax/grow.h"
 #include "trax/input.h"
 #include "trax/output.h"
 
@@ -145,14 +146,9 @@ static void add(void *context, const void *bytes, size_t size) {
   struct content *content = context;
   if (content->failed || !size)
     return;
-  if (content->count + size > content->capacity) {
-    const size_t larger = 2 * (content->count + size);
-    uint8_t *grown = realloc(content->bytes, larger);
-    content->failed = !grown;
-    if (!grown)
-      return;
-    content->bytes = grown;
-    content->capacity = larger;
+  if (!trax_grow_to((void **)&content->bytes, content->count + size, &content->capacity, 1)) {
+    content->failed = true;
+    return;
   }
   memcpy(content->bytes + content->count, bytes, size);
   content->count += size;

@@ -120,6 +120,8 @@ const struct trax_config_key *trax_config_find(const char *name, trax_error *err
     if (strcmp(trax_config_keys[i].name, name) == 0)
       return &trax_config_keys[i];
   const char *nearest = trax_nearest_name(name, trax_config_key_count, key_name, NULL);
+  if (strcmp(name, "dcache.lru") == 0 || strcmp(name, "l2.lru") == 0)
+    nearest = name[0] == 'd' ? "dcache.replacement" : "l2.replacement"; /* their former names */
   /* A key without its section, such as "latency_cycles", is completed in the message. */
   for (size_t i = 0; i < trax_config_key_count && !nearest; ++i)
     if (strcmp(trax_config_keys[i].key, name) == 0)
@@ -129,18 +131,6 @@ const struct trax_config_key *trax_config_find(const char *name, trax_error *err
   else
     trax_fail(error, "unknown key \"%s\"; --help-config lists the keys", name);
   return NULL;
-}
-
-bool trax_config_renamed(const char **name) {
-  static const struct {
-    const char *before, *today;
-  } renamed[] = {{"dcache.lru", "dcache.replacement"}, {"l2.lru", "l2.replacement"}};
-  for (size_t i = 0; i < sizeof renamed / sizeof *renamed; ++i)
-    if (strcmp(*name, renamed[i].before) == 0) {
-      *name = renamed[i].today;
-      return true;
-    }
-  return false;
 }
 
 trax_status trax_config_store(struct trax_config *config, const struct trax_config_key *key, double value,
@@ -189,17 +179,13 @@ static trax_status parse_number(const struct trax_config_key *key, const char *t
 trax_status trax_config_set(trax_config *config, const char *key_text, const char *value_text, trax_error *error) {
   if (strcmp(key_text, TRAX_DRAM_PRESET) == 0)
     return trax_dram_preset_apply(config, value_text, error);
-  const char *name = key_text;
-  const bool renamed = trax_config_renamed(&name);
-  const struct trax_config_key *key = trax_config_find(name, error);
+  const struct trax_config_key *key = trax_config_find(key_text, error);
   if (!key)
     return TRAX_ERROR;
   double value = 0;
-  const trax_status status = renamed || key->kind == TRAX_KIND_FLAG ? parse_flag(key_text, value_text, &value, error)
+  const trax_status status = key->kind == TRAX_KIND_FLAG ? parse_flag(key_text, value_text, &value, error)
                              : trax_config_has_words(key) ? trax_config_parse_word(key, value_text, &value, error)
                                                           : parse_number(key, value_text, &value, error);
-  if (renamed)
-    value = value ? TRAX_REPLACE_LRU : TRAX_REPLACE_FIFO;
   return status == TRAX_OK ? trax_config_store(config, key, value, error) : TRAX_ERROR;
 }
 

@@ -6,9 +6,6 @@
 
 /* Finds a key by name. NULL: there is none; the message suggests the nearest one. */
 const struct trax_config_key *trax_config_find(const char *name, trax_error *error);
-/* Whether *name is a former name of the key of a replacement policy. The key was a flag then: lru or not. If so, *name
-   becomes the present name. */
-bool trax_config_renamed(const char **name);
 /* Finds a value that is a word: a policy, a model of memory, a mapping of DRAM. */
 trax_status trax_config_parse_word(const struct trax_config_key *key, const char *word, double *value,
                                    trax_error *error);

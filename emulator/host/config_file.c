@@ -113,17 +113,13 @@ static trax_status apply_setting(struct trax_config *config, const char *section
     const char *preset = config_setting_get_string(setting);
     return trax_dram_preset_apply(config, preset ? preset : describe(setting).text, error);
   }
-  const char *today = name;
-  const bool renamed = trax_config_renamed(&today);
-  const struct trax_config_key *key = trax_config_find(today, error);
+  const struct trax_config_key *key = trax_config_find(name, error);
   if (!key)
     return TRAX_ERROR;
   double value = 0;
   const bool flag = config_setting_type(setting) == CONFIG_TYPE_BOOL;
   const char *word = config_setting_get_string(setting);
-  if (renamed && flag) {
-    value = config_setting_get_bool(setting) ? TRAX_REPLACE_LRU : TRAX_REPLACE_FIFO;
-  } else if (trax_config_has_words(key) && word) {
+  if (trax_config_has_words(key) && word) {
     if (trax_config_parse_word(key, word, &value, error))
       return TRAX_ERROR;
   } else if (key->kind == TRAX_KIND_FLAG ? !flag : trax_config_has_words(key) || !number_value(setting, &value)) {

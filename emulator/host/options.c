@@ -7,7 +7,7 @@
 #include <string.h>
 #include <strings.h>
 
-#include "host/engines.h"
+#include "control/engines.h"
 #include "program/program.h"
 #include "trax/output.h"
 
@@ -110,8 +110,7 @@ static trax_status parse_engine(void *target, const trax_option *option, const c
   struct trax_options *options = target;
   trax_error reason;
   if (trax_engine_find(value, &options->engine, &reason) != TRAX_OK)
-    return trax_option_refuse(option, value, error, "%s%s", reason.message,
-                              strcmp(value, "sampled") == 0 ? "; for estimates use trax-render --sampled" : "");
+    return trax_option_refuse(option, value, error, "%s", reason.message);
   return TRAX_OK;
 }
 
@@ -205,41 +204,15 @@ static const trax_option rows[] = {
     {"report", .argument = "FILE", OUTPUT(report), .meaning = "statistics as text; - is standard output"},
     {"help-stats", .kind = TRAX_OPTION_SHOW, .show = trax_stats_describe, .meaning = "describe every statistic, and end"},
     TRAX_OPTION_GROUP("Explanations of a run"),
-    {"explore", .argument = "FILE.html", OUTPUT(explain.explore),
-     .meaning = "one page that explains the whole run, for a browser"},
+#define EXPLANATION(ID, NAME, VALUE, MEANING) {NAME, .argument = VALUE, OUTPUT(explain.ID), .meaning = MEANING},
+    TRAX_EXPLAIN_FILES(EXPLANATION)
+#undef EXPLANATION
     {"source-folder", .argument = "FOLDER", .parse = parse_source_folder,
      .meaning = "let the page contain the sources in FOLDER, too (repeatable)"},
-    {"profile", .argument = "FILE", OUTPUT(explain.profile), .meaning = "thread-cycles by function and by source line"},
-    {"profile-folded", .argument = "FILE", OUTPUT(explain.folded),
-     .meaning = "thread-cycles by call stack, for flame graphs"},
-    {"profile-sample", .argument = "FILE", OUTPUT(explain.sample),
-     .meaning = "executions by source line, for clang -fprofile-sample-use"},
-    {"heat", .argument = "FILE", OUTPUT(explain.heat), .meaning = "accesses to memory by object, as CSV"},
-    {"heat-lines", .argument = "FILE", OUTPUT(explain.heat_lines),
-     .meaning = "accesses to global memory by 64 bytes, as CSV"},
-    {"items", .argument = "FILE", OUTPUT(explain.items), .meaning = "cost of each item (pixel), as CSV"},
     {"item-buffer", .argument = "SYMBOL", ONCE(explain.item_buffer),
      .meaning = "the buffer to which the items store their results, for their places"},
-    {"ray-kinds", .argument = "FILE", OUTPUT(explain.ray_kinds),
-     .meaning = "cost of the rays of each kind, as CSV"},
-    {"lockstep", .argument = "FILE", OUTPUT(explain.lockstep),
-     .meaning = "issue slots that the items would take on a SIMD machine, as CSV"},
-    {"lockstep-rays", .argument = "FILE", OUTPUT(explain.lockstep_rays),
-     .meaning = "issue slots that the rays of each kind would take on a SIMD machine, as CSV"},
-    {"series", .argument = "FILE", OUTPUT(explain.series), .meaning = "counts of each interval of cycles, as CSV"},
     {"series-interval", .argument = "N", NUMBER(explain.series_interval, 1, UINT64_MAX / 2),
      .meaning = "cycles of an interval; default 10000"},
-    {"trace", .argument = "FILE", OUTPUT(explain.trace),
-     .meaning = "every instruction issued in the window, with values"},
-    {"perfetto", .argument = "FILE", OUTPUT(explain.perfetto),
-     .meaning = "the window as a time line, as JSON trace events"},
-    {"konata", .argument = "FILE", OUTPUT(explain.konata), .meaning = "the window as a pipeline, for Konata"},
-    {"memory-trace", .argument = "FILE", OUTPUT(explain.memory_trace),
-     .meaning = "every transfer from and to off-chip memory; CSV for FILE.csv, else binary"},
-    {"memory-trace-format", .argument = "FORMAT", FIELD(explain.memory_trace_format),
-     .choices = trax_memory_trace_formats,
-     .meaning = "its format: auto (default), binary, csv, dramsim3, ramulator2-loadstore or\n"
-                "ramulator2-readwrite"},
     {"window", .argument = "BEGIN:END", .parse = parse_window,
      .meaning = "cycles of the window, BEGIN <= cycle < END; default all"},
     {"window-tms", .argument = "LIST", PARSED(parse_list, explain.window_tms),
@@ -269,6 +242,9 @@ static const trax_option rows[] = {
     TRAX_OPTION_VERSION,
     {"sample", .instead = "for estimates use trax-render --sampled, with --sample-fraction and the like"},
     {"annotate", .instead = "--explore FILE.html has every line of the program with its instructions"},
+    {"konata", .instead = "--perfetto FILE shows the cycles of the window, --trace FILE each of its instructions"},
+    {"memory-trace-format", .instead = "--memory-trace FILE.csv is CSV, another FILE binary; for DRAMsim3 and Ramulator 2 "
+                                       "convert it by memory_trace_for.py (docs/traces.md)"},
     {"bench-modes", .instead = "run with --engine fast and --engine functional; for estimates use trax-render --sampled"},
     {0}};
 /* clang-format on */
@@ -314,19 +290,17 @@ static trax_status need(const struct trax_options *options, bool (*can)(const st
 /* Checks the options of explanations. */
 static trax_status check_explain(const struct trax_options *options, trax_error *error) {
   const struct trax_explain_options *explain = &options->explain;
-  const bool windowed = explain->trace || explain->perfetto || explain->konata;
+  const bool windowed = explain->trace || explain->perfetto;
   if (trax_explain_wanted(explain) && need(options, observes, "a run is explained by", error) != TRAX_OK)
     return TRAX_ERROR;
   if (options->checkpoint.resume && trax_explain_wanted(explain))
     return trax_fail(error, "--resume: a run cannot be explained without its cycles before the checkpoint");
-  if ((explain->perfetto || explain->konata) && !explain->window_end)
-    return trax_fail(error, "--%s needs --window", explain->perfetto ? "perfetto" : "konata");
+  if (explain->perfetto && !explain->window_end)
+    return trax_fail(error, "--perfetto needs --window");
   if (!windowed && (explain->window_end || explain->window_tms || explain->window_tps))
-    return trax_fail(error, "--window without --trace, --perfetto or --konata");
+    return trax_fail(error, "--window without --trace or --perfetto");
   if (explain->series_interval && !explain->series)
     return trax_fail(error, "--series-interval without --series");
-  if (explain->memory_trace_format && !explain->memory_trace)
-    return trax_fail(error, "--memory-trace-format without --memory-trace");
   if (explain->source_folder_count && !explain->explore)
     return trax_fail(error, "--source-folder without --explore");
   if (explain->item_buffer && !explain->items && !explain->explore)

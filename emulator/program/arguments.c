@@ -1,4 +1,4 @@
-/* What a program gets at its start: the arguments of main, and which threads call main (docs/abi.md, "Program start").
+/* The start of a program: the arguments of main, and which threads call main (docs/abi.md, "Program start").
  */
 #include <string.h>
 

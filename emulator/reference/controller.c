@@ -1,12 +1,9 @@
 /* docs/timing-memory.md, "Memory controller". */
 #include "reference/reference.h"
+#include "trax/gcd.h"
 
 #include <math.h>
 #include <string.h>
-
-static uint64_t greatest_common_divisor(uint64_t a, uint64_t b) {
-  return b ? greatest_common_divisor(b, a % b) : a;
-}
 
 /* A channel moves B = (MB/s) / MHz / channels bytes per cycle. The numerator and the denominator of B in lowest terms
    are the units per cycle and per byte. */
@@ -14,7 +11,7 @@ bool trax_ref_controller_create(struct trax_ref_controller *controller, const st
                                 struct trax_memory_stats *stats) {
   const uint64_t numerator = (uint64_t)llround(config->memory.bandwidth_gbps * 1000);
   const uint64_t denominator = (uint64_t)config->chip.clock_mhz * config->memory.channels;
-  const uint64_t divisor = greatest_common_divisor(numerator, denominator);
+  const uint64_t divisor = trax_gcd(numerator, denominator);
   controller->units_per_cycle = numerator / divisor;
   controller->units_per_byte = denominator / divisor;
   if (config->memory.model == TRAX_MEMORY_DRAM)

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "program/program.h"
+#include "trax/grow.h"
 
 enum { INLINE_DEPTH = 16, DEPTH = 24 }; /* the most inlined functions of a place, and the most callers of a chain */
 
@@ -66,15 +67,9 @@ static const char *place_text(struct places *places, uint32_t pc) {
   for (size_t i = 0; i < places->count; ++i)
     if (places->known[i].pc == pc)
       return places->known[i].text;
-  if (places->count == places->capacity) {
-    const size_t capacity = places->capacity ? 2 * places->capacity : 64;
-    struct place *grown = realloc(places->known, capacity * sizeof *grown);
-    if (!grown) {
-      places->exhausted = true;
-      return "";
-    }
-    places->known = grown;
-    places->capacity = capacity;
+  if (!trax_grow((void **)&places->known, places->count, &places->capacity, sizeof *places->known)) {
+    places->exhausted = true;
+    return "";
   }
   char *text = NULL;
   size_t size;

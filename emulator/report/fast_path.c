@@ -71,7 +71,7 @@ void trax_fast_path_print(const struct trax_machine *machine, FILE *out) {
   row(&table, "lines looked up", path->looked_up, total->icache_hits, "fetches", lines);
   row(&table, "hits one by one", path->single_hits, total->dcache_hits, "hits", hit_reason(config, path->serial_hits));
   row(&table, "executed at issue", path->at_issue, instructions, "instructions",
-      "stores, increments, traps, loads past the cache, loads of words written during the run");
+      "stores, increments, traps, loads past the cache, loads of words that TMs share");
   if (!table.any)
     fprintf(out, "  none\n");
 }

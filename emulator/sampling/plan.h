@@ -9,7 +9,7 @@
 
 #include "machine/machine.h"
 
-/* Of the estimate, added to the half width: the caches' error after a warm-up (docs/sampling.md). */
+/* The caches' error after a warm-up, a part of the estimate. It is added to the half width (docs/sampling.md). */
 #define TRAX_SAMPLING_BIAS 0.01
 
 struct trax_slot_plan {

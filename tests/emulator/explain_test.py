@@ -17,7 +17,7 @@ import checking  # noqa: E402
 from checking import check, equal  # noqa: E402
 
 SIM, PROGRAM, DEEP, WRITE_PROGRAMS = (str(pathlib.Path(p).resolve()) for p in sys.argv[1:5])
-FILES = ["explore", "profile", "profile-folded", "heat", "heat-lines", "items", "lockstep", "series", "trace", "perfetto", "konata"]
+FILES = ["explore", "profile", "profile-folded", "heat", "heat-lines", "items", "lockstep", "series", "trace", "perfetto"]
 RESULTS = 400  # words
 
 
@@ -303,36 +303,6 @@ def check_perfetto(directory, begin, end, tms=2):
     return causes
 
 
-def check_konata(directory):
-    """The commands' arguments, ids in the order of appearance, and each instruction begun, staged, and retired once."""
-    lines = read(directory, "konata").splitlines()
-    equal(lines[0], "Kanata\t0004")
-    check(re.fullmatch(r"C=\t\d+", lines[1]), "the first cycle", lines[1])
-    alive, count, retired = {}, 0, 0
-    for line in lines[2:]:
-        command, *arguments = line.split("\t")
-        if command == "C":
-            check(len(arguments) == 1 and int(arguments[0]) > 0, line)
-        elif command == "I":
-            equal(int(arguments[0]), count, "id in", line)
-            check(len(arguments) == 3, line)
-            alive[count] = []
-            count += 1
-        elif command == "L":
-            check(len(arguments) == 3 and int(arguments[0]) in alive and arguments[1] in "01", line)
-        elif command == "S":
-            check(len(arguments) == 3 and arguments[1] == "0" and arguments[2] in "FWUQX", line)
-            alive[int(arguments[0])].append(arguments[2])
-        else:
-            equal(command, "R", line)
-            stages = alive.pop(int(arguments[0]))
-            equal(stages[-1], "X", "the last stage before", line)
-            equal([int(arguments[1]), arguments[2]], [retired, "0"], line)
-            retired += 1
-    check(not alive, "instructions that are not retired", alive)
-    return retired
-
-
 def main():
     directory = pathlib.Path(tempfile.mkdtemp())
     machine = ["--config", "2x32", "--set", "chip.tps_per_tm=8", "--set", "tp.branch_bubble_cycles=1",
@@ -391,19 +361,17 @@ def main():
     check_series(here, stats)
     causes = check_perfetto(here, 0, stats["cycles"])
     equal(dict(causes), {k: v for k, v in stats["causes"].items() if v}, "causes on the time line")
-    equal(check_konata(here), stats["instructions"], "instructions of the pipeline")
 
     # A window in the middle, of some TPs.
     window = directory / "window"
     run(window, "fast", *machine, "--window", "2000:3000", "--window-tms", "1", "--window-tps", "0,2-4",
-        files=["trace", "perfetto", "konata"])
+        files=["trace", "perfetto"])
     chosen = [line for line in read(here, "trace").splitlines()
               if re.match(r" +2\d\d\d +\d+ +1\.[0234] ", line)]
     equal(read(window, "trace").splitlines()[1:], chosen, "trace of the window")
     events = json.loads(read(window, "perfetto"))["traceEvents"]
     equal({(e["pid"], e["tid"] // 2) for e in events if e["ph"] == "X"}, {(1, tp) for tp in (0, 2, 3, 4)}, "window")
     equal(sum(e["dur"] for e in events if e["ph"] == "X"), 4 * 1000, "cycles of the window")
-    equal(check_konata(window), sum(" arrival " not in line for line in chosen), "instructions of the window")
 
     # A run that does not finish is explained as far as it came.
     for engine in ["reference", "fast"]:
@@ -416,9 +384,8 @@ def main():
     equal(check_series_end, "2222", "the end of a cut series")
 
     # A window that nothing happens in, and programs without debug information, or that fault, or that do nothing.
-    run(directory / "late", "fast", *machine, "--window", f"{far}:{far + 9}", files=["trace", "perfetto", "konata"])
+    run(directory / "late", "fast", *machine, "--window", f"{far}:{far + 9}", files=["trace", "perfetto"])
     equal(dict(check_perfetto(directory / "late", far, far + 9)), {})
-    equal(check_konata(directory / "late"), 0)
     equal(len(read(directory / "late", "trace").splitlines()), 1)
     (directory / "programs").mkdir()
     subprocess.run([WRITE_PROGRAMS, directory / "programs"], check=True)
@@ -431,7 +398,6 @@ def main():
         ended = json.loads(read(directory / f"{name}-fast", "stats.json"))
         equal(dict(check_perfetto(directory / f"{name}-fast", 0, ended["cycles"], 1)),
               {k: v for k, v in ended["causes"].items() if v}, "causes on the time line of", name)
-        equal(check_konata(directory / f"{name}-fast"), ended["instructions"], "pipeline of", name)
         folded = [line.rsplit(" ", 1) for line in read(directory / f"{name}-fast", "profile-folded").splitlines()]
         equal(sum(int(count) for _, count in folded), ended["thread_cycles"], "folded profile of", name)
 
@@ -472,9 +438,9 @@ def main():
         check(message in said and said.count("\n") == 1, f'"{message}" is not what is said of {options}:', said)
         check(not list((directory / "refused").iterdir()), "something is left by", options)
 
-    refuse("--konata needs --window", files=["konata"])
+    refuse("--konata has been removed; --perfetto FILE", files=["konata"])
     refuse("--perfetto needs --window", files=["perfetto"])
-    refuse("--window without --trace, --perfetto or --konata", "--window", "1:2")
+    refuse("--window without --trace or --perfetto", "--window", "1:2")
     refuse("--window: '5' is not of the form BEGIN:END", "--window", "5", files=["trace"])
     refuse("--window: '5' is not a whole number from 10", "--window", "9:5", files=["trace"])
     refuse("--window-tps: '1-' is no list", "--window-tps", "1-", files=["trace"])

@@ -2,7 +2,7 @@
 
   layers_test.py SOURCE
 
-A table is read from its chapter: a row for each folder, and in its second column what the folder may include. Rows stand from
+The packages of trax-eval import one another in the same way. A table is read from its chapter: a row for each folder, and in its second column what the folder may include. Rows stand from
 the top layer to the bottom one, so a folder may only name those below it: there is no circle. The test also sees that it can
 fail: with includes added to a copy of a file of each folder that look up or, in the ray tracer, at what the emulator keeps to
 itself."""
@@ -14,7 +14,9 @@ import sys
 SOURCE = sys.argv[1]
 PAGE = "docs/architecture.md"
 # Part, its chapter, the fewest folders and files that prove anything.
-PARTS = [("emulator", "## The emulator's layers", 10, 100), ("raytracer", "## The ray tracer's rooms", 6, 100)]
+PARTS = [("emulator", "## The emulator's layers", 10, 100), ("raytracer", "## The ray tracer's rooms", 6, 100),
+         ("raytracer/evaluation", "## The packages of trax-eval", 3, 30)]
+C, PYTHON = (".c", ".cpp", ".h"), (".py",)
 # What other parts offer to the ray tracer as trax/*.h.
 PUBLIC = {"emulator": "emulator/include/trax", "base": "emulator/base/include/trax", "isa": "isa/include/trax", "runtime": "runtime/include"}
 
@@ -29,12 +31,12 @@ def table(chapter):
     return {name: names[i + 1 :] if below == "all below" else re.findall(r"`(\w+)/?`", below) for i, (name, below) in enumerate(rows)}
 
 
-def sources(part):
-    """(folder, path, text) of all that is compiled."""
-    for folder in sorted(os.listdir(os.path.join(SOURCE, part))):
+def sources(part, folders, endings):
+    """(folder, path, text) of every file of these folders with one of the endings."""
+    for folder in folders:
         for place, _, files in os.walk(os.path.join(SOURCE, part, folder)):
             for name in sorted(files):
-                if name.endswith((".c", ".cpp", ".h")):
+                if name.endswith(endings):
                     path = os.path.join(place, name)
                     with open(path, encoding="utf-8") as file:
                         yield folder, os.path.relpath(path, SOURCE), file.read()
@@ -44,7 +46,7 @@ class Part:
     def __init__(self, name, chapter):
         self.name = name
         self.allowed = table(chapter)
-        self.files = list(sources(name))
+        self.files = list(sources(name, sorted(os.listdir(os.path.join(SOURCE, name))), C))
         self.headers = {}  # name: folders that have such a file
         for folder, path, _ in self.files:
             self.headers.setdefault(os.path.basename(path), set()).add(folder)
@@ -74,12 +76,14 @@ class Part:
             if folder not in self.allowed:
                 wrong.append(f"{path}: {folder}/ is not in the table")
                 continue
-            for include in re.findall(r'^#include "([^"]+)"|^#include <(trax/[^>]+)>', text, re.M):
-                include = "".join(include)
+            for include in self.included(text):
                 owner = self.folder_of(path, include)
                 if owner not in (None, folder, *self.allowed[folder]):
                     wrong.append(f"{path}: {folder}/ may not include {include}")
         return wrong
+
+    def included(self, text):
+        return map("".join, re.findall(r'^#include "([^"]+)"|^#include <(trax/[^>]+)>', text, re.M))
 
     def unnoticed(self):
         """Which include that is added to a file of a folder, and forbidden there, is not noticed: in lines."""
@@ -96,10 +100,31 @@ class Part:
                     yield f"{path}: an include of {include} is not noticed"
 
 
+class Packages(Part):
+    """Packages of Python: a folder each, and an import for an include."""
+
+    def __init__(self, name, chapter):
+        self.name, self.allowed = name, table(chapter)
+        self.files = list(sources(name, self.allowed, PYTHON))
+
+    def folder_of(self, path, include):
+        return include if include in self.allowed else None
+
+    def included(self, text):
+        return [first for line in re.findall(r"^ *(?:from|import) +(.*)", text, re.M) for first in re.findall(r"(?:^|, *)(\w+)", line.split(" import ")[0])]
+
+    def unnoticed(self):
+        order = list(self.allowed)
+        for i, name in enumerate(order[1:], 1):
+            for line in (f"import {order[i - 1]}\n", f"    from {order[i - 1]}.x import y\n"):
+                if not self.check([(name, name, line)]):
+                    yield f"{name}: {line!r} is not noticed"
+
+
 def main():
     failed = False
     for name, chapter, folders, files in PARTS:
-        part = Part(name, chapter)
+        part = (Packages if "packages" in chapter else Part)(name, chapter)
         wrong = part.check(part.files) + list(part.unnoticed())
         if len(part.allowed) < folders or len(part.files) < files:
             wrong.append(f"{len(part.allowed)} rows and {len(part.files)} files of {name}/ are too few to prove anything")

@@ -36,7 +36,7 @@ enum case_kind {
 };
 extern const char *const case_kind_names[CASE_KINDS];
 
-/* What is compared with the reference: the fast engine or a variant of it (host/engines.h). */
+/* What is compared with the reference: the fast engine or a variant of it (control/engines.h). */
 extern const char *tested_engine;
 
 struct random_case case_of_seed(unsigned seed);

@@ -5,12 +5,12 @@
      timing-engines-test --seed 1 --count 2000 --jobs 2
      timing-engines-test --seed 4711                         that one
      timing-engines-test --set memory.queue_depth=1 ...      on machines with that
-     timing-engines-test --engine fast-any ...               a variant of the fast engine (host/engines.h)
+     timing-engines-test --engine fast-any ...               a variant of the fast engine (control/engines.h)
      timing-engines-test --stop ...                          ends with the first case that differs, as it is
 
    Every case runs in a process of its own, so that a crash or an endless loop of an engine is a finding like others. */
 #include "cases.h"
-#include "host/engines.h"
+#include "control/engines.h"
 #include "minimise.h"
 
 #include <errno.h>

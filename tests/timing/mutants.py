@@ -20,10 +20,10 @@ import sys
 from mutants_list import MUTANTS
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
-HAND = ["pipeline", "fetch", "units", "memory", "atomics", "faults"]
+HAND = ["runs", "faults"]
 TESTS = [(["timing-rules-test", "docs/timing-rules.md"], {}), (["timing-dram-test"], {})]
 TESTS += [([f"timing-{name}-test"], {"TRAX_ENGINE": engine}) for engine in ("fast", "reference") for name in HAND]
-TESTS += [(["timing-beyond-test"], {})]
+TESTS += [(["timing-bandwidth-test"], {})]
 TESTS += [(["timing-engines-test", "--count", "200", "--jobs", "2", "--stop"], {}), (["timing-state-test"], {}),
           (["timing-epochs-test"], {}), (["timing-checkpoint-test"], {})]
 SECONDS = 60  # of a processor, that a test may take

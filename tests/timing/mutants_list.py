@@ -116,8 +116,8 @@ MUTANTS = [
     ("fast/issue.c", "ftp->atomics |= (uint64_t)1 << inst->rd;", "ftp->atomics |= (uint64_t)1 << inst->ra;"),
     ("fast/head.c", "if (!ftp->atomics) {", "if (1) {"),
     ("fast/fast.c", "machine->calls.before_write = trax_fast_range_written;", "machine->calls.before_write = NULL;"),
-    ("fast/blocks.c", "if (trax_fast_is_loaded(&fast->blocks, address))", "if (0)"),
-    ("fast/fast.h", "= TRAX_BLOCK_WRITTEN;", "= 0;"),
+    ("fast/blocks.c", "if (trax_fast_is_loaded(&fast->blocks, address)) {", "if (0) {"),
+    ("fast/fast.h", "*block = *block < state ? state : *block;", "*block = state & 0;"),
     ("fast/fast.h", "    blocks->input_bytes = 0;", "    (void)blocks;"),
     ("fast/fast.h", "address - blocks->input < blocks->input_bytes;\n}", "false;\n}"),
     # --- the core, for the fast engine ---
@@ -286,8 +286,11 @@ MUTANTS = [
     ("fast/issue.c", "latency = ftm->tm->config->tp.local_latency_cycles;\n    cause",
      "latency = 1;\n    cause"),
     # Stores are noted before others may see them.
-    ("fast/issue.c", "tp->address < TRAX_LOCAL_BASE && !ftm->tm->buffer)",
-     "tp->address < TRAX_LOCAL_BASE - 0x80000000u && inst->bytes > 1 && !ftm->tm->buffer)"),
+    ("fast/issue.c", "if (!ftm->tm->buffer)\n      trax_fast_word_written",
+     "if (!ftm->tm->buffer && inst->bytes > 1)\n      trax_fast_word_written"),
+    # A store of the TM itself calls back the bursts that have loaded the word.
+    ("fast/issue.c", "else if (inst->is_store)\n      trax_fast_roll_back_readers",
+     "else if (inst->is_store && 0)\n      trax_fast_roll_back_readers"),
     # Arrived increments are forgotten.
     ("fast/head.c", "ftp->atomics &= ~(rest & -rest);",
      "ftp->atomics = 0;"),
@@ -325,8 +328,13 @@ MUTANTS = [
     ("fast/masks.h", "TRAX_FAST_ARBITRATE(groups, (groups *)&units->rr_masks, (groups)requesters, &winners);",
      "trax_fast_pair all = {-1, -1};\n    TRAX_FAST_ARBITRATE(groups, (groups *)&all, (groups)requesters, &winners);"),
     # A write calls back those who have run ahead.
-    ("fast/blocks.c", "if (trax_fast_is_loaded(&fast->blocks, address))\n    trax_fast_roll_back",
-     "if (trax_fast_is_loaded(&fast->blocks, address) && address % 16)\n    trax_fast_roll_back"),
+    ("fast/blocks.c", "if (trax_fast_is_loaded(&fast->blocks, address)) {\n    trax_fast_roll_back",
+     "if (trax_fast_is_loaded(&fast->blocks, address) && address % 16) {\n    trax_fast_roll_back"),
+    # Bursts that load from written blocks are watched, in every word, and in every epoch.
+    ("fast/burst.c", "ftm->watched[number] |= trax_fast_word_bit(address);", "ftm->watched[number] |= trax_fast_word_bit(address) & 0;"),
+    ("fast/blocks.c", "(ftp->address[i] & ~3u) - begin >= bytes", "(ftp->address[i] & ~3u) - begin >= bytes + 0x80000000u"),
+    ("fast/blocks.c", "  for (uint32_t i = 0; i < fast->chip->tms; i++)\n    trax_fast_roll_back_readers", "  for (uint32_t i = 0; i < 1; i++)\n    trax_fast_roll_back_readers"),
+    ("fast/cycle.c", "    trax_fast_record_readers(ftm);", "    (void)ftm;"),
     # Local memory is as it was.
     ("fast/blocks.c", "memcpy(tp->local + undo->offset, &undo->word, sizeof undo->word);",
      "memcpy(tp->local + undo->offset, &undo->word, 2);"),
@@ -334,8 +342,10 @@ MUTANTS = [
     ("fast/burst_steps.h", "    if (address & (BYTES - 1))",
      "    if (0)"),
     # Blocks that are written are not loaded ahead.
-    ("fast/burst_steps.h", "if (state == TRAX_BLOCK_WRITTEN)",
-     "if (0)"),
+    ("fast/burst_steps.h", "if (state > last_loadable)",
+     "if (state > last_loadable && 0)"),
+    # A burst that is executed again loads from blocks that are shared meanwhile.
+    ("fast/burst_steps.h", "EXACTLY ? TRAX_BLOCK_SHARED : TRAX_BLOCK_WRITTEN", "TRAX_BLOCK_WRITTEN"),
     # A jump with a bubble is not quick.
     ("fast/burst_steps.h", "config->tp.branch_bubble_cycles > 0 ? TRAX_STEP_SLOW : 0",
      "config->tp.branch_bubble_cycles > 1 ? TRAX_STEP_SLOW : 0"),
@@ -343,11 +353,11 @@ MUTANTS = [
     ("fast/program.c", "decoded->imm == TRAX_SR_CYCLE || decoded->imm == TRAX_SR_CYCLEH",
      "decoded->imm == TRAX_SR_CYCLEH"),
     # A TM that has read too early goes back.
-    ("fast/epochs.c", "writer->generation == epochs->generation && writer->tm != i)",
-     "writer->generation == epochs->generation && writer->tm != i && writer->tm < 64)"),
+    ("fast/epochs.c", "if (writer && (writer->value & ~EARLY) != i) {",
+     "if (writer && (writer->value & ~EARLY) != i && (writer->value & ~EARLY) < 64) {"),
     # A word that several wrote conflicts.
-    ("fast/epochs.c", "writer->tm = BY_SEVERAL;",
-     "writer->tm = tm;"),
+    ("fast/epochs.c", "writer->value = BY_SEVERAL |",
+     "writer->value = tm |"),
     # What was loaded ahead and is written is loaded again.
     ("fast/epochs.c", "  if (trax_fast_is_loaded(&fast->blocks, write->address))\n    return false;",
      "  if (trax_fast_is_loaded(&fast->blocks, write->address) && write->bytes)\n    return false;"),
@@ -369,8 +379,8 @@ MUTANTS = [
     ("fast/epochs.c", "if (next_write <= t && !write_up_to",
      "if (t == 0 && !write_up_to"),
     # A TM sees its own stores.
-    ("fast/store_buffer.c", "if (own->generation == buffer->generation)\n      word",
-     "if (own->generation == buffer->generation && own->mask == ~0u)\n      word"),
+    ("fast/store_buffer.c", "if (own)\n    word",
+     "if (own && own->mask == ~0u)\n    word"),
     # --- DRAM: one module of both engines, so timing-dram-test notices most ---
     ("dram/dram.c", "latest(now, bank->activate_from)", "now"),
     ("dram/dram.c", "latest(rank->activate_from, rank->window_from", "latest(now, rank->window_from"),

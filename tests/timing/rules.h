@@ -15,6 +15,8 @@ struct rule {
   const char *issues;  /* cycles of each thread's issues, with / between threads; NULL: not written down */
   const char *charges; /* thread-cycles of all threads together, cause=cycles; those not named are 0, but for "issued"
                           and "halted" */
+  const char *counts;  /* counters and words of memory that are checked besides; NULL: none */
+  bool is_unlisted;    /* the page does not have it */
   size_t count;
   uint32_t words[RULE_WORDS];
 };

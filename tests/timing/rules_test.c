@@ -79,6 +79,43 @@ static void check_charges(const struct rule *rule, const struct bench *bench, co
     complain(rule, "%" PRIu64 " thread-cycles of waiting, %s, by hand %" PRIu64, sum, engine, expected);
 }
 
+/* The counter of this name of the TMs, the memory or a channel, or the word at DATA + n for word<n>. */
+static uint64_t counted(const struct bench *bench, const char *name) {
+  const struct trax_tm_stats *total = &bench->machine->stats.total;
+#define COUNTER(ID, ...)                                                                                               \
+  if (strcmp(name, #ID) == 0)                                                                                          \
+    return total->ID;
+  TRAX_TM_COUNTERS(COUNTER)
+#undef COUNTER
+  const struct trax_memory_stats *memory = &bench->machine->stats.memory;
+#define COUNTER(ID, ...)                                                                                               \
+  if (strcmp(name, #ID) == 0)                                                                                          \
+    return memory->ID;
+  TRAX_MEMORY_COUNTERS(COUNTER)
+#undef COUNTER
+  if (strcmp(name, "memory_bytes") == 0)
+    return memory->bytes;
+  if (strncmp(name, "channel", 7) == 0) {
+    const unsigned channel = (unsigned)(name[7] - '0');
+    return strcmp(name + 8, "_bytes") == 0 ? memory->channel[channel].bytes : memory->channel[channel].transfers;
+  }
+  if (strncmp(name, "word", 4) != 0)
+    fail_msg("no counter is called %s", name);
+  return bench_word(bench, DATA + (uint32_t)strtoul(name + 4, NULL, 10));
+}
+
+static void check_counts(const struct rule *rule, const struct bench *bench, const char *engine) {
+  char word[64];
+  for (const char *rest = rule->counts; rest && next_word(&rest, word, sizeof word);) {
+    char *value = strchr(word, '=');
+    assert_non_null(value);
+    *value++ = 0;
+    const uint64_t count = strtoull(value, NULL, 0);
+    if (counted(bench, word) != count)
+      complain(rule, "%s is %" PRIu64 ", %s, by hand %" PRIu64, word, counted(bench, word), engine, count);
+  }
+}
+
 /* The issues in the form of rule.issues. */
 static void print_issues(const struct bench *bench, char *text, size_t size) {
   const struct trax_config *config = &bench->machine->config;
@@ -113,6 +150,7 @@ static uint64_t check(const struct rule *rule, const char *engine) {
   if (rule->issues && strcmp(issues + (issues[0] == ' '), rule->issues) != 0)
     complain(rule, "issues %s, %s, by hand %s", issues, name, rule->issues);
   check_charges(rule, &bench, name);
+  check_counts(rule, &bench, name);
   bench_end(&bench);
   return cycles;
 }
@@ -134,6 +172,8 @@ static void print_program(const struct rule *rule, FILE *out) {
 
 static void print_row(const struct rule *rule, FILE *out) {
   const uint64_t fast = check(rule, "fast"), reference = check(rule, "reference");
+  if (rule->is_unlisted)
+    return;
   fprintf(out, "| %s | %s%s%s | `", rule->rule, rule->base == NEAR ? "near" : "far", rule->set[0] ? " " : "",
           rule->set);
   print_program(rule, out);
@@ -147,7 +187,8 @@ static void print_table(FILE *out) {
   const char *chapter = "";
   fprintf(out,
           "# The rules of time, one by one\n\n"
-          "What `build/tests/bin/timing-rules-test` prints; a test compares. Each row is a rule of [timing.md](timing.md), a "
+          "What `build/tests/bin/timing-rules-test` prints; a test compares. Each row is a rule of "
+          "[timing.md](timing.md), a "
           "machine\n"
           "and a program that shows it, the cycles in which each thread's instructions are issued and the length of "
           "the run, both\n"
@@ -160,8 +201,10 @@ static void print_table(FILE *out) {
           "with ports for\n"
           "all. The program begins at 0x%x.\n",
           TEXT);
+  size_t listed = 0;
   for (size_t i = 0; i < count; i++) {
-    if (strcmp(chapter, rules[i].chapter) != 0) {
+    listed += !rules[i].is_unlisted;
+    if (!rules[i].is_unlisted && strcmp(chapter, rules[i].chapter) != 0) {
       chapter = rules[i].chapter;
       fprintf(out,
               "\n## %s\n\n| rule | machine | program | issued in | by hand | fast | reference |\n"
@@ -170,7 +213,7 @@ static void print_table(FILE *out) {
     }
     print_row(&rules[i], out);
   }
-  fprintf(out, "\n%zu rules.\n", count);
+  fprintf(out, "\n%zu rules.\n", listed);
 }
 
 /* Whether the file holds the text. */

@@ -22,7 +22,7 @@ RUNS = [("everything", ["chip.tms=4", "chip.tps_per_tm=8"]), ("everything", ["ch
         ("stores", ["chip.tms=8", "chip.tps_per_tm=3"]), ("one atomic", ["chip.tms=5", "chip.tps_per_tm=4"]), ("fault later", ["chip.tms=4", "chip.tps_per_tm=2"])]
 COUNTED = ["--stats", "--report"]
 SERIES = [*COUNTED, "--series"]
-EXPLAINED = [*SERIES, "--profile", "--profile-folded", "--heat", "--heat-lines", "--items", "--trace", "--perfetto", "--konata"]
+EXPLAINED = [*SERIES, "--profile", "--profile-folded", "--heat", "--heat-lines", "--items", "--trace", "--perfetto"]
 HOST = re.compile(rb"host|instructions/s|per second of", re.IGNORECASE)
 
 

@@ -37,7 +37,7 @@ CHIPS = {"1x32": ["--config", "1x32"], "4x32": ["--config", "4x32"], "8x64": ["-
 CACHES = {"": [], " with l2": ["--set", "l2.bytes=262144"]}
 WHOLE = ["--stats", "--series"]
 EXPLAINED = [*WHOLE, "--profile", "--profile-folded", "--heat", "--heat-lines", "--items", "--lockstep", "--post-mortem", "--trace",
-             "--perfetto", "--konata"]
+             "--perfetto"]
 FIRST = ["--max-cycles", "12000", "--window", "10000:10600"]  # of the explained run
 
 

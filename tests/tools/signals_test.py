@@ -13,16 +13,12 @@ import tempfile
 import time
 from concurrent.futures import ThreadPoolExecutor
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import checking  # noqa: E402
+from checking import check  # noqa: E402
+
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
-failures = 0
-
-
-def check(condition, text):
-    global failures
-    if not condition:
-        failures += 1
-        print(f"FAILED: {text}", flush=True)
 
 
 def waits(program, scratch, pipe):
@@ -144,7 +140,7 @@ def main():
         test_limits(programs, scratch)
         test_orphans(programs)
         test_signals(programs, scratch)
-    return 1 if failures else 0
+    return 1 if checking.failures else 0
 
 
 if __name__ == "__main__":

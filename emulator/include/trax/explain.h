@@ -16,42 +16,35 @@ extern "C" {
 
 struct trax_explain;
 
-/* The formats of the trace of transfers (docs/traces.md). AUTO: CSV if the file's ending is .csv, else BINARY. */
-enum trax_memory_trace_format {
-  TRAX_MEMORY_TRACE_AUTO,
-  TRAX_MEMORY_TRACE_BINARY,
-  TRAX_MEMORY_TRACE_CSV,
-  TRAX_MEMORY_TRACE_DRAMSIM3,
-  TRAX_MEMORY_TRACE_RAMULATOR2_LOADSTORE,
-  TRAX_MEMORY_TRACE_RAMULATOR2_READWRITE,
-  TRAX_MEMORY_TRACE_FORMATS
-};
-extern const char *const trax_memory_trace_formats[TRAX_MEMORY_TRACE_FORMATS + 1]; /* as options give them; NULL */
+/* The files that explain a run: member of the options, option of trax-sim, value, meaning. */
+#define TRAX_EXPLAIN_FILES(X)                                                                                          \
+  X(explore, "explore", "FILE.html", "one page that explains the whole run, for a browser")                            \
+  X(profile, "profile", "FILE", "thread-cycles by function and by source line")                                        \
+  X(folded, "profile-folded", "FILE", "thread-cycles by call stack, for flame graphs")                                 \
+  X(sample, "profile-sample", "FILE", "executions by source line, for clang -fprofile-sample-use")                     \
+  X(heat, "heat", "FILE", "accesses to memory by object, as CSV")                                                      \
+  X(heat_lines, "heat-lines", "FILE", "accesses to global memory by 64 bytes, as CSV")                                 \
+  X(items, "items", "FILE", "cost of each item (pixel), as CSV")                                                       \
+  X(ray_kinds, "ray-kinds", "FILE", "cost of the rays of each kind, as CSV")                                           \
+  X(lockstep, "lockstep", "FILE", "issue slots that the items would take on a SIMD machine, as CSV")                   \
+  X(lockstep_rays, "lockstep-rays", "FILE",                                                                            \
+    "issue slots that the rays of each kind would take on a SIMD machine, as CSV")                                     \
+  X(series, "series", "FILE", "counts of each interval of cycles, as CSV")                                             \
+  X(memory_trace, "memory-trace", "FILE", "every transfer from and to off-chip memory; CSV for FILE.csv, else binary") \
+  X(trace, "trace", "FILE", "every instruction issued in the window, with values")                                     \
+  X(perfetto, "perfetto", "FILE", "the window as a time line, as JSON trace events")
 
 enum { TRAX_EXPLAIN_MAX_SOURCE_FOLDERS = 16 };
 
 struct trax_explain_options {
   /* Files to write; NULL: not wanted. "-" is standard output. */
-  const char *explore;       /* a page in HTML that explains the whole run */
-  const char *profile;       /* thread-cycles by function and source line */
-  const char *folded;        /* by call stack, for flame graphs */
-  const char *sample;        /* executions by source line, for clang -fprofile-sample-use */
-  const char *trace;         /* every issue in the window */
-  const char *konata;        /* the window as a pipeline, for Konata */
-  const char *perfetto;      /* the window as JSON trace events */
-  const char *heat;          /* accesses to memory by object */
-  const char *heat_lines;    /* accesses to memory by 64 bytes */
-  const char *items;         /* the cost of each item */
-  const char *ray_kinds;     /* the cost of the rays of each kind */
-  const char *lockstep;      /* the issue slots that the items would take on a SIMD machine */
-  const char *lockstep_rays; /* the issue slots that the rays of each kind would take on one */
-  const char *series;        /* the counters of each interval of cycles */
-  const char *memory_trace;  /* every transfer from and to off-chip memory */
-  enum trax_memory_trace_format memory_trace_format;
-  bool check_order;          /* report the first load that may return an old value to standard error */
+#define MEMBER(ID, ...) const char *ID;
+  TRAX_EXPLAIN_FILES(MEMBER)
+#undef MEMBER
+  bool check_order; /* report the first load that may return an old value to standard error */
 
   uint64_t series_interval; /* cycles; 0: TRAX_SERIES_INTERVAL */
-  /* The window of trace, konata and perfetto: cycles begin <= t < end (0: to the run's end), of the TMs and of the TPs
+  /* The window of trace and perfetto: cycles begin <= t < end (0: to the run's end), of the TMs and of the TPs
      in them whose bits are set (0: all). */
   uint64_t window_begin, window_end;
   uint64_t window_tms, window_tps;
@@ -82,7 +75,7 @@ trax_status trax_explain_add_source_folder(struct trax_explain_options *options,
 bool trax_explain_wanted(const struct trax_explain_options *options);
 
 /* Copies the options, but not the objects to which they point. *explain is NULL if nothing is wanted, and on an error.
-   */
+ */
 trax_status trax_explain_begin(struct trax_explain **explain, trax_machine *machine,
                                const struct trax_explain_options *options, trax_error *error);
 /* Writes the files and releases explain, which may be NULL. */

@@ -184,4 +184,23 @@ def library(tools, options):
         tools.check(f"input by the library: {way}", done == (0, "Q q\no 3\nw 5\nc 0\nS file 5 600\n", ""), done)
 
 
-PARTS = {"limits": limits, "moved": moved, "resumed": resumed, "obstacles": obstacles, "library": library}
+def outputs(tools, _):
+    """An output of the simulator is no file that the program has read or written."""
+    begin = "Q q\nF a 20 1 644 0\n"
+    for label, lines, left in (("read", ["o 1 a r", "r 1 5", "c 1"], 20), ("written", ["o 1 a wct", "w 1 9 1", "c 1"], 9)):
+        for option in ("--stats", "--trace"):
+            folder = tools.fresh("guest-files", begin)
+            path = tools.write(tools.root / "script", "\n".join(["Q q", *lines, ""]))
+            status, _, message = tools.run(tools.simulate(option, folder / NAME), folder, path)
+            tools.check(
+                f"{label} by the program, {option}",
+                status == 1 and "is an input and the output" in message and len(contents(folder / NAME)) == left
+                and os.listdir(folder / "q") == ["a"],
+                (status, message, os.listdir(folder / "q")),
+            )
+    folder = tools.fresh("guest-files", begin)
+    status, _, message = tools.run(tools.simulate("--stats", folder / "q" / "b"), folder, tools.write(tools.root / "script", "Q q\n"))
+    tools.check("beside the program's files", status == 0 and (folder / "q" / "b").exists(), message)
+
+
+PARTS = {"limits": limits, "moved": moved, "resumed": resumed, "obstacles": obstacles, "library": library, "outputs": outputs}

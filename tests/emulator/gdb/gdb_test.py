@@ -3,6 +3,7 @@
 
 import os
 import re
+import struct
 import subprocess
 import sys
 import tempfile
@@ -113,8 +114,58 @@ def session(work, name, level, options, commands):
     return run.stdout.decode()
 
 
-failures = 0
+def section(elf, name):
+    """The offset of a section."""
+    start, size, count, names = struct.unpack_from("<I10xHHH", elf, 32)
+    headers = [struct.unpack_from("<10I", elf, start + size * i) for i in range(count)]
+    return next(at for word, _, _, _, at, *_ in headers if elf[headers[names][4] + word:].startswith(name.encode() + b"\0"))
+
+
+def changed(work, name, options, change):
+    """What trax-sim prints for a program whose bytes were changed: when it writes symbols, and at the program's fault."""
+    elf = os.path.join(work, "changed.elf")
+    subprocess.run([f"{BIN}/clang", "--target=trax", "-g", *options, "-o", elf, f"{HERE}/{name}.c"], check=True)
+    with open(elf, "r+b") as file:
+        image = bytearray(file.read())
+        change(image)
+        file.seek(0)
+        file.write(image)
+    return [subprocess.run([f"{BIN}/trax-sim", *words, elf], capture_output=True, text=True, check=False).stderr
+            for words in (["--gdb-symbols", elf + ".sym"], [])]
+
+
+def set_versions(image, version):
+    """Gives each CIE a version."""
+    at = section(image, ".debug_frame")
+    while (length := struct.unpack_from("<I", image, at)[0]) and length < 4096:
+        if struct.unpack_from("<I", image, at + 4)[0] == 0xFFFFFFFF:
+            image[at + 8] = version
+        at += 4 + length
+
+
+def split(image):
+    """Replaces the attributes DW_AT_stmt_list and DW_AT_comp_dir of a unit by DW_AT_GNU_dwo_name, of 8 bytes, too."""
+    at = image.index(b"\x10\x17\x1b\x0e", section(image, ".debug_abbrev"))
+    image[at : at + 4] = b"\xb0\xc2\x00\x07"
+
+
+def check_refusals(work):
+    """A CIE of a version that is not known, and debug information in other files."""
+    failed = 0
+    for version in (2, 4, 5):
+        symbols, fault = changed(work, "fault", ["-O1"], lambda image, version=version: set_versions(image, version))
+        if (symbols == "", "called by   main" in fault) != 2 * (version == 4,) or (version != 4 and ".debug_frame" not in symbols):
+            print(f"CIE version {version}:", symbols, fault)
+            failed += 1
+    symbols, _ = changed(work, "fault", ["-O1", "-gdwarf-4"], split)
+    if "compile it without -gsplit-dwarf" not in symbols:
+        print("split debug information:", symbols)
+        failed += 1
+    return failed
+
+
 with tempfile.TemporaryDirectory() as work:
+    failures = check_refusals(work)
     for (name, level, options), commands in SESSIONS.items():
         text = session(work, name, level, options, commands)
         rest = text

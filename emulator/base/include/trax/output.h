@@ -1,7 +1,7 @@
 /* Files that appear only when they are complete. One rule for the outputs of all programs:
    - An output is whole, or is not there, or is the earlier file of its name. Nothing removes that file.
    - What is no regular file is written to, never replaced, and a symbolic link leads to the file that is replaced.
-   - No output is a file that was read (trax/reads.h). */
+   - No output is a file that was read, or that a simulated program has written (trax/reads.h). */
 #ifndef TRAX_OUTPUT_H
 #define TRAX_OUTPUT_H
 

@@ -17,7 +17,7 @@ extern "C" {
 
 /* From now on there is a list. At the beginning of main. */
 void trax_reads_begin(void);
-/* Notes a file. Devices, pipes and folders are ignored. trax_input_open and the list of trax/files.h do it themselves.
+/* Notes a file; also one that a simulated program has written. Devices, pipes and folders are ignored. trax_input_open and the list of trax/files.h do it themselves.
  */
 void trax_reads_note(const struct stat *file);
 void trax_reads_note_path(const char *path);

@@ -5,6 +5,8 @@
 #ifndef TRAX_SIGNALS_H
 #define TRAX_SIGNALS_H
 
+#include "trax/status.h"
+
 #include <signal.h>
 #include <sys/types.h>
 
@@ -22,8 +24,12 @@ void trax_catch_signal(int number);
 /* Restores the default actions. */
 void trax_default_signals(void);
 /* fork() with the default actions in the child. A plain fork() leaves the child the handlers until it calls exec: a signal
-   that arrives before only sets the child's copy of trax_signal, and the child goes on. */
-pid_t trax_fork(void);
+   that arrives before only sets the child's copy of trax_signal, and the child goes on. The child receives the signal
+   `last` when its parent ends. */
+pid_t trax_fork(int last);
+/* Waits for a child's end. When *interrupt, which may be NULL, becomes true, the child receives the signal `last`, and
+   the result is TRAX_INTERRUPTED. TRAX_ERROR: errno has the reason. */
+trax_status trax_wait_for_child(pid_t child, int last, const volatile int *interrupt, int *status);
 /* Ends this process when the one ends whose number is in the environment variable TRAX_PARENT, if that is its parent; at
    once if it has ended already. */
 void trax_end_with_parent(void);

@@ -1,66 +1,14 @@
-/* The table of engines, and the run of a machine by one of them. */
+/* The run of a machine by one of the engines: beginning, advancing, end, and what is called between cycles. */
 #define _POSIX_C_SOURCE 200809L /* clock_gettime */
-#include "host/engines.h"
 #include "calls/calls.h"
+#include "control/engines.h"
 #include "engine/run.h"
-#include "fast/chip.h"
-#include "functional/functional.h"
-#include "reference/run.h"
 #include "sampling/slots.h"
 
 #include <inttypes.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
-
-/* The first engine is the default. After the first three come variants of the first one. */
-static const struct trax_engine *const engines[] = {
-    &trax_fast_engine,        &trax_reference_engine, &trax_functional_engine, &trax_fast_any_engine,
-#ifdef TRAX_FAST_HAVE_V3
-    &trax_fast_avx2_engine,
-#endif
-#ifdef TRAX_FAST_HAVE_V4
-    &trax_fast_avx512_engine,
-#endif
-};
-enum { ENGINES = sizeof engines / sizeof *engines, MAIN_ENGINES = 3 };
-
-static bool every_engine(const struct trax_engine *engine) {
-  (void)engine;
-  return true;
-}
-
-void trax_engine_names(bool (*can)(const struct trax_engine *engine), char *names, size_t size) {
-  unsigned left = 0;
-  size_t length = 0;
-  for (unsigned i = 0; i < MAIN_ENGINES; i++)
-    left += can(engines[i]);
-  *names = '\0';
-  for (unsigned i = 0; i < MAIN_ENGINES && length < size; i++)
-    if (can(engines[i]))
-      length += (size_t)snprintf(names + length, size - length, "%s%s", engines[i]->name,
-                                 --left > 1 ? ", "
-                                 : left     ? " or "
-                                            : "");
-}
-
-trax_status trax_engine_find(const char *name, const struct trax_engine **engine, trax_error *error) {
-  char names[128];
-  *engine = engines[0];
-  if (!name)
-    return TRAX_OK;
-  for (unsigned i = 0; i < ENGINES; i++)
-    if (strcmp(engines[i]->name, name) == 0) {
-      *engine = engines[i];
-      return !engines[i]->is_possible || engines[i]->is_possible() ? TRAX_OK
-                                                                   : trax_fail(error, "cannot run on this host");
-    }
-  trax_engine_names(every_engine, names, sizeof names);
-  return trax_fail(error, "is not %s", names);
-}
-
-/* --- the run --- */
 
 static trax_status report_outcome(const struct trax_machine *machine, const struct trax_run *run, trax_error *error) {
   const bool timed = run->engine->is_timed;

@@ -1,6 +1,6 @@
 /* The engines by name, for --engine and trax_run_options.engine. */
-#ifndef TRAX_HOST_ENGINES_H
-#define TRAX_HOST_ENGINES_H
+#ifndef TRAX_CONTROL_ENGINES_H
+#define TRAX_CONTROL_ENGINES_H
 
 #include "engine/engine.h"
 

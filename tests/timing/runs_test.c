@@ -1,0 +1,181 @@
+/* Runs that rules.c has no row for: loops over many programs, endless ones, ends, limits and many threads.
+
+   With memory next to the chip (bench_near) the fetch of cycle 0 misses, the line arrives in cycle 1, and the first
+   instruction is issued in cycle 1. */
+#include "bench.h"
+
+static void branch_bubbles(void **state) {
+  (void)state;
+  struct trax_config config = bench_near(1, 1);
+  /* jal over two, a branch not taken, one taken over one. */
+  const uint32_t program[] = {J(1, 12), NOP, NOP, B(BNE, 0, 0, 8), B(BEQ, 0, 0, 8), NOP, HALT};
+  for (uint32_t bubble = 0; bubble <= 200; bubble++) { /* across the wheel's reach */
+    config.tp.branch_bubble_cycles = bubble;
+    struct bench bench = bench_of(&config, program, 7);
+    ISSUES(&bench, 0, 1, bubble + 2, bubble + 3, 2 * bubble + 4);
+    CHARGES(&bench, 0, TRAX_CAUSE_ICACHE_MISS, 1, TRAX_CAUSE_BRANCH, 2 * bubble);
+    bench_end(&bench);
+  }
+}
+
+static void comparisons_use_the_adder(void **state) {
+  (void)state;
+  const uint32_t operations[] = {R(FMIN, 1, 0, 0),    R(FMAX, 1, 0, 0),   R(FEQ, 1, 0, 0),
+                                 R(FLT, 1, 0, 0),     R(FLE, 1, 0, 0),    R1(FCVT_W_S, 1, 0),
+                                 R1(FCVT_WU_S, 1, 0), R1(FCVT_S_W, 1, 0), R1(FCVT_S_WU, 1, 0)};
+  struct trax_config config = bench_near(1, 8);
+  config.icache.ports_per_bank = 64;
+  for (unsigned i = 0; i < sizeof operations / sizeof *operations; i++)
+    for (unsigned own = 0; own < 2; own++) {
+      config.fpu.compare_units = own;
+      struct bench bench = BENCH(config, operations[i], HALT);
+      assert_int_equal(bench_total(&bench, TRAX_CAUSE_FP_ADD), own ? 0 : 28);
+      assert_int_equal(bench_cycles(&bench), own ? 3 : 10);
+      assert_int_equal(bench.machine->stats.total.flops, 0);
+      bench_end(&bench);
+    }
+}
+
+static void special_unit_serves_64_in_turn(void **state) {
+  (void)state;
+  struct trax_config config = bench_near(1, 64);
+  config.icache.ports_per_bank = 64;
+  config.icache.tps_per_cache = 64;
+  config.special.pipelined = false;
+  const uint32_t forever[] = {R(FDIV, 0, 0, 0), J(0, -4)};
+  struct bench bench = bench_begin(&config, forever, 2);
+  bench_run(&bench, 1 + 64 * 8 * 5);
+  /* 5 whole rounds of 64 divides of 8 cycles. */
+  for (unsigned tp = 0; tp < 64; tp++) {
+    uint64_t divides = 0;
+    for (size_t i = 0; i < bench.issues.count; i++)
+      divides += bench.issues.issue[i].tp == tp && bench.issues.issue[i].pc == TEXT;
+    assert_int_equal(divides, 5);
+  }
+  bench_end(&bench);
+}
+
+/* A store past the cache and a load of the same word in one cycle, 109: the effects happen in the TPs' order. */
+static void effects_of_one_cycle(void **state) {
+  (void)state;
+  const struct trax_config config = bench_far(1, 2);
+  for (int writer = 0; writer < 2; writer++)
+    for (unsigned observed = 0; observed < 2; observed++) {
+      const uint32_t program[] = {U(LUI, 1, 1),
+                                  U(RDSR, 2, TRAX_SR_THREAD),
+                                  I(ADDI, 3, 0, 7),
+                                  I(ADDI, 4, 0, writer),
+                                  B(BEQ, 2, 4, 6 * 4),
+                                  I(LW, 5, 1, 0), /* the reader; what follows can run ahead with it */
+                                  NOP,
+                                  NOP,
+                                  S(SW, 5, 1, 64),
+                                  HALT,
+                                  S(SWNT, 3, 1, 0),
+                                  HALT};
+      struct bench bench = bench_begin(&config, program, sizeof program / 4);
+      if (observed) {
+        bench_run(&bench, 0);
+        assert_int_equal(bench.issues.issue[10].cycle, 109);
+        assert_int_equal(bench.issues.issue[11].cycle, 109);
+      } else { /* the fast engine runs further ahead when nobody looks */
+        bench.status = trax_machine_run(bench.machine, NULL, &bench.error);
+      }
+      assert_int_equal(bench.status, TRAX_OK);
+      assert_int_equal(bench_word(&bench, DATA), 7);
+      assert_int_equal(bench_word(&bench, DATA + 64), writer == 0 ? 7 : 0);
+      bench_end(&bench);
+    }
+}
+
+static void every_value_once(void **state) {
+  (void)state;
+  enum { THREADS = 4 * 32, EACH = 7 };
+  struct trax_config config = bench_far(4, 32);
+  config.icache.ports_per_bank = 1;
+  config.memory.queue_depth = 5;
+  /* Each thread: i = ainc(DATA); mark[i] = thread + 1; seven times. */
+  struct bench bench =
+      BENCH(config, U(LUI, 1, 1), I(ADDI, 2, 0, EACH), U(RDSR, 3, TRAX_SR_THREAD), I(ADDI, 3, 3, 1), I(AINC, 4, 1, 0),
+            I(SLLI, 4, 4, 2), R(ADD, 4, 4, 1), S(SWNT, 3, 4, 64), I(ADDI, 2, 2, -1), B(BNE, 2, 0, -5 * 4), HALT);
+  unsigned marks[THREADS] = {0};
+  assert_int_equal(bench_word(&bench, DATA), THREADS * EACH);
+  for (unsigned i = 0; i < THREADS * EACH; i++) {
+    const uint32_t mark = bench_word(&bench, DATA + 64 + 4 * i);
+    assert_in_range(mark, 1, THREADS);
+    marks[mark - 1]++;
+  }
+  for (unsigned thread = 0; thread < THREADS; thread++)
+    assert_int_equal(marks[thread], EACH);
+  bench_end(&bench);
+}
+
+static void exit_statuses(void **state) {
+  (void)state;
+  struct trax_config config = bench_near(2, 3);
+  /* status = (thread - 2) if thread > 2, else 0: threads 3, 4, 5 give 1, 2, 3; the lowest counts. */
+  struct bench bench = BENCH(config, U(RDSR, 1, TRAX_SR_THREAD), I(ADDI, 2, 1, -2), R(SLT, 3, 0, 2), R(CMOVZ, 2, 0, 3),
+                             T(2, TRAX_TRAP_EXIT));
+  assert_int_equal(trax_machine_exit_status(bench.machine), 1);
+  assert_int_equal(bench.machine->exit_statuses[5], 3);
+  bench_end(&bench);
+}
+
+static void the_limit_covers_the_last_store(void **state) {
+  (void)state;
+  struct trax_config config = bench_far(1, 1);
+  config.memory.bandwidth_gbps = 0.05;
+  const uint32_t program[] = {U(LUI, 1, 1), S(SW, 1, 1, 0), HALT}; /* 782 cycles: rules.c, "the last stores" */
+  for (uint64_t limit = 781; limit <= 782; limit++) {
+    struct bench bench = bench_begin(&config, program, 3);
+    bench_run(&bench, limit);
+    assert_int_equal(bench.status, limit == 782 ? TRAX_OK : TRAX_STUCK);
+    assert_int_equal(bench_cycles(&bench), limit);
+    bench_end(&bench);
+  }
+}
+
+static void watchdog_and_interrupt(void **state) {
+  (void)state;
+  const struct trax_config config = bench_near(1, 2);
+  const uint32_t forever[] = {J(0, 0)};
+  struct bench bench = bench_begin(&config, forever, 1);
+  bench_run(&bench, 1000);
+  assert_int_equal(bench.status, TRAX_STUCK);
+  assert_int_equal(bench_cycles(&bench), 1000);
+  bench_end(&bench);
+
+  bench = bench_begin(&config, forever, 1);
+  const volatile int interrupt = 1;
+  const trax_run_options options = {.interrupt = &interrupt};
+  assert_int_equal(trax_machine_run(bench.machine, &options, &bench.error), TRAX_INTERRUPTED);
+  bench_end(&bench);
+}
+
+static void a_machine_runs_once(void **state) {
+  (void)state;
+  const struct trax_config config = bench_near(1, 1);
+  struct bench bench = BENCH(config, HALT);
+  trax_error error;
+  assert_int_equal(trax_machine_run(bench.machine, NULL, &error), TRAX_ERROR);
+  assert_int_equal(trax_machine_map(bench.machine, 0x100000, 64, TRAX_PERMIT_READ, NULL, &error), TRAX_ERROR);
+  bench_end(&bench);
+  trax_machine *empty = trax_machine_create(&config, &error);
+  assert_int_equal(trax_machine_run(empty, NULL, &error), TRAX_ERROR);
+  trax_machine_destroy(empty);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(branch_bubbles),
+      cmocka_unit_test(comparisons_use_the_adder),
+      cmocka_unit_test(special_unit_serves_64_in_turn),
+      cmocka_unit_test(effects_of_one_cycle),
+      cmocka_unit_test(every_value_once),
+      cmocka_unit_test(exit_statuses),
+      cmocka_unit_test(the_limit_covers_the_last_store),
+      cmocka_unit_test(watchdog_and_interrupt),
+      cmocka_unit_test(a_machine_runs_once),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
