@@ -1,9 +1,9 @@
-/* Tells which rays are traced, and which nodes and triangles they read (trax/access.h), if compiled with TRAX_ACCESSES;
-   in other programs nothing of it is left. */
+/* The twin tells its log, if it has one, which rays it traces, and which nodes and triangles they read (trax/access.h).
+   Programs of the TPs contain none of this. */
 #ifndef TRAX_DEVICE_ACCESS_H
 #define TRAX_DEVICE_ACCESS_H
 
-#ifdef TRAX_ACCESSES
+#ifdef TRAX_TWIN
 
 #include "algebra.h"
 #include "bits.h"
@@ -17,20 +17,24 @@ extern struct trax_access_log *trax_access_log;
 
 static inline void log_access(const char *record, trax_access kind) {
   struct trax_access_log *log = trax_access_log;
+  if (__builtin_expect(!log, 1))
+    return;
   if (log->end == log->limit)
     log->full(log);
   *log->end++ = (trax_access)(record - (const char *)scene.data) | kind;
 }
 
 static inline void log_slot(uint32_t slot) {
+  if (!trax_access_log)
+    return;
   trax_access_log->slot(trax_access_log, slot, (uint32_t)trax_native.rays);
   trax_native.rays = 0;
 }
 
-/* pixel: as struct pixel has it; rays: the ray as it is counted, 0 for one from the eye. */
+/* pixel: struct pixel's word; rays: the ray as it is counted, 0 for one from the eye. */
 static inline void log_ray(uint32_t pixel, uint32_t sample, uint32_t rays, struct vector origin,
                            struct vector direction, int32_t farthest, bool found, const struct hit *hit) {
-  if (!trax_access_log->ray)
+  if (!trax_access_log || !trax_access_log->ray)
     return;
   const struct trax_traced_ray ray = {.origin = {origin.x, origin.y, origin.z},
                                       .direction = {direction.x, direction.y, direction.z},

@@ -1,14 +1,29 @@
-/* Whether a ray hits a triangle, and where, without error: for scenes in which binary32 cannot tell
-   (TRAX_FEATURE_EXACT). Edge values, determinant and distance are sums of products of three floats. Each product is
-   added, as an integer, to an accumulator as wide as all products (U. Kulisch, "Computer Arithmetic and Validity",
-   2008), so that signs are certain and a quotient is rounded once. */
+/* Hits without error, for scenes in which binary32 cannot tell (TRAX_FEATURE_EXACT). A program that includes this file
+   first has its functions in place of those of triangle.h, shade.h and aim.h; no other file knows of it but main.c.
+
+   Edge values, determinant and distance are sums of products of three floats. Each product is added, as an integer, to
+   an accumulator as wide as all products (U. Kulisch, "Computer Arithmetic and Validity", 2008), so that signs are
+   certain and a quotient is rounded once. */
 #ifndef TRAX_DEVICE_EXACT_H
 #define TRAX_DEVICE_EXACT_H
 
+#include "aim.h"
 #include "bits.h"
+#include "run.h"
+#include "shade.h"
+#include "triangle.h"
 
 #include <stdbool.h>
 #include <stdint.h>
+
+/* Are hits exact? A program of the TPs that includes this file has no others; the twin has both. */
+#ifdef TRAX_EXACT_HITS
+#define HITS_ARE_EXACT TRAX_EXACT_HITS
+#else
+#define HITS_ARE_EXACT NEEDS((const struct trax_render_params *)params.data, EXACT)
+#endif
+
+/* --- sums of products --- */
 
 /* In units of 2^-447, the product of three of the least floats. trax_normalise sees to it that no factor is beyond
    2^33: then the sum of 36 products has less than 32 * EXACT_WORDS bits. */
@@ -44,7 +59,7 @@ static inline void add_product(uint32_t *sum, uint32_t a, uint32_t b, uint32_t c
   uint64_t ab = (uint64_t)digits_of(a) * digits_of(b);
   uint64_t low = (ab & 0xFFFFFFFFu) * digits_of(c), high = (ab >> 32) * digits_of(c) + (low >> 32);
   uint32_t word[3] = {(uint32_t)low, (uint32_t)high, (uint32_t)(high >> 32)};
-  /* Two's complement: of what is subtracted all bits are turned and one is added. */
+  /* Two's complement: to subtract, all bits are turned and 1 is added. */
   uint32_t turned = (uint32_t)((int32_t)(a ^ b ^ c ^ sign) >> 31), carry = turned & 1, below = 0;
   uint32_t *at = sum + (place >> 5), *end = sum + EXACT_WORDS;
   for (int i = 0; i < 4; i++) {
@@ -79,7 +94,7 @@ EXACT_STEP void add_determinants(uint32_t *sum, const float *x, const float *p, 
   }
 }
 
-/* What the sum is, to 2^-24 of it; it is 0 afterwards. */
+/* The sum, to 2^-24 of it. Sets *sum to 0. */
 EXACT_STEP struct exact_value take_sum(uint32_t *sum) {
   uint32_t negative = (uint32_t)((int32_t)sum[EXACT_WORDS - 1] >> 31), carry = negative & 1, high = 0, low = 0;
   int32_t top = 0;
@@ -99,7 +114,7 @@ EXACT_STEP struct exact_value take_sum(uint32_t *sum) {
   return (struct exact_value){bits_float(float_bits(value) | (int32_t)(negative & 0x80000000u)), 32 * top - zeros};
 }
 
-/* a / b; of what vanishes beside 1, 0. */
+/* a / b; 0 where that vanishes beside 1. */
 static inline float exact_quotient(struct exact_value a, struct exact_value b) {
   int32_t exponent = a.exponent - b.exponent;
   exponent = exponent < -252 ? -252 : exponent > 252 ? 252 : exponent;
@@ -115,7 +130,7 @@ struct exact_result {
   float distance, weight1, weight2;
 };
 
-/* Edges and vertices belong to the triangle, one whose plane holds the ray is not hit, nor one at distance 0. */
+/* Edges and vertices belong to the triangle. A triangle whose plane holds the ray is not hit, nor one at distance 0. */
 EXACT_STEP bool exact_hit(const struct exact_ray *ray, const float *a, struct exact_result *answer) {
   const float *b = a + 3, *c = a + 6, *origin = ray->origin, *direction = ray->direction;
   uint32_t sum[EXACT_WORDS] = {0};
@@ -148,5 +163,177 @@ EXACT_STEP int32_t exactly_turned(const float *direction, const float *a) {
   add_determinants(sum, direction, a + 3, a, a + 6, false, 0);
   return float_bits(take_sum(sum).value) & SIGN_BIT;
 }
+
+/* --- the ray and the triangle --- */
+
+struct exact_triangle_ray {
+  struct triangle_ray sheared;
+  struct exact_ray ray;
+};
+
+static inline void prepare_exact_triangle_ray(struct exact_triangle_ray *ray, struct vector origin,
+                                              struct vector direction, struct vector inverse) {
+  if (HITS_ARE_EXACT)
+    ray->ray = (struct exact_ray){{origin.x, origin.y, origin.z}, {direction.x, direction.y, direction.z}};
+  prepare_triangle_ray(&ray->sheared, origin, direction, inverse);
+}
+
+/* False: two edge values are certainly on different sides, so the ray misses the triangle. The watertight test, but
+   with all lengths scaled by a power of two to less than 2, so that no product leaves the range of floats. In units of
+   2^-24, and with S, the greatest magnitude of a coordinate across the ray: the vertices as seen from the origin are
+   off by 2, their product with the shear (6, from a reciprocal of error 5) by 16, so coordinates across the ray by 22,
+   and edge values by 4 * 22 S + 2 * 22 * 22 * 2^-24 + 4 S S, where S is at most 4. */
+static inline __attribute__((always_inline)) bool may_hit_triangle(const struct triangle_ray *ray,
+                                                                   const char *triangle) {
+  const char *at_u = triangle + ray->offset_u, *at_v = triangle + ray->offset_v, *at_w = triangle + ray->offset_w;
+  float coordinate[9];
+  int32_t size = 0, across = 0;
+  for (int corner = 0; corner < 3; corner++) {
+    float *place = coordinate + 3 * corner;
+    place[0] = load_float(at_u + 12 * corner) - ray->origin.x;
+    place[1] = load_float(at_v + 12 * corner) - ray->origin.y;
+    place[2] = load_float(at_w + 12 * corner) - ray->origin.z;
+    size = larger(size, larger(larger(magnitude(place[0]), magnitude(place[1])), magnitude(place[2])));
+  }
+  float scale = bits_float(0x7F000000 - (size & 0x7F800000));
+  for (int corner = 0; corner < 3; corner++) {
+    float *place = coordinate + 3 * corner;
+    float w = place[2] * scale;
+    place[0] = place[0] * scale - ray->shear_u * w;
+    place[1] = place[1] * scale - ray->shear_v * w;
+    across = larger(across, larger(magnitude(place[0]), magnitude(place[1])));
+  }
+  int32_t error = float_bits(bits_float(across) * 0x1p-17f + 0x1p-38f);
+  uint32_t sides = 0; /* bit 0: an edge value is certainly positive; bit 1: one is certainly negative */
+  for (int corner = 0; corner < 3; corner++) {
+    const float *b = coordinate + 3 * ((corner + 1) % 3), *c = coordinate + 3 * ((corner + 2) % 3);
+    float edge = c[0] * b[1] - c[1] * b[0];
+    if (magnitude(edge) > error)
+      sides |= 1u << ((uint32_t)float_bits(edge) >> 31);
+  }
+  return sides != 3;
+}
+
+/* As hit_triangle. */
+static inline __attribute__((always_inline)) bool
+hit_triangle_exactly(const struct exact_triangle_ray *ray, const char *triangle, bool any, struct hit *hit) {
+  if (!HITS_ARE_EXACT)
+    return hit_triangle(&ray->sheared, triangle, any, hit);
+  struct exact_result answer;
+  struct exact_ray copy = ray->ray; /* whose address is taken, so that no other part of the ray must be in memory */
+  if (!may_hit_triangle(&ray->sheared, triangle) || !exact_hit(&copy, (const float *)(const void *)triangle, &answer))
+    return false;
+  int32_t distance_bits = float_bits(answer.distance);
+  const char *other = hit->triangle;
+  if (distance_bits > hit->distance_bits)
+    return false;
+  if (!any) {
+    if (distance_bits == hit->distance_bits && (!other || !comes_first(triangle, other)))
+      return false;
+    *hit = (struct hit){distance_bits, triangle, answer.weight1, answer.weight2};
+  }
+  return true;
+}
+
+/* --- the surface and the light --- */
+
+/* As find_surface. Edges are scaled by a power of two, so that the normal stays in the range of floats,
+   and which of its sides is the viewer's is found without error. The point is found from the vertices or along the ray,
+   whichever has the lesser bound: with R, the greatest component of the way from the eye, and O, that of the eye, the
+   point along the ray is off by 6u R + u O a coordinate, and the shadow ray's test has no error of its own. */
+#define OFFSET_PER_WAY 0x1p-19f
+
+static inline __attribute__((always_inline)) void find_surface_exactly(struct surface *surface, const struct hit *hit,
+                                                                       struct vector eye, struct vector direction) {
+  if (!HITS_ARE_EXACT) {
+    find_surface(surface, hit, eye, direction);
+    return;
+  }
+  const float *v0 = (const float *)(const void *)hit->triangle, *v1 = v0 + 3, *v2 = v0 + 6;
+  struct vector a = load_vector(v0), e = minus(load_vector(v1), a), f = minus(load_vector(v2), a);
+  int32_t edge = larger(greatest_magnitude(e), greatest_magnitude(f));
+  float edge_scale = bits_float(0x7F000000 - (edge & 0x7F800000));
+  struct vector n = cross(times(edge_scale, e), times(edge_scale, f));
+  int32_t away = exactly_turned(&direction.x, v0), size = greatest_magnitude(n);
+  if (size == 0) {
+    n = direction;
+    away = SIGN_BIT;
+    size = greatest_magnitude(n);
+  }
+  n = times(bits_float((0x7E800000 - (size & 0x7F800000)) | away), n);
+
+  struct vector way = times(bits_float(hit->distance_bits), direction);
+  float bound = bits_float(greatest_magnitude(a)) * OFFSET_PER_POSITION + bits_float(edge) * OFFSET_PER_EDGE;
+  float way_bound =
+      bits_float(greatest_magnitude(eye)) * OFFSET_PER_POSITION + bits_float(greatest_magnitude(way)) * OFFSET_PER_WAY;
+  struct vector base = a, inside = plus(times(hit->weight1, e), times(hit->weight2, f));
+  if (float_bits(way_bound) < float_bits(bound))
+    bound = way_bound, base = eye, inside = way;
+  surface->inverse_length = trax_rsqrt(dot(n, n));
+  struct vector out = times(bound * surface->inverse_length, n);
+  int32_t depth = greatest_magnitude(way) & 0x7F800000;
+  struct vector back = times(at_most(bits_float(0x7E800000 - depth) * bound, 1), way);
+  surface->point = plus(base, inside);
+  surface->start = plus(base, plus(inside, minus(out, back)));
+  surface->behind = plus(base, minus(inside, out));
+  surface->turned = away != 0;
+  surface->normal = n;
+}
+
+/* Scales by a power of two to less than 2. `exponent` is its reciprocal's bits, 0 if the way is too short to have a
+   direction. */
+static inline struct vector scale_way(struct vector way, int32_t *exponent) {
+  *exponent = greatest_magnitude(way) & 0x7F800000;
+  return times(bits_float(0x7F000000 - *exponent), way);
+}
+
+static inline void aim_at_light_exactly(struct light *light, const struct surface *surface, const float *position) {
+  if (!HITS_ARE_EXACT) {
+    aim_at_light(light, surface, position);
+    return;
+  }
+  int32_t exponent;
+  struct vector way = scale_way(minus(load_vector(position), surface->start), &exponent);
+  float square = dot(way, way), inverse = trax_rsqrt(square);
+  float cosine = dot(surface->normal, way) * surface->inverse_length * inverse;
+  light->direction = times(inverse, way);
+  light->distance_bits = float_bits(square * inverse * bits_float(exponent)) - LIGHT_SLACK;
+  light->cosine_bits = exponent ? float_bits(cosine) : 0;
+}
+
+static inline float aim_exactly(struct arrival *arrival, struct vector from, struct vector to) {
+  if (!HITS_ARE_EXACT)
+    return aim_at(arrival, from, to);
+  int32_t exponent;
+  struct vector way = scale_way(minus(to, from), &exponent);
+  if (exponent == 0)
+    return 0;
+  float square = dot(way, way), inverse = trax_rsqrt(square), scaled = inverse * bits_float(0x7F000000 - exponent);
+  arrival->direction = times(inverse, way);
+  arrival->distance_bits = float_bits(square * inverse * bits_float(exponent)) - LIGHT_SLACK;
+  arrival->target = to;
+  return at_most(scaled * scaled, 0x1p80f);
+}
+
+/* The normal of the triangle that is scaled by a power of two: a small one's would vanish. */
+static inline struct vector exact_triangle_normal(const float *v) {
+  if (!HITS_ARE_EXACT)
+    return triangle_normal(v);
+  struct vector a = load_vector(v), e = minus(load_vector(v + 3), a), f = minus(load_vector(v + 6), a);
+  float scale = bits_float(0x7F000000 - (larger(greatest_magnitude(e), greatest_magnitude(f)) & 0x7F800000));
+  e = times(scale, e), f = times(scale, f);
+  const float scaled[9] = {0, 0, 0, e.x, e.y, e.z, f.x, f.y, f.z};
+  return triangle_normal(scaled);
+}
+
+/* --- in place of the plain ones from here on --- */
+
+#define triangle_ray exact_triangle_ray
+#define prepare_triangle_ray prepare_exact_triangle_ray
+#define hit_triangle hit_triangle_exactly
+#define find_surface find_surface_exactly
+#define aim_at_light aim_at_light_exactly
+#define aim_at aim_exactly
+#define triangle_normal exact_triangle_normal
 
 #endif

@@ -2,57 +2,21 @@
 #ifndef TRAX_DEVICE_LIGHT_H
 #define TRAX_DEVICE_LIGHT_H
 
+#include "aim.h"
 #include "algebra.h"
 #include "material.h"
 #include "run.h"
 #include "sampler.h"
-#include "shade.h"
 
 #include <stdbool.h>
 
-/* What reaches a point from a light, if nothing is in the way. */
-struct arrival {
-  struct vector direction; /* towards the light, unit length */
-  int32_t distance_bits;   /* how far the shadow ray goes: FARTHEST_BITS, or up to */
-  struct vector target;
-  struct vector radiance; /* what a white surface that faces the light sends back */
-  float density;          /* of an emitter: pi times that in solid angle with which the direction was taken; else 0 */
-};
-
-/* From 0 to what is as good as infinite; what is no number stays so, to be seen. */
+/* From 0 to what is as good as infinite. A NaN stays one, to be seen. */
 static inline float bounded(float value) {
   return magnitude(value) > 0x7F800000 ? value : at_most(at_least(value, 0), TRAX_MAX_RADIANCE);
 }
 
 static inline struct vector bounded_colour(struct vector colour) {
   return (struct vector){bounded(colour.x), bounded(colour.y), bounded(colour.z)};
-}
-
-#define FARTHEST_BITS 0x7F000000 /* 2^127, farther than anything in a scene that frame.c accepts */
-
-/* The way to a point; returns 1 / square of its distance, or 0, and changes nothing, if it is too near to have a
-   direction. */
-static inline float aim_at(struct arrival *arrival, struct vector from, struct vector to) {
-  struct vector way = minus(to, from);
-  if (HITS_ARE_EXACT) {
-    int32_t exponent;
-    way = scale_way(way, &exponent);
-    if (exponent == 0)
-      return 0;
-    float square = dot(way, way), inverse = trax_rsqrt(square), scaled = inverse * bits_float(0x7F000000 - exponent);
-    arrival->direction = times(inverse, way);
-    arrival->distance_bits = float_bits(square * inverse * bits_float(exponent)) - LIGHT_SLACK;
-    arrival->target = to;
-    return at_most(scaled * scaled, 0x1p80f);
-  }
-  float square = dot(way, way);
-  if (float_bits(square) < float_bits(0x1p-80f))
-    return 0;
-  float inverse = trax_rsqrt(square);
-  arrival->direction = times(inverse, way);
-  arrival->distance_bits = float_bits(square * inverse) - LIGHT_SLACK;
-  arrival->target = to;
-  return inverse * inverse;
 }
 
 /* False: nothing arrives. place chooses a point of the light. */
@@ -82,20 +46,6 @@ static inline bool light_arrives(struct arrival *arrival, const struct trax_devi
   if (light->kind != TRAX_FROM_POINT)
     arrival->radiance = bounded_colour(times(falloff, arrival->radiance));
   return true;
-}
-
-/* Of the triangle's two sides; not towards the origin. */
-static inline struct vector triangle_normal(const float *v) {
-  struct vector a = load_vector(v), e = minus(load_vector(v + 3), a), f = minus(load_vector(v + 6), a);
-  if (HITS_ARE_EXACT) {
-    float scale = bits_float(0x7F000000 - (larger(greatest_magnitude(e), greatest_magnitude(f)) & 0x7F800000));
-    e = times(scale, e), f = times(scale, f);
-  }
-  struct vector n = cross(e, f);
-  int32_t size = larger(larger(magnitude(n.x), magnitude(n.y)), magnitude(n.z));
-  if (size == 0)
-    return (struct vector){0, 0, 0};
-  return unit(times(bits_float(0x7E800000 - (size & 0x7F800000)), n));
 }
 
 /* pi times the density in solid angle of a point of an emitter at a distance's square, seen at a cosine; choices: how

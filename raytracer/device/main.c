@@ -5,6 +5,10 @@
    The machine shapes the code. Eight TPs share an adder, which also compares floats, and a data-cache bank; a TM shares
    one divider: so comparisons are of integers, planes and edges are tested one by one, and a pixel takes few divisions.
  */
+#if TRAX_EXACT_HITS || defined TRAX_TWIN
+#include "exact.h" /* before all others: instead of their hits */
+#endif
+
 #include "camera.h"
 #include "path.h"
 #include "record.h"
@@ -19,7 +23,7 @@
 struct trax_buffer scene;
 unsigned next_slot[TRAX_QUEUES]; /* shared by all threads: the atomic increment hands out each queue's pixels */
 struct trax_buffer image, params, paths;
-#ifdef TRAX_RECORD
+#if defined TRAX_RECORD || defined TRAX_TWIN
 struct trax_buffer record;
 #endif
 
@@ -61,10 +65,7 @@ static inline __attribute__((always_inline)) uint32_t render_pixel(const struct 
       struct surface surface;
       struct light way;
       struct vector eye = load_vector(run->eye);
-      if (HITS_ARE_EXACT)
-        find_surface_exactly(&surface, &hit, eye, direction);
-      else
-        find_surface(&surface, &hit, eye);
+      find_surface(&surface, &hit, eye, direction);
       struct vector flat = surface.normal;
       if (NEEDS(run, SMOOTH))
         smooth_surface(&surface, &hit, run->normals_distance);

@@ -70,7 +70,7 @@ _Static_assert(sizeof(struct path) <= TRAX_PATH_BYTES, "render_params.h");
    away (TRAX_FEATURE_NEAR_LIGHT): then path->point is that start, and nothing else is kept. */
 #define LIT_AT_POINT(run) (NEEDS(run, LIGHTS) || NEEDS(run, NEAR_LIGHT) || (NEEDS(run, PATHS) && NEEDS(run, EMISSION)))
 #define PATH_START(run, path) (LIT_AT_POINT(run) ? (path)->start : (path)->point)
-#define SURE_DEPTH 3    /* surfaces that no path ends before by roulette */
+#define SURE_DEPTH 3 /* surfaces that no path ends before by roulette */
 
 static inline struct path *path_of_thread(void) {
   unsigned end = (trax_thread() + 1) * TRAX_PATH_BYTES;
@@ -385,10 +385,7 @@ PATH_STEP uint32_t after_ray(const struct trax_render_params *run, struct path *
     const struct trax_device_material *material = hit_material(run, &hit);
     struct surface surface;
     struct texel texel = {{1, 1, 1}, 1};
-    if (HITS_ARE_EXACT)
-      find_surface_exactly(&surface, &hit, path->origin, path->direction);
-    else
-      find_surface(&surface, &hit, path->origin);
+    find_surface(&surface, &hit, path->origin, path->direction);
     if (NEEDS(run, TEXTURES) && material->texture)
       texel = texture_of_hit(scene.data, material->texture, &hit);
     if (pass_hole(run, path, shadow, &surface, material, &hit, texel.alpha))

@@ -1,9 +1,9 @@
-/* What a program compiled with TRAX_RECORD tells besides its picture (trax/record.h); in others nothing of it is left.
- */
+/* A program compiled with TRAX_RECORD, and the twin if its buffer `record` is bound, also record what their rays hit
+   (trax/record.h). Other programs contain none of this. */
 #ifndef TRAX_DEVICE_RECORD_H
 #define TRAX_DEVICE_RECORD_H
 
-#ifdef TRAX_RECORD
+#if defined TRAX_RECORD || defined TRAX_TWIN
 
 #include "camera.h"
 #include "run.h"
@@ -12,6 +12,12 @@
 
 extern struct trax_buffer record;
 static _Thread_local struct trax_pixel_record record_channels; /* of the thread's last pixel_of */
+
+#ifdef TRAX_TWIN
+#define RECORDS (record.data != NULL)
+#else
+#define RECORDS 1
+#endif
 
 static inline uint32_t record_index(const struct trax_render_params *run, struct pixel pixel) {
   return pixel_y(pixel) * run->width + pixel_x(pixel);
@@ -26,6 +32,8 @@ static inline struct trax_sample_record *record_sample(const struct trax_render_
 
 static inline void record_hit(const struct trax_render_params *run, struct pixel pixel, uint32_t sample,
                               const struct hit *hit) {
+  if (!RECORDS)
+    return;
   record_sample(run, pixel, sample)->triangle =
       hit->triangle ? (uint32_t)(hit->triangle - (const char *)scene.data) : 0;
   if (!hit->triangle) /* of a single sample pixel_of is not asked */
@@ -33,14 +41,24 @@ static inline void record_hit(const struct trax_render_params *run, struct pixel
       record_channels.channel[channel] = (float)(int32_t)(run->background >> 8 * channel & 255);
 }
 
+static inline void record_shadow(const struct trax_render_params *run, struct pixel pixel, uint32_t sample,
+                                 bool blocked) {
+  if (RECORDS)
+    record_sample(run, pixel, sample)->shadow = blocked ? TRAX_SHADOW_BLOCKED : TRAX_SHADOW_LIT;
+}
+
+static inline void record_pixel(const struct trax_render_params *run, struct pixel pixel) {
+  if (RECORDS)
+    ((struct trax_pixel_record *)record.data)[record_index(run, pixel)] = record_channels;
+}
+
 #define RECORD_HIT(run, pixel, sample, hit) record_hit(run, pixel, sample, hit)
 /* The same of a path's first surface that is no hole. */
 #define RECORD_SEEN(run, path, shadow, hit)                                                                            \
   ((shadow) || (path)->depth ? (void)0 : record_hit(run, (struct pixel){(path)->pixel}, (path)->sample, hit))
-#define RECORD_SHADOW(run, pixel, sample, blocked)                                                                     \
-  (record_sample(run, pixel, sample)->shadow = (blocked) ? TRAX_SHADOW_BLOCKED : TRAX_SHADOW_LIT)
+#define RECORD_SHADOW(run, pixel, sample, blocked) record_shadow(run, pixel, sample, blocked)
 #define RECORD_CHANNELS(red, green, blue) (record_channels = (struct trax_pixel_record){{red, green, blue}})
-#define RECORD_PIXEL(run, pixel) (((struct trax_pixel_record *)record.data)[record_index(run, pixel)] = record_channels)
+#define RECORD_PIXEL(run, pixel) record_pixel(run, pixel)
 
 #else
 #define RECORD_HIT(run, pixel, sample, hit) ((void)0)

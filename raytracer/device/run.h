@@ -30,16 +30,6 @@ extern struct trax_buffer scene, params, image;
 /* Does the picture need what features.def calls NAME? */
 #define NEEDS(run, NAME) ((RUN_FEATURES(run) >> TRAX_FEATURE_##NAME & 1u) != 0)
 
-/* Are hits exact (device/exact.h)? Programs of the TPs that have such hits are compiled with TRAX_EXACT_HITS, which a
-   specialised one defines if its picture needs them. */
-#ifdef TRAX_EXACT_HITS
-#define HITS_ARE_EXACT TRAX_EXACT_HITS
-#elif defined __trax__
-#define HITS_ARE_EXACT 0
-#else
-#define HITS_ARE_EXACT NEEDS((const struct trax_render_params *)params.data, EXACT)
-#endif
-
 /* Are the rays of the paper's workload counted where they begin? Else a pixel's are counted together, at its end. */
 #ifdef TRAX_SPECIALISED_FEATURES
 #define MARKS_RAYS(run) NEEDS(run, RAY_KINDS)

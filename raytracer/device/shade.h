@@ -1,4 +1,4 @@
-/* What a ray found: the point, its normal, the way to the light, the colour. */
+/* The surface that a ray hit, and its colour. */
 #ifndef TRAX_DEVICE_SHADE_H
 #define TRAX_DEVICE_SHADE_H
 
@@ -6,8 +6,8 @@
 #include "bits.h"
 #include "camera.h"
 #include "record.h"
-#include "traverse.h"
 #include "trax/scene_format.h"
+#include "triangle.h"
 
 #include <trax.h>
 
@@ -32,7 +32,8 @@ struct surface {
 #define OFFSET_PER_POSITION 0x1p-22f
 
 static inline __attribute__((always_inline)) void find_surface(struct surface *surface, const struct hit *hit,
-                                                               struct vector eye) {
+                                                               struct vector eye, struct vector direction) {
+  (void)direction; /* exact.h needs it */
   const float *v0 = (const float *)(const void *)hit->triangle, *v1 = v0 + 3, *v2 = v0 + 6;
   struct vector a = load_vector(v0), e = minus(load_vector(v1), a), f = minus(load_vector(v2), a), n = cross(e, f);
 
@@ -66,45 +67,6 @@ static inline __attribute__((always_inline)) void find_surface(struct surface *s
   surface->inverse_length = inverse_length;
 }
 
-/* The same where hits are exact. Edges are scaled by a power of two, so that the normal stays in the range of floats,
-   and which of its sides is the viewer's is found without error. The point is found from the vertices or along the ray,
-   whichever has the lesser bound: with R, the greatest component of the way from the eye, and O, that of the eye, the
-   point along the ray is off by 6u R + u O a coordinate, and the shadow ray's test has no error of its own. */
-#define OFFSET_PER_WAY 0x1p-19f
-
-static inline __attribute__((always_inline)) void find_surface_exactly(struct surface *surface, const struct hit *hit,
-                                                                       struct vector eye, struct vector direction) {
-  const float *v0 = (const float *)(const void *)hit->triangle, *v1 = v0 + 3, *v2 = v0 + 6;
-  struct vector a = load_vector(v0), e = minus(load_vector(v1), a), f = minus(load_vector(v2), a);
-  int32_t edge = larger(greatest_magnitude(e), greatest_magnitude(f));
-  float edge_scale = bits_float(0x7F000000 - (edge & 0x7F800000));
-  struct vector n = cross(times(edge_scale, e), times(edge_scale, f));
-  int32_t away = exactly_turned(&direction.x, v0), size = greatest_magnitude(n);
-  if (size == 0) {
-    n = direction;
-    away = SIGN_BIT;
-    size = greatest_magnitude(n);
-  }
-  n = times(bits_float((0x7E800000 - (size & 0x7F800000)) | away), n);
-
-  struct vector way = times(bits_float(hit->distance_bits), direction);
-  float bound = bits_float(greatest_magnitude(a)) * OFFSET_PER_POSITION + bits_float(edge) * OFFSET_PER_EDGE;
-  float way_bound =
-      bits_float(greatest_magnitude(eye)) * OFFSET_PER_POSITION + bits_float(greatest_magnitude(way)) * OFFSET_PER_WAY;
-  struct vector base = a, inside = plus(times(hit->weight1, e), times(hit->weight2, f));
-  if (float_bits(way_bound) < float_bits(bound))
-    bound = way_bound, base = eye, inside = way;
-  surface->inverse_length = trax_rsqrt(dot(n, n));
-  struct vector out = times(bound * surface->inverse_length, n);
-  int32_t depth = greatest_magnitude(way) & 0x7F800000;
-  struct vector back = times(at_most(bits_float(0x7E800000 - depth) * bound, 1), way);
-  surface->point = plus(base, inside);
-  surface->start = plus(base, plus(inside, minus(out, back)));
-  surface->behind = plus(base, minus(inside, out));
-  surface->turned = away != 0;
-  surface->normal = n;
-}
-
 /* Replaces the normal by that of the smooth surface, on the same side of the triangle. */
 static inline __attribute__((always_inline)) void smooth_surface(struct surface *surface, const struct hit *hit,
                                                                  uint32_t normals_distance) {
@@ -121,43 +83,6 @@ static inline __attribute__((always_inline)) void smooth_surface(struct surface 
 
 static inline uint32_t triangle_material(const char *triangle) {
   return load_word(triangle + 36);
-}
-
-/* How much less far than the light the shadow ray goes, in units of the distance's last place: what rounding may put a
-   surface in front of the light that has it in its plane. */
-#define LIGHT_SLACK 64
-
-struct light {
-  struct vector direction; /* unit length */
-  int32_t distance_bits;
-  int32_t cosine_bits; /* of the angle to the normal; not positive: the light is behind the surface */
-};
-
-/* By a power of two to less than 2; `exponent` are the bits of its reciprocal, 0 if the way is too short to have a
-   direction. */
-static inline struct vector scale_way(struct vector way, int32_t *exponent) {
-  *exponent = greatest_magnitude(way) & 0x7F800000;
-  return times(bits_float(0x7F000000 - *exponent), way);
-}
-
-/* The cosine is that at the ray's start. A picture in which this shows is left to path.h (TRAX_FEATURE_NEAR_LIGHT). */
-static inline void aim_at_light(struct light *light, const struct surface *surface, const float *position) {
-  struct vector way = minus(load_vector(position), surface->start);
-  int32_t exponent = 0;
-  if (HITS_ARE_EXACT)
-    way = scale_way(way, &exponent);
-  float square = dot(way, way);
-  float inverse = trax_rsqrt(square);
-  float cosine = dot(surface->normal, way) * surface->inverse_length * inverse;
-  light->direction = times(inverse, way);
-  if (HITS_ARE_EXACT) {
-    light->distance_bits = float_bits(square * inverse * bits_float(exponent)) - LIGHT_SLACK;
-    light->cosine_bits = exponent ? float_bits(cosine) : 0;
-    return;
-  }
-  light->distance_bits = float_bits(square * inverse) - LIGHT_SLACK;
-  /* A light within 2^-40 of the point has no direction to speak of. */
-  light->cosine_bits = float_bits(square) >= float_bits(0x1p-80f) ? float_bits(cosine) : 0;
 }
 
 /* What the surface sends back of the light from everywhere; at most 1 together with that of the point light. */

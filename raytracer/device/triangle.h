@@ -1,30 +1,16 @@
-/* Whether a ray hits a triangle. The method is chosen at compile time, -DTRAX_TRIANGLE=METHOD.
-
-   TRAX_WATERTIGHT, the default: Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection" (JCGT 2(1), 2013). Two
+/* Whether a ray hits a triangle: Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection" (JCGT 2(1), 2013). Two
    triangles that share an edge compute the same value for it with opposite signs, and zero counts as inside, so a ray
-   cannot pass between them.
-
-   TRAX_MOLLER_TRUMBORE, to compare: "Fast, Minimum Storage Ray/Triangle Intersection" (Journal of Graphics Tools 2(1),
-   1997). Two triangles round their common edge each in its own way.
-
-   docs/robustness.md shows what each gets wrong and what it costs. */
+   cannot pass between them. docs/robustness.md shows the errors and the cost. */
 #ifndef TRAX_DEVICE_TRIANGLE_H
 #define TRAX_DEVICE_TRIANGLE_H
 
 #include "algebra.h"
 #include "bits.h"
-#include "exact.h"
 #include "nodes.h"
 #include "run.h"
 #include "trax/scene_format.h"
 
 #include <stdbool.h>
-
-#define TRAX_WATERTIGHT 1
-#define TRAX_MOLLER_TRUMBORE 2
-#ifndef TRAX_TRIANGLE
-#define TRAX_TRIANGLE TRAX_WATERTIGHT
-#endif
 
 struct hit {
   int32_t distance_bits;  /* float_bits of the parameter along the ray */
@@ -77,12 +63,6 @@ accept_hit(const char *triangle, bool any, float scaled, float determinant, floa
   return true;
 }
 
-#if TRAX_TRIANGLE == TRAX_WATERTIGHT
-
-/* Other programs of the TPs have no room for it. */
-#if defined TRAX_EXACT_HITS || !defined __trax__
-#define HAS_EXACT_RAY
-#endif
 
 /* Coordinates are renamed so that the direction's largest component is the third, and sheared and scaled so that the
    ray is the third axis. offset_ are the coordinates' places in a vertex, in bytes. */
@@ -90,19 +70,12 @@ struct triangle_ray {
   uint32_t offset_u, offset_v, offset_w;
   struct vector origin; /* renamed */
   float shear_u, shear_v, scale_w;
-#ifdef HAS_EXACT_RAY
-  struct exact_ray ray; /* as it is */
-#endif
 };
 
 /* inverse: the reciprocals of the direction's components, of which only the largest one's is used. */
 static inline void prepare_triangle_ray(struct triangle_ray *ray, struct vector origin, struct vector direction,
                                         struct vector inverse) {
   int32_t size = greatest_magnitude(direction);
-#ifdef HAS_EXACT_RAY
-  if (HITS_ARE_EXACT)
-    ray->ray = (struct exact_ray){{origin.x, origin.y, origin.z}, {direction.x, direction.y, direction.z}};
-#endif
   if (size == magnitude(direction.x)) {
     ray->offset_u = 4, ray->offset_v = 8, ray->offset_w = 0;
     ray->origin = (struct vector){origin.y, origin.z, origin.x};
@@ -135,71 +108,10 @@ static inline bool opposite(float a, float b) {
   return (int32_t)(a_bits ^ b_bits) < 0 && a_bits << 1 != 0 && b_bits << 1 != 0;
 }
 
-#ifdef HAS_EXACT_RAY
-/* May the ray hit the triangle? Only where two edge values are certain to be on different sides does it not. As the
-   watertight test below, but with all lengths scaled by a power of two to less than 2, so that no product leaves the
-   range of floats. In units of 2^-24, and with S, the greatest magnitude of a coordinate across the ray: the vertices
-   as seen from the origin are off by 2, their product with the shear (6, from a reciprocal of error 5) by 16, so
-   coordinates across the ray by 22, and edge values by 4 * 22 S + 2 * 22 * 22 * 2^-24 + 4 S S, where S is at most 4. */
-static inline __attribute__((always_inline)) bool may_hit_triangle(const struct triangle_ray *ray,
-                                                                   const char *triangle) {
-  const char *at_u = triangle + ray->offset_u, *at_v = triangle + ray->offset_v, *at_w = triangle + ray->offset_w;
-  float coordinate[9];
-  int32_t size = 0, across = 0;
-  for (int corner = 0; corner < 3; corner++) {
-    float *place = coordinate + 3 * corner;
-    place[0] = load_float(at_u + 12 * corner) - ray->origin.x;
-    place[1] = load_float(at_v + 12 * corner) - ray->origin.y;
-    place[2] = load_float(at_w + 12 * corner) - ray->origin.z;
-    size = larger(size, larger(larger(magnitude(place[0]), magnitude(place[1])), magnitude(place[2])));
-  }
-  float scale = bits_float(0x7F000000 - (size & 0x7F800000));
-  for (int corner = 0; corner < 3; corner++) {
-    float *place = coordinate + 3 * corner;
-    float w = place[2] * scale;
-    place[0] = place[0] * scale - ray->shear_u * w;
-    place[1] = place[1] * scale - ray->shear_v * w;
-    across = larger(across, larger(magnitude(place[0]), magnitude(place[1])));
-  }
-  int32_t error = float_bits(bits_float(across) * 0x1p-17f + 0x1p-38f);
-  uint32_t sides = 0; /* bit 0: an edge value is certainly positive; bit 1: one is certainly negative */
-  for (int corner = 0; corner < 3; corner++) {
-    const float *b = coordinate + 3 * ((corner + 1) % 3), *c = coordinate + 3 * ((corner + 2) % 3);
-    float edge = c[0] * b[1] - c[1] * b[0];
-    if (magnitude(edge) > error)
-      sides |= 1u << ((uint32_t)float_bits(edge) >> 31);
-  }
-  return sides != 3;
-}
-
-/* As hit_triangle, without error. */
-static inline __attribute__((always_inline)) bool
-hit_triangle_exactly(const struct triangle_ray *ray, const char *triangle, bool any, struct hit *hit) {
-  struct exact_result answer;
-  struct exact_ray copy = ray->ray; /* whose address is taken, so that no other part of the ray must be in memory */
-  if (!may_hit_triangle(ray, triangle) || !exact_hit(&copy, (const float *)(const void *)triangle, &answer))
-    return false;
-  int32_t distance_bits = float_bits(answer.distance);
-  const char *other = hit->triangle;
-  if (distance_bits > hit->distance_bits)
-    return false;
-  if (!any) {
-    if (distance_bits == hit->distance_bits && (!other || !comes_first(triangle, other)))
-      return false;
-    *hit = (struct hit){distance_bits, triangle, answer.weight1, answer.weight2};
-  }
-  return true;
-}
-#else
-#define hit_triangle_exactly(ray, triangle, any, hit) false
-#endif
-
 /* Is the triangle hit before hit->distance_bits? If so *hit becomes this one; if any hit will do, only the answer
    counts. */
 static inline __attribute__((always_inline)) bool hit_triangle(const struct triangle_ray *ray, const char *triangle,
                                                                bool any, struct hit *hit) {
-  if (HITS_ARE_EXACT)
-    return hit_triangle_exactly(ray, triangle, any, hit);
   struct vector b = sheared_corner(ray, triangle, 1), c = sheared_corner(ray, triangle, 2);
   struct vector a = sheared_corner(ray, triangle, 0);
   float edge_a = c.x * b.y - c.y * b.x;
@@ -215,44 +127,5 @@ static inline __attribute__((always_inline)) bool hit_triangle(const struct tria
   return accept_hit(triangle, any, (edge_a * a.z + edge_b * b.z + edge_c * c.z) * ray->scale_w, determinant, edge_b,
                     edge_c, hit);
 }
-
-#elif TRAX_TRIANGLE == TRAX_MOLLER_TRUMBORE
-
-struct triangle_ray {
-  struct vector origin, direction;
-};
-
-static inline void prepare_triangle_ray(struct triangle_ray *ray, struct vector origin, struct vector direction,
-                                        struct vector inverse) {
-  (void)inverse;
-  *ray = (struct triangle_ray){origin, direction};
-}
-
-static inline __attribute__((always_inline)) bool hit_triangle(const struct triangle_ray *ray, const char *triangle,
-                                                               bool any, struct hit *hit) {
-  const float *v0 = (const float *)(const void *)triangle, *v1 = v0 + 3, *v2 = v0 + 6;
-  struct vector a = load_vector(v0), f = minus(load_vector(v2), a), p = cross(ray->direction, f);
-  struct vector e = minus(load_vector(v1), a);
-  float determinant = dot(e, p);
-  int32_t size_bits = magnitude(determinant), sign = float_bits(determinant) & SIGN_BIT;
-  if (size_bits < LEAST_DETERMINANT_BITS)
-    return false;
-  struct vector s = minus(ray->origin, a);
-
-  /* 0 <= u <= 1 and 0 <= v <= 1 - u, all times |determinant|; a zero of either sign is inside. */
-  float u = bits_float(float_bits(dot(s, p)) ^ sign);
-  if ((uint32_t)float_bits(u) > (uint32_t)SIGN_BIT || float_bits(u) > size_bits)
-    return false;
-  struct vector q = cross(s, e);
-  float v = bits_float(float_bits(dot(ray->direction, q)) ^ sign);
-  if ((uint32_t)float_bits(v) > (uint32_t)SIGN_BIT || float_bits(u + v) > size_bits)
-    return false;
-  return accept_hit(triangle, any, dot(f, q), determinant, bits_float(float_bits(u) ^ sign),
-                    bits_float(float_bits(v) ^ sign), hit);
-}
-
-#else
-#error "TRAX_TRIANGLE is none of the methods above"
-#endif
 
 #endif

@@ -1,26 +1,34 @@
 #include "compare.h"
 
+#include "figures.h"
 #include "hits.h"
-#include "measure.h"
 #include "ray_trace.h"
 #include "steps.h"
+#include "trax/output.h"
 #include "trax/signals.h"
 
 #include <stdio.h>
 
-trax_status run_on_host(struct trax_picture *picture, bool reference, unsigned threads, const struct trax_frame *frame,
-                        trax_progress_line *progress, struct live *live, bool quiet, trax_error *error) {
-  struct step step = {.line = progress, .name = reference ? "reference" : "native twin", .live = live};
-  struct trax_render_run run = {.progress = show_step, .progress_context = &step, .interrupt = &trax_signal};
+trax_status run_on_host(struct trax_picture *picture, enum engine engine, const struct options *options,
+                        const struct trax_frame *frame, trax_progress_line *progress, struct live *live,
+                        trax_error *error) {
+  static const char *const names[] = {
+      [ENGINE_NATIVE] = "native twin", [ENGINE_EMBREE] = "Embree", [ENGINE_EXACT] = "exact picture"};
+  struct step step = {.line = progress, .name = names[engine], .live = live};
+  struct trax_render_run run = {.progress = show_step,
+                                .progress_context = &step,
+                                .interrupt = &trax_signal,
+                                .layers = options->layers,
+                                .exactly = engine == ENGINE_EXACT};
   step.run = &run;
-  live_begin(live, frame, NULL);
+  live_begin(live, frame);
   double begun = trax_seconds();
-  trax_status status = reference ? trax_render_embree(picture, frame, &run, error)
-                                 : trax_render_twin(picture, frame, threads, &run, error);
+  trax_status status = engine == ENGINE_NATIVE ? trax_render_twin(picture, frame, options->threads, &run, error)
+                                               : trax_render_embree(picture, frame, &run, error);
   trax_progress_line_clear(progress);
   if (status == TRAX_OK)
     status = live_end(live, picture, error);
-  if (status == TRAX_OK && !quiet)
+  if (status == TRAX_OK && !options->quiet)
     printf("rays        %llu in %.3f s on this computer\n", (unsigned long long)run.rays, trax_seconds() - begun);
   return status;
 }
@@ -71,7 +79,7 @@ static trax_status compare_hits(const struct trax_frame *frame, trax_progress_li
          (unsigned long long)difference.tied, (unsigned long long)beyond, (unsigned long long)difference.holes);
   if (beyond)
     printf(": (%u, %u)", difference.x, difference.y);
-  printf("\nEmbree      %llu pixels hit the triangle that Embree hits\n", (unsigned long long)embree);
+  printf("\n            %llu pixels hit the triangle that Embree hits\n", (unsigned long long)embree);
   *agrees = *agrees && beyond == 0;
   return TRAX_OK;
 }
@@ -87,14 +95,18 @@ trax_status measure_hits(const char *path, const struct trax_frame *frame, trax_
       {"pixels", (double)difference.pixels}, {"nearest", (double)difference.same},
       {"tied", (double)difference.tied},     {"beyond", (double)(difference.holes + difference.wrong)},
       {"holes", (double)difference.holes},   {"embree", (double)embree}};
-  return write_figures(path, figures, sizeof figures / sizeof *figures, error);
+  trax_output output;
+  if (trax_output_open(&output, path, error) != TRAX_OK)
+    return TRAX_ERROR;
+  figures_print(output.file, figures, sizeof figures / sizeof *figures);
+  return trax_output_commit(&output, error); /* which notices what could not be written */
 }
 
 trax_status write_hits(const struct options *options, const struct trax_frame *frame, trax_progress_line *progress,
                        trax_error *error) {
   struct trax_hits hits = {0};
   struct trax_picture picture = {0};
-  trax_status status = find_hits(&hits, options->engine == ENGINE_EMBREE ? BY_EMBREE : BY_TWIN, true, options->threads,
+  trax_status status = find_hits(&hits, options->engine >= ENGINE_EMBREE ? BY_EMBREE : BY_TWIN, true, options->threads,
                                  frame, progress, error);
   if (status == TRAX_OK)
     status = trax_hits_picture(&picture, &hits, frame, error);
@@ -107,17 +119,20 @@ trax_status write_hits(const struct options *options, const struct trax_frame *f
   return status;
 }
 
-trax_status compare(const struct trax_picture *picture, const struct trax_frame *frame, trax_progress_line *progress,
-                    bool *agrees, trax_error *error) {
+trax_status compare(const struct trax_picture *picture, const struct options *options, const struct trax_frame *frame,
+                    trax_progress_line *progress, bool *agrees, trax_error *error) {
   struct trax_picture other = {0};
   struct trax_difference difference;
-  trax_status status = run_on_host(&other, true, 0, frame, progress, NULL, true, error);
+  struct options quietly = *options;
+  quietly.quiet = true;
+  quietly.layers = false;
+  trax_status status = run_on_host(&other, ENGINE_EMBREE, &quietly, frame, progress, NULL, error);
   if (status != TRAX_OK)
     return status;
   trax_picture_compare(&difference, picture, &other, 2);
   const double light = trax_picture_light(picture), other_light = trax_picture_light(&other);
   trax_picture_release(&other);
-  printf("reference   %.4f %% of the pixels within 2/255, largest difference %u at (%u, %u)\n",
+  printf("Embree      %.4f %% of the pixels within 2/255, largest difference %u at (%u, %u)\n",
          trax_difference_percent(&difference), difference.largest, difference.x, difference.y);
   const double percent = trax_difference_floats_percent(&difference);
   if (difference.floats)
@@ -130,11 +145,11 @@ trax_status compare(const struct trax_picture *picture, const struct trax_frame 
     *agrees = percent >= 99 && deviation > -0.2 && deviation < 0.2;
   }
 
-  if (frame->method.fast_math) {
+  if (frame->fast_math) {
     printf("twin        not compared: it is strict, the program is not\n");
     return TRAX_OK;
   }
-  status = run_on_host(&other, false, 0, frame, progress, NULL, true, error);
+  status = run_on_host(&other, ENGINE_NATIVE, &quietly, frame, progress, NULL, error);
   if (status != TRAX_OK)
     return status;
   trax_picture_compare(&difference, picture, &other, 0);
@@ -145,8 +160,7 @@ trax_status compare(const struct trax_picture *picture, const struct trax_frame 
     printf("twin        %llu pixels differ, by %u at (%u, %u) and less elsewhere\n",
            (unsigned long long)difference.unequal, difference.largest, difference.x, difference.y);
   *agrees = *agrees && difference.unequal == 0;
-  /* The error bounds are the watertight test's. */
-  return frame->method.triangle == TRAX_TRIANGLE_WATERTIGHT ? compare_hits(frame, progress, agrees, error) : TRAX_OK;
+  return compare_hits(frame, progress, agrees, error);
 }
 
 trax_status trace_rays(const struct options *options, const struct trax_frame *frame,

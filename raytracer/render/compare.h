@@ -5,13 +5,14 @@
 #include "live.h"
 #include "trax/progress.h"
 
-/* The picture by Embree, the reference, or by the native twin; live may be NULL. */
-trax_status run_on_host(struct trax_picture *picture, bool reference, unsigned threads, const struct trax_frame *frame,
-                        trax_progress_line *progress, struct live *live, bool quiet, trax_error *error);
+/* The picture by one of the engines of this computer; live may be NULL. */
+trax_status run_on_host(struct trax_picture *picture, enum engine engine, const struct options *options,
+                        const struct trax_frame *frame, trax_progress_line *progress, struct live *live,
+                        trax_error *error);
 
 /* --compare. *agrees: all comparisons came out well. */
-trax_status compare(const struct trax_picture *picture, const struct trax_frame *frame, trax_progress_line *progress,
-                    bool *agrees, trax_error *error);
+trax_status compare(const struct trax_picture *picture, const struct options *options, const struct trax_frame *frame,
+                    trax_progress_line *progress, bool *agrees, trax_error *error);
 
 /* --hits: what --compare says of hits, as JSON. */
 trax_status measure_hits(const char *path, const struct trax_frame *frame, trax_progress_line *progress,

@@ -1,5 +1,6 @@
 /* trax-compare: do two pictures agree? */
-#include "render.h"
+#include "figures.h"
+#include "layers.h"
 #include "trax/message.h"
 #include "trax/options.h"
 #include "trax/output.h"
@@ -10,7 +11,7 @@
 struct arguments {
   unsigned within;
   double at_least;
-  bool quiet;
+  bool json, quiet;
 };
 
 /* From 0 to the row's `most`. */
@@ -25,17 +26,20 @@ static trax_status take_number(void *target, const trax_option *option, const ch
 
 #define FIELD(member) TRAX_OPTION_FIELD(struct arguments, member)
 
-static const trax_option rows[] = {TRAX_OPTION_GROUP("What agrees"),
-                                   {"within", .argument = "N", FIELD(within), .most = 255,
-                                    .meaning = "differences up to N of 255 count as agreement (default 0)"},
-                                   {"at-least", .argument = "P", .parse = take_number,
-                                    .offset = offsetof(struct arguments, at_least), .most = 100,
-                                    .meaning = "per cent of the pixels that must agree (default 100)"},
-                                   TRAX_OPTION_GROUP("Other"),
-                                   {"quiet", 'q', FIELD(quiet), .meaning = "prints errors only"},
-                                   TRAX_OPTION_HELP('h'),
-                                   TRAX_OPTION_VERSION,
-                                   {0}};
+static const trax_option rows[] = {
+    TRAX_OPTION_GROUP("What agrees"),
+    {"within", .argument = "N", FIELD(within), .most = 255,
+     .meaning = "differences up to N of 255 count as agreement (default 0)"},
+    {"at-least", .argument = "P", .parse = take_number, .offset = offsetof(struct arguments, at_least), .most = 100,
+     .meaning = "per cent of the pixels that must agree (default 100)"},
+    TRAX_OPTION_GROUP("Other"),
+    {"json", FIELD(json),
+     .meaning = "prints all figures as JSON, also those of layers (trax-render --layers) of A\n"
+                "against the right ones, B's"},
+    {"quiet", 'q', FIELD(quiet), .meaning = "prints errors only"},
+    TRAX_OPTION_HELP('h'),
+    TRAX_OPTION_VERSION,
+    {0}};
 
 static const trax_command command = {.name = "trax-compare",
                                      .synopsis = "[options] A B",
@@ -55,6 +59,29 @@ static int fail(const char *message) {
   return 1;
 }
 
+static void print_json(const struct trax_difference *difference, const struct trax_layers_difference *layers) {
+  struct figure figures[16] = {{"pixels", (double)difference->pixels},
+                               {"differ", (double)difference->unequal},
+                               {"beyond", (double)difference->beyond},
+                               {"largest", difference->largest},
+                               {"rmse", difference->rmse}};
+  size_t count = 5;
+  if (difference->floats) {
+    figures[count++] = (struct figure){"floats_largest", difference->most};
+    figures[count++] = (struct figure){"floats_rmse", difference->root_rmse};
+    figures[count++] = (struct figure){"floats_not_finite", (double)difference->not_finite};
+  }
+  if (layers) {
+    figures[count++] = (struct figure){"wrong_pixels", (double)layers->wrong};
+    figures[count++] = (struct figure){"missed", (double)layers->missed};
+    figures[count++] = (struct figure){"grown", (double)layers->grown};
+    figures[count++] = (struct figure){"other", (double)layers->other};
+    figures[count++] = (struct figure){"tied", (double)layers->tied};
+    figures[count++] = (struct figure){"wrong_shadows", (double)layers->shadow};
+  }
+  figures_print(stdout, figures, count);
+}
+
 static int compare(const char *path_a, const char *path_b, const struct arguments *arguments) {
   struct trax_picture a, b = {0};
   trax_error error;
@@ -62,6 +89,7 @@ static int compare(const char *path_a, const char *path_b, const struct argument
     return fail(error.message);
   int exit_status = 1;
   struct trax_difference difference;
+  struct trax_layers_difference layers;
   if (trax_picture_read(&b, path_b, &error)) {
     fail(error.message);
   } else if (a.width != b.width || a.height != b.height) {
@@ -71,7 +99,11 @@ static int compare(const char *path_a, const char *path_b, const struct argument
     trax_picture_compare(&difference, &a, &b, arguments->within);
     const double percent = trax_difference_percent(&difference);
     const double floats_percent = trax_difference_floats_percent(&difference);
-    if (!arguments->quiet) {
+    if (a.layers && b.layers)
+      trax_layers_compare(&layers, &a, &b);
+    if (arguments->json)
+      print_json(&difference, a.layers && b.layers ? &layers : NULL);
+    else if (!arguments->quiet) {
       printf("%.4f %% of %llu pixels within %u/255, %llu differ", percent, (unsigned long long)difference.pixels,
              arguments->within, (unsigned long long)difference.unequal);
       if (difference.unequal)

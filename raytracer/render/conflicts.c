@@ -1,11 +1,13 @@
 /* Which of trax-render's options exclude or need each other. */
 #include "options.h"
 
+#include "trax/output.h"
+
 /* The sampler's numbers have 16 bits (device/sampler.h). */
 #define MOST_OCCLUSION_POINTS (1u << 16)
 
 bool options_rendered(const struct options *options) {
-  return options->output || options->show || options->progress_png || options->prepare || options->keep ||
+  return options->output || options->progress_png || options->prepare || options->keep ||
          options->stats || options->compare || options->cost_picture || options->cost_values ||
          trax_explain_wanted(&options->explain);
 }
@@ -14,25 +16,27 @@ trax_status options_check(const struct options *options, trax_error *error) {
   if (options->mesh_count == 0)
     return trax_fail(error, "no mesh given; trax-render --help shows how");
   if (options->prepare &&
-      (options->output || options->stats || options->compare || options->error || options->hits ||
-       options->id_picture || options->ray_trace || options->cost_picture || options->cost_values || trax_explain_wanted(&options->explain)))
+      (options->output || options->stats || options->compare || options->hits || options->id_picture ||
+       options->ray_trace || options->cost_picture || options->cost_values || trax_explain_wanted(&options->explain)))
     return trax_fail(error, "--prepare renders nothing, so there is nothing to write, explain or compare");
-  if (options->prepare && (options->show || options->progress_png))
+  if (options->prepare && options->progress_png)
     return trax_fail(error, "--prepare renders nothing, so there is nothing to show");
   if (!options_rendered(options) &&
-      !(options->error || options->hits || options->ray_trace || options->id_picture || options->write_view))
+      !(options->hits || options->ray_trace || options->id_picture || options->write_view))
     return trax_fail(error,
                      "no picture given: -o PICTURE.png, or another output (--explore, --stats, --cost-picture, ...)");
   if (options->frames > 1 && !options->output)
     return trax_fail(error, "--frames needs -o PICTURE.png: each picture has its number in the name");
-  if (options->error && (options->engine > ENGINE_REFERENCE || options->program || options->no_specialise))
-    return trax_fail(error, "--error is about the program that is compiled for the picture, on the emulator");
-  if (options->converged && !options->error)
-    return trax_fail(error, "--converged is for --error");
-  if ((options->error || options->hits) && (options->frames > 1 || options->sampled))
-    return trax_fail(error, "--error and --hits are about one whole picture");
-  if (options->hits && options->frame.method.triangle != TRAX_TRIANGLE_WATERTIGHT)
-    return trax_fail(error, "--hits: its error bounds are those of the watertight test");
+  if (options->hits && (options->frames > 1 || options->sampled))
+    return trax_fail(error, "--hits is about one whole picture");
+  if (options->layers && !(options->output && trax_output_has_ending(options->output, "exr")))
+    return trax_fail(error, "--layers needs -o FILE.exr");
+  if (options->layers && options->engine <= ENGINE_REFERENCE &&
+      (options->program || options->no_specialise || options->sampled || options->stats || options->keep ||
+       options->compare || options->cost_picture || options->cost_values || options->progress_png ||
+       trax_explain_wanted(&options->explain)))
+    return trax_fail(error, "--layers is of a program that records, and has no run time: nothing else can be told of "
+                            "its run, and neither --program nor --no-specialise has one");
   const trax_slot_sampling *sampling = &options->sampling;
   if (!options->sampled &&
       (sampling->fraction > 0 || sampling->error > 0 || sampling->seed || sampling->unit || sampling->warm_up))
@@ -46,9 +50,15 @@ trax_status options_check(const struct options *options, trax_error *error) {
     return trax_fail(error, "--sampled leaves out most of the run: there is nothing to compare, explain or prepare");
   if (options->sampled && options->source)
     return trax_fail(error, "--sampled: of another --source the native twin's picture would be another one");
-  if (options->sampled && options->frame.method.fast_math)
-    return trax_fail(error, "--sampled: with --fast-math the native twin's picture would be another one");
+  if (options->frame.fast_math && (options->sampled || options->ray_trace))
+    return trax_fail(error, "--fast-math: its picture and rays are not the native twin's, which --sampled and "
+                            "--ray-trace are about");
+  if (options->frame.fast_math && (options->no_specialise || options->program))
+    return trax_fail(error, "--fast-math needs a program compiled for the picture; %s asks for another",
+                     options->program ? "--program" : "--no-specialise");
   if (options->engine > ENGINE_REFERENCE) {
+    if (options->frame.fast_math)
+      return trax_fail(error, "--fast-math needs the emulator: it is about the program that is compiled for it");
     if (options->stats)
       return trax_fail(error, "--stats needs the emulator: the other engines have no machine to tell about");
     if (options->cost_picture || options->cost_values || trax_explain_wanted(&options->explain))
@@ -59,23 +69,12 @@ trax_status options_check(const struct options *options, trax_error *error) {
       return trax_fail(error, "--queues needs the emulator: other engines have no TMs");
     if (options->cache || options->source || options->no_specialise)
       return trax_fail(error, "--cache, --source and --no-specialise need the emulator");
-    if (options->frame.method.fast_math)
-      return trax_fail(error, "--fast-math needs the emulator: it is about the program that is compiled for it");
     if (options->frame.mark_rays)
       return trax_fail(error, "--mark-rays needs the emulator: it is about the program that is compiled for it");
-    if (options->frame.method.triangle != TRAX_TRIANGLE_WATERTIGHT && options->engine == ENGINE_EMBREE)
-      return trax_fail(error, "--triangle: engine embree has a test of its own");
   }
   if (options->choose_queues && (options->no_specialise || options->program))
     return trax_fail(error, "--queues needs a program compiled for the picture; %s asks for another",
                      options->program ? "--program" : "--no-specialise");
-  const struct trax_method *method = &options->frame.method;
-  if (method->triangle != TRAX_TRIANGLE_WATERTIGHT || method->fast_math) {
-    const char *name = method->fast_math ? "--fast-math" : "--triangle";
-    if (options->no_specialise || options->program)
-      return trax_fail(error, "%s needs a program compiled for the picture; %s asks for another", name,
-                       options->program ? "--program" : "--no-specialise");
-  }
   if (options->frame.mark_rays && (options->no_specialise || options->program))
     return trax_fail(error, "--mark-rays needs a program compiled for the picture; %s asks for another",
                      options->program ? "--program" : "--no-specialise");
@@ -83,23 +82,19 @@ trax_status options_check(const struct options *options, trax_error *error) {
     return trax_fail(error, "--cache and --source are about the specialised program; --no-specialise asks for none");
   if (options->program && (options->cache || options->source))
     return trax_fail(error, "--cache and --source are about the specialised program; --program asks for another");
-  if (options->cost && !options->cost_picture && !options->cost_values && !options->show)
-    return trax_fail(error, "--cost without --cost-picture, --cost-values or --show");
+  if (options->cost && !options->cost_picture && !options->cost_values)
+    return trax_fail(error, "--cost without --cost-picture or --cost-values");
   if (options->explain.source_folder_count && !options->explain.explore)
     return trax_fail(error, "--source-folder without --explore");
-  if (options->explain.memory_trace_format && !options->explain.memory_trace)
-    return trax_fail(error, "--memory-trace-format without --memory-trace");
   if (options->frames > 1 && (options->stats || options->keep || options->cost_picture || options->cost_values ||
                               options->compare || options->id_picture || options->ray_trace ||
                               trax_explain_wanted(&options->explain)))
     return trax_fail(error, "--frames makes pictures only: --stats, --keep, --compare and the like are for one");
-  if (options->ray_trace && options->engine == ENGINE_EMBREE)
-    return trax_fail(error, "--ray-trace: the rays are the device program's, which engine embree does not run");
-  if (options->ray_trace && (options->program || options->source || options->frame.method.fast_math))
+  if (options->ray_trace && options->engine >= ENGINE_EMBREE)
+    return trax_fail(error, "--ray-trace: the rays are the device program's, which Embree does not run");
+  if (options->ray_trace && (options->program || options->source))
     return trax_fail(error, "--ray-trace: the rays are the native twin's; with %s the program is another one",
-                     options->program  ? "--program"
-                     : options->source ? "--source"
-                                       : "--fast-math");
+                     options->program ? "--program" : "--source");
   if (options->frame.seed && !options->frame.paths && !options->frame.occlusion)
     return trax_fail(error, "--seed is for --paths and --occlusion: nothing else is random");
   if (options->frame.occlusion && options->frame.paths)

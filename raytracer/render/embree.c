@@ -71,17 +71,16 @@ struct double3 embree_start(const struct embree *embree, const struct trax_trian
 
 /* The light through a place of a pixel. What the rays meet goes to *seen. */
 static struct double3 trace_sample(const struct embree *embree, struct pixel pixel, struct place place,
-                                   struct trax_exact_sample *seen, uint64_t *rays) {
+                                   struct trax_layers *seen, uint64_t *rays) {
   const struct trax_render_params *params = embree->frame->params;
   struct vector camera = camera_direction(params, pixel, place);
   struct double3 direction = {camera.x, camera.y, camera.z};
   struct exact_hit hit;
-  *seen = (struct trax_exact_sample){.triangle = TRAX_NO_TRIANGLE, .shadow = TRAX_SHADOW_NOT_ASKED};
+  *seen = (struct trax_layers){.triangle = TRAX_NO_TRIANGLE, .shadow = TRAX_SHADOW_NOT_ASKED};
   ++*rays;
   if (!embree_hit(embree, from(params->eye), direction, &hit))
     return squares(params->background);
   seen->triangle = hit.triangle;
-  seen->distance = hit.distance;
 
   const struct trax_triangle *triangle = &embree->frame->scene->triangles[hit.triangle];
   struct double3 v0 = from(triangle->v0), e = minus(from(triangle->v1), v0), f = minus(from(triangle->v2), v0);
@@ -121,7 +120,7 @@ static void embree_pixel(struct embree *embree, uint32_t x, uint32_t y, uint64_t
   const struct trax_render_params *params = embree->frame->params;
   const size_t index = (size_t)y * params->width + x;
   const bool path = params->features & TRAX_PATH_FEATURES;
-  struct trax_exact_sample seen;
+  struct trax_layers seen;
   struct double3 sum = {0, 0, 0};
   if (embree->hits) {
     const struct vector camera = camera_direction(params, pixel_at(x, y), PIXEL_MIDDLE);
@@ -139,19 +138,15 @@ static void embree_pixel(struct embree *embree, uint32_t x, uint32_t y, uint64_t
     if (path)
       light = (struct double3){fmin(light.x, MOST_LIGHT), fmin(light.y, MOST_LIGHT), fmin(light.z, MOST_LIGHT)};
     sum = plus_scaled(sum, 1.0 / params->samples, light);
-    if (embree->exact && embree->exact->seen)
-      embree->exact->seen[index * params->samples + sample] = seen;
+    if (embree->picture->layers && sample == 0)
+      embree->picture->layers[index] = seen;
   }
-  if (embree->picture && embree->picture->radiance)
+  if (embree->picture->radiance)
     for (int channel = 0; channel < 3; channel++)
-      embree->picture->radiance[3 * index + channel] = (float)(&sum.x)[channel];
+      embree->picture->radiance[3 * index + channel] = (float)((&sum.x)[channel] / (path ? 1 : 65025));
   if (path) /* bounded by 1, in squared pixel values */
     sum = (struct double3){65025 * fmin(sum.x, 1), 65025 * fmin(sum.y, 1), 65025 * fmin(sum.z, 1)};
-  const struct double3 channels = root(sum);
-  if (embree->exact)
-    memcpy(&embree->exact->channels[3 * index], &channels, sizeof channels);
-  else
-    embree->picture->pixels[index] = pixel_of(channels);
+  embree->picture->pixels[index] = pixel_of(root(sum));
 }
 
 static void *render_rows(void *argument) {
@@ -258,7 +253,9 @@ trax_status trax_render_embree(struct trax_picture *picture, const struct trax_f
     return trax_fail(error, "out of memory for a picture of %u x %u", frame->params->width, frame->params->height);
   }
   struct embree embree = {.frame = frame, .picture = picture, .run = run, .lock = PTHREAD_MUTEX_INITIALIZER};
-  embree.exactly = embree_needs(&embree, TRAX_FEATURE_EXACT); /* as the program's hits are */
+  embree.exactly = run->exactly || embree_needs(&embree, TRAX_FEATURE_EXACT); /* as the program's hits are */
+  if (run->layers && trax_layers_init(picture, frame, error) != TRAX_OK)
+    return TRAX_ERROR;
   status = run_embree(&embree, error);
   if (status != TRAX_OK)
     trax_picture_release(picture);
@@ -288,28 +285,4 @@ trax_status trax_hits_embree(struct trax_hits *hits, const struct trax_frame *fr
 trax_status trax_hits_exact(struct trax_hits *hits, const struct trax_frame *frame, struct trax_render_run *run,
                             trax_error *error) {
   return find_hits(hits, frame, true, run, error);
-}
-
-trax_status trax_render_exact(struct trax_exact *exact, const struct trax_frame *frame, bool seen,
-                              struct trax_render_run *run, trax_error *error) {
-  const struct trax_render_params *params = frame->params;
-  const size_t pixels = (size_t)params->width * params->height;
-  *exact = (struct trax_exact){.width = params->width, .height = params->height, .samples = params->samples};
-  exact->channels = malloc(3 * pixels * sizeof *exact->channels);
-  exact->seen = seen ? malloc(pixels * params->samples * sizeof *exact->seen) : NULL;
-  struct embree embree = {
-      .frame = frame, .exact = exact, .exactly = true, .run = run, .lock = PTHREAD_MUTEX_INITIALIZER};
-  const trax_status status = !exact->channels || (seen && !exact->seen)
-                                 ? trax_fail(error, "out of memory for a reference of %u x %u pixels and %u samples",
-                                             params->width, params->height, params->samples)
-                                 : run_embree(&embree, error);
-  if (status != TRAX_OK)
-    trax_exact_release(exact);
-  return status;
-}
-
-void trax_exact_release(struct trax_exact *exact) {
-  free(exact->channels);
-  free(exact->seen);
-  *exact = (struct trax_exact){0};
 }

@@ -4,6 +4,7 @@
 
 #include "exact.h"
 #include "hits.h"
+#include "layers.h"
 #include "render.h"
 
 #include "../device/camera.h"
@@ -19,9 +20,8 @@ struct embree_emitter {
 struct embree {
   RTCScene scene;
   const struct trax_frame *frame;
-  struct trax_picture *picture; /* to fill, or else one of the next two */
-  struct trax_exact *exact;
-  struct trax_hits *hits; /* of one ray a pixel, and nothing is shaded */
+  struct trax_picture *picture; /* to fill, or else: */
+  struct trax_hits *hits;       /* of one ray a pixel, and nothing is shaded */
   bool exactly;           /* hits are those of exact.h, else Embree's own */
   struct trax_light lights[TRAX_VIEW_MAX_LIGHTS]; /* those that shine */
   uint32_t light_count;
@@ -55,7 +55,7 @@ static inline bool embree_needs(const struct embree *embree, enum trax_feature f
 
 /* embree_path.c: the light of one sample, linear, of a picture with one of TRAX_PATH_FEATURES. */
 struct double3 embree_path(const struct embree *embree, struct pixel pixel, uint32_t sample,
-                           struct trax_exact_sample *seen, uint64_t *rays);
+                           struct trax_layers *seen, uint64_t *rays);
 
 /* embree_light.c: where the light comes from. */
 struct embree_arrival {

@@ -341,7 +341,7 @@ static double share_of_emission(const struct sample *sample, const struct surfac
 }
 
 struct double3 embree_path(const struct embree *embree, struct pixel pixel, uint32_t number,
-                           struct trax_exact_sample *seen, uint64_t *rays) {
+                           struct trax_layers *seen, uint64_t *rays) {
   const struct trax_render_params *params = embree->frame->params;
   struct sample sample = {.embree = embree,
                           .params = params,
@@ -356,7 +356,7 @@ struct double3 embree_path(const struct embree *embree, struct pixel pixel, uint
   struct double3 light = {0, 0, 0}, weight = {1, 1, 1};
   struct surface scatterer = {0};
   double density = 0; /* of the direction in solid angle; 0: there was no choice */
-  *seen = (struct trax_exact_sample){.triangle = TRAX_NO_TRIANGLE, .shadow = TRAX_SHADOW_NOT_ASKED};
+  *seen = (struct trax_layers){.triangle = TRAX_NO_TRIANGLE, .shadow = TRAX_SHADOW_NOT_ASKED};
 
   for (;; sample.depth++) {
     struct surface surface;
@@ -364,7 +364,7 @@ struct double3 embree_path(const struct embree *embree, struct pixel pixel, uint
     if (!find_surface(&surface, &sample, origin, direction, &distance))
       return plus_scaled(light, 1, times(weight, from(sample.path->background)));
     if (sample.depth == 0)
-      seen->triangle = surface.hit.triangle, seen->distance = distance;
+      seen->triangle = surface.hit.triangle;
 
     const struct trax_material *material = surface.material;
     if (largest_of(from(material->emission)) > 0) {

@@ -1,5 +1,7 @@
 #include "emulated.h"
 
+#include "installation.h"
+#include "layers.h"
 #include "prepare.h"
 #include "sampled.h"
 #include "steps.h"
@@ -9,31 +11,8 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #define DEFAULT_FRACTION 0.05 /* of the work, with --sampled */
-
-bool installation(char root[TRAX_PATH_SIZE]) {
-  char self[TRAX_PATH_SIZE - 4];
-  ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
-  if (length <= 0)
-    return false;
-  self[length] = '\0';
-  *strrchr(self, '/') = '\0';
-  char resolved[TRAX_PATH_SIZE];
-  snprintf(resolved, sizeof resolved, "%s/..", self);
-  return realpath(resolved, root) != NULL;
-}
-
-/* --- the program --- */
-
-bool installed_file(char path[TRAX_PATH_SIZE], const char *folder, const char *name, const char *suffix) {
-  char root[TRAX_PATH_SIZE];
-  if (!installation(root))
-    return false;
-  int written = snprintf(path, TRAX_PATH_SIZE, "%s/%s/%s%s", root, folder, name, suffix);
-  return written > 0 && written < TRAX_PATH_SIZE && access(path, R_OK) == 0;
-}
 
 static trax_status general_program(struct trax_program *program, const struct options *options,
                                    const struct trax_frame *frame, trax_error *error) {
@@ -71,7 +50,8 @@ static trax_status find_program(struct trax_program *program, const struct optio
                                                .icache_bytes = chosen->icache_bytes,
                                                .queues = chosen->queues,
                                                .interrupt = interrupt,
-                                               .transient = options->frames > 1};
+                                               .transient = options->frames > 1,
+                                               .record = options->layers};
   if (!installation(root))
     return trax_fail(error, "the place of trax-render itself is not known: %s", strerror(errno));
   program->specialised = false;
@@ -88,15 +68,21 @@ static trax_status find_program(struct trax_program *program, const struct optio
 
 /* --- the machine --- */
 
-trax_status emulated_config(trax_config *config, const struct options *options, const struct trax_frame *frame,
-                            uint64_t more_bytes, trax_error *error) {
+/* A program that records has its stacks in global memory. */
+#define RECORDING_STACK (64ull << 10)
+#define MOST_THREADS 4096
+
+static trax_status emulated_config(trax_config *config, const struct options *options, const struct trax_frame *frame,
+                                   trax_error *error) {
   trax_status status = trax_config_load(config, options->config ? options->config : "4x32", error);
   if (status != TRAX_OK)
     return status;
   /* The machine's memory grows with what is rendered, unless it is set. */
-  uint64_t bytes = more_bytes;
+  uint64_t bytes = 0;
   if (frame)
     bytes += frame->scene->size + frame->params_size + trax_frame_image_bytes(frame);
+  if (frame && options->layers)
+    bytes += trax_record_bytes(frame->params) + MOST_THREADS * RECORDING_STACK;
   uint64_t mib = (bytes >> 20) + 3; /* the rest is for the program and the buffers' guards */
   if (mib > 1024) {
     char text[32];
@@ -112,7 +98,7 @@ static trax_status choose(struct chosen *chosen, const struct options *options, 
                           trax_error *error) {
   trax_config *config = trax_config_create();
   const trax_status status =
-      config ? emulated_config(config, options, frame, 0, error) : trax_fail(error, "out of memory");
+      config ? emulated_config(config, options, frame, error) : trax_fail(error, "out of memory");
   if (status == TRAX_OK)
     *chosen = (struct chosen){options->queues ? options->queues : (unsigned)trax_config_get(config, "chip.tms"),
                               (uint32_t)trax_config_get(config, "icache.bytes")};
@@ -123,8 +109,7 @@ static trax_status choose(struct chosen *chosen, const struct options *options, 
 trax_status emulated_cache_lines(unsigned *lines, const struct options *options, trax_error *error) {
   enum { LINE_BYTES = 64, MOST_LINES = 4096 };
   trax_config *config = trax_config_create();
-  const trax_status status =
-      config ? emulated_config(config, options, NULL, 0, error) : trax_fail(error, "out of memory");
+  const trax_status status = config ? emulated_config(config, options, NULL, error) : trax_fail(error, "out of memory");
   if (status == TRAX_OK) {
     const uint32_t count = (uint32_t)trax_config_get(config, "dcache.bytes") / LINE_BYTES;
     *lines = count < 1 ? 1 : count < MOST_LINES ? count : MOST_LINES;
@@ -216,6 +201,11 @@ static void print_note(const char *text) {
   trax_message("trax-render", TRAX_MESSAGE_NOTE, "%s", text);
 }
 
+/* A program that records takes more cycles: nobody is told them. */
+static const char *engine_of(const struct options *options) {
+  return options->layers ? "functional" : options->engine == ENGINE_REFERENCE ? "reference" : "fast";
+}
+
 /* One picture by one program. */
 static trax_status run_program(struct trax_picture *picture, const struct options *options,
                                const struct trax_frame *frame, const struct trax_view *view,
@@ -225,7 +215,7 @@ static trax_status run_program(struct trax_picture *picture, const struct option
   if (trax_files_check_input(options->import.files, program->path, error) != TRAX_OK)
     return TRAX_ERROR;
   trax_config *config = trax_config_create();
-  trax_status status = config ? emulated_config(config, options, frame, 0, error) : trax_fail(error, "out of memory");
+  trax_status status = config ? emulated_config(config, options, frame, error) : trax_fail(error, "out of memory");
   trax_machine *machine = status == TRAX_OK ? trax_machine_create(config, error) : NULL;
   if (status == TRAX_OK)
     status = machine ? trax_simulated_load(machine, frame, program, error) : TRAX_ERROR;
@@ -239,21 +229,22 @@ static trax_status run_program(struct trax_picture *picture, const struct option
     explain.note = options->quiet ? NULL : print_note;
     struct trax_simulated_options run = {.explain = &explain,
                                          .title = describe(title, sizeof title, options, frame),
+                                         .layers = options->layers,
                                          .is_twin = !options->program && !options->source,
                                          .run = {.output = stderr,
                                                  .total_items = (uint64_t)frame->params->width * frame->params->height,
                                                  .progress = show_run,
                                                  .progress_context = &shown,
                                                  .interrupt = interrupt,
-                                                 .engine = options->engine == ENGINE_REFERENCE ? "reference" : "fast",
+                                                 .engine = engine_of(options),
                                                  .host_threads = options->threads}};
-    if (writes_costs || (live_shows_costs(live) && !options->sampled)) {
+    if (writes_costs) {
       run.costs = &costs;
       status = trax_costs_init(&costs, frame->params->width, frame->params->height,
                                options->cost ? options->cost : "cycles", error);
     }
     struct trax_picture_sampling sampling = {0};
-    live_begin(live, frame, run.costs);
+    live_begin(live, frame);
     if (status == TRAX_OK && options->sampled) {
       status = begin_sampling(&sampling, picture, options, frame, program, machine, progress, live, interrupt, error);
       run.run.slots = &sampling.slots;
@@ -266,7 +257,7 @@ static trax_status run_program(struct trax_picture *picture, const struct option
     trax_progress_line_clear(progress);
     if (status == TRAX_FAULT)
       trax_machine_print_fault(machine, stderr);
-    if (status == TRAX_OK && !options->quiet)
+    if (status == TRAX_OK && !options->quiet && !options->layers)
       print_machine(machine, doubt);
     if (status == TRAX_OK && options->stats)
       status = trax_stats_write_json(machine, options->stats, error);

@@ -1,6 +1,5 @@
 /* The device program's parameters: camera, light, palette, the order of pixels, the margin of boxes. */
 #include "lighting.h"
-#include "reach.h"
 #include "render.h"
 
 #include <math.h>
@@ -182,40 +181,6 @@ void trax_frame_set_tiles(struct trax_render_params *params, uint32_t log2_side)
 
 /* --- features --- */
 
-const char *const trax_triangle_names[TRAX_TRIANGLE_METHODS + 1] = {"watertight", "moller-trumbore", NULL};
-
-static uint32_t features_of(const struct trax_frame_options *options, const struct trax_view *view,
-                            const struct trax_scene *scene) {
-  const uint32_t traits = trax_scene_traits(scene);
-  uint32_t features = 0;
-#define SECTION(KIND) 0
-#define TRAX_FEATURE(NAME, TEXT, QUESTION, SECTIONS) features |= (QUESTION) ? 1u << TRAX_FEATURE_##NAME : 0;
-#include "trax/features.def"
-#undef TRAX_FEATURE
-#undef SECTION
-  return features;
-}
-
-const char *trax_feature_name(enum trax_feature feature) {
-  static const char *const names[] = {
-#define TRAX_FEATURE(NAME, TEXT, QUESTION, SECTIONS) TEXT,
-#include "trax/features.def"
-#undef TRAX_FEATURE
-  };
-  return names[feature];
-}
-
-uint32_t trax_feature_sections(uint32_t features) {
-#define SECTION(KIND) (1u << TRAX_SCENE_##KIND)
-  uint32_t sections = SECTION(NODES) | SECTION(TRIANGLES);
-#define TRAX_FEATURE(NAME, TEXT, QUESTION, SECTIONS)                                                                   \
-  if (features >> TRAX_FEATURE_##NAME & 1)                                                                             \
-    sections |= (SECTIONS);
-#include "trax/features.def"
-#undef TRAX_FEATURE
-#undef SECTION
-  return sections;
-}
 
 trax_status trax_frame_init(struct trax_frame *frame, const struct trax_scene *scene, const struct trax_view *view,
                             const struct trax_frame_options *options, trax_error *error) {
@@ -229,7 +194,7 @@ trax_status trax_frame_init(struct trax_frame *frame, const struct trax_scene *s
     return trax_fail(error, "%u samples: there must be 1 to %u", options->samples, TRAX_RENDER_MAX_SAMPLES);
   if (options->paths > TRAX_RENDER_MAX_DEPTH)
     return trax_fail(error, "paths of %u surfaces: there must be %u at most", options->paths, TRAX_RENDER_MAX_DEPTH);
-  const uint32_t features = features_of(options, view, scene);
+  const uint32_t features = trax_features_of(options, view, scene);
   const bool lighting = features & TRAX_PATH_FEATURES;
   size_t size =
       sizeof(struct trax_render_params) + (lighting ? trax_lighting_bytes(scene, view, options)
@@ -239,7 +204,7 @@ trax_status trax_frame_init(struct trax_frame *frame, const struct trax_scene *s
   frame->params_size = (uint32_t)size;
   frame->scene = scene;
   frame->view = *view;
-  frame->method = options->method;
+  frame->fast_math = options->fast_math;
 
   struct trax_render_params *params = frame->params;
   params->width = options->width;

@@ -4,7 +4,7 @@
 
 #include "render.h"
 
-/* What materials in use have, as features.def asks. */
+/* What materials in use have, as features.c asks. */
 enum trax_scene_trait {
   HAS_TEXTURE = 1,
   HAS_HOLES = 2,

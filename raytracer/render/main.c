@@ -3,8 +3,8 @@
 #include "emulated.h"
 #include "files.h"
 #include "inputs.h"
+#include "layers.h"
 #include "live.h"
-#include "measure.h"
 #include "options.h"
 #include "render.h"
 #include "trax/message.h"
@@ -31,14 +31,24 @@ static void print_outputs(const struct options *options, const struct inputs *in
     printf("picture     %s\n", picture);
   if (options->stats)
     printf("statistics  %s\n", options->stats);
-  if (options->error)
-    printf("error       %s\n", options->error);
   if (options->hits)
     printf("hits        %s\n", options->hits);
   if (options->ray_trace)
     printf("rays        %s\n", options->ray_trace);
   if (options->keep)
     printf("inputs      %s\n", options->keep);
+}
+
+/* A picture with layers is that of a program that computes bytes, unless the frame needs a path. */
+static trax_status init_frame(struct trax_frame *frame, const struct options *options, const struct trax_scene *scene,
+                              const struct trax_view *view, trax_error *error) {
+  struct trax_frame_options chosen = options->frame;
+  trax_status status = trax_frame_init(frame, scene, view, &chosen, error);
+  if (status != TRAX_OK || !options->layers || !(frame->params->features & TRAX_PATH_FEATURES))
+    return status;
+  chosen.floats = true;
+  trax_frame_release(frame);
+  return trax_frame_init(frame, scene, view, &chosen, error);
 }
 
 /* One picture. *scaled: the power of two by which the scene was scaled so far. */
@@ -50,19 +60,18 @@ static trax_status render_view(const struct options *options, struct inputs *inp
   int exponent;
   trax_scale_view(view, *scaled);
   trax_status status = trax_normalise(&inputs->scene, view, &exponent, error);
-  if (status == TRAX_OK && options->error)
-    status = measure_error(options, &inputs->scene, view, progress, &trax_signal, error);
   if (status == TRAX_OK) {
     *scaled += exponent;
-    status = trax_frame_init(&frame, &inputs->scene, view, &options->frame, error);
+    status = init_frame(&frame, options, &inputs->scene, view, error);
   }
   if (status == TRAX_OK && options->hits)
     status = measure_hits(options->hits, &frame, progress, error);
   if (status == TRAX_OK && options_rendered(options))
     status = options->engine <= ENGINE_REFERENCE
                  ? emulate(&picture, options, &frame, view, progress, live, &trax_signal, error)
-                 : run_on_host(&picture, options->engine == ENGINE_EMBREE, options->threads, &frame, progress, live,
-                               options->quiet, error);
+                 : run_on_host(&picture, options->engine, options, &frame, progress, live, error);
+  if (status == TRAX_OK && picture.layers)
+    trax_layers_finish(&picture, &frame, *scaled);
   if (status == TRAX_OK && options->ray_trace)
     status = trace_rays(options, &frame, picture.pixels ? &picture : NULL, progress, error);
   if (status == TRAX_OK && output)
@@ -73,7 +82,7 @@ static trax_status render_view(const struct options *options, struct inputs *inp
     status = write_hits(options, &frame, progress, error);
   if (status == TRAX_OK && options->compare) {
     bool same = true;
-    status = compare(&picture, &frame, progress, &same, error);
+    status = compare(&picture, options, &frame, progress, &same, error);
     *agrees = *agrees && same;
   }
   trax_picture_release(&picture);
@@ -128,10 +137,6 @@ int main(int argc, char **argv) {
       status = live_create(&live, &options, &error);
     if (status == TRAX_OK)
       status = render(&options, &progress, live, &agrees, &error);
-    if (status == TRAX_OK && live) {
-      fflush(stdout);
-      live_wait(live, &trax_signal);
-    }
     live_destroy(live);
     trax_files_release(&files);
     trax_progress_line_clear(&progress);

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 
 /* By enum engine. */
-static const char *const engines[] = {"fast", "reference", "native", "embree", NULL};
+static const char *const engines[] = {"fast", "reference", "native", "embree", "exact", NULL};
 
 #define FIELD(member) TRAX_OPTION_FIELD(struct options, member)
 #define PARSED(function, member) .parse = (function), .offset = offsetof(struct options, member)
@@ -26,6 +26,10 @@ static const trax_option rows[] = {
     TRAX_OPTION_GROUP("Picture"),
     {"output", 'o', .argument = "FILE", FIELD(output), WRITTEN,
      .meaning = "the picture: linear floats for .pfm and .exr, a PNG for .png"},
+    {"layers", FIELD(layers),
+     .meaning = "with -o FILE.exr: also the triangle of each pixel (its number in the meshes, from 1), its\n"
+                "distance from the eye (Z), normal (N.X, N.Y, N.Z) and shadow (0 not asked, 1 lit, 2 in\n"
+                "shadow), of the first ray; the emulated program records them, which has no run time"},
     {"size", .argument = "WxH", PARSED(take_size, frame),
      .meaning = "its size in pixels, 1x1 to 16384x16384 (default 1280x720)"},
     {"samples", .argument = "N", NUMBER(frame.samples, 1, TRAX_RENDER_MAX_SAMPLES),
@@ -36,11 +40,9 @@ static const trax_option rows[] = {
     {"id-picture", .argument = "FILE.png", OUTPUT(id_picture, "png"),
      .meaning = "which triangle each pixel shows: its number in the meshes, from 1, as\n"
                 "R + 256 G + 65536 B; found natively, with --engine embree by Embree"},
-    {"show", FIELD(show),
-     .meaning = "opens a window in which the picture arrives; c: what each pixel cost and back, q: close;\n"
-                "an emulated run takes longer, since its costs are counted"},
+    {"show", .instead = "--progress-png FILE.png, and a viewer that loads a changed file again"},
     {"progress-png", .argument = "FILE.png", OUTPUT(progress_png, "png"),
-     .meaning = "writes the picture again and again as it arrives, without a window"},
+     .meaning = "writes the picture again and again as it arrives; missing pixels are squares"},
     TRAX_OPTION_GROUP("View"),
     {"view", .argument = "FILE|NAME", FIELD(view),
      .meaning = "eye, direction, field of view and light: a file, or one that comes with trax;\n"
@@ -104,7 +106,8 @@ static const trax_option rows[] = {
      .meaning = "changes one value of the configuration (trax-sim --help-config lists them)"},
     {"engine", .argument = "WHICH", FIELD(engine), .choices = engines,
      .meaning = "fast (default): the emulator; reference: its reference engine, the same cycles, slowly;\n"
-                "native: the same program compiled for this computer; embree: the reference picture"},
+                "native: the same program compiled for this computer; embree: an independent renderer;\n"
+                "exact: the same with hits without error"},
     {"threads", .argument = "N", NUMBER(threads, 1, 4096),
      .meaning = "host threads of engines fast and native (default: all processors)"},
     TRAX_OPTION_GROUP("What the run took"),
@@ -118,14 +121,13 @@ static const trax_option rows[] = {
                 "it renders nothing"},
     {"memory-trace", .argument = "FILE", OUTPUT(explain.memory_trace, NULL),
      .meaning = "every transfer from and to off-chip memory; CSV for FILE.csv, else binary"},
-    {"memory-trace-format", .argument = "FORMAT", FIELD(explain.memory_trace_format),
-     .choices = trax_memory_trace_formats, .meaning = "its format, as of trax-sim"},
     {"cost-picture", .argument = "FILE.png", OUTPUT(cost_picture, "png"),
      .meaning = "what each pixel cost, in false colours"},
     {"cost-values", .argument = "FILE", OUTPUT(cost_values, "csv pfm"),
      .meaning = "the same in numbers: PFM for FILE.pfm, else CSV"},
     {"cost", .argument = "WHAT", PARSED(take_cost, cost),
      .meaning = "what costs: cycles (default), instructions, or one cause (trax-sim --help-stats)"},
+    {"memory-trace-format", .instead = "--memory-trace FILE.csv, or FILE and memory_trace_for.py of docs/traces.md"},
     {"profile", .instead = "--explore FILE.html, or trax-sim --profile with what --keep writes"},
     {"profile-folded", .instead = "--explore FILE.html, or trax-sim --profile-folded with what --keep writes"},
     {"report", .instead = "run twice with --stats, once with --no-specialise, or trax-eval's sweep lean"},
@@ -137,12 +139,10 @@ static const trax_option rows[] = {
     {"hits", .argument = "FILE.json", OUTPUT(hits, "json"),
      .meaning = "how many pixels hit the nearest triangle, by the native twin, against exact arithmetic and\n"
                 "Embree; alone, it renders nothing"},
-    {"error", .argument = "FILE.json", OUTPUT(error, "json"),
-     .meaning = "how wrong the picture is, by the emulated program, against exact arithmetic and against\n"
-                "1024 samples a pixel; alone, it renders nothing"},
-    {"converged", .argument = "DIR", FIELD(converged), WRITTEN,
-     .meaning = "where --error keeps the picture of 1024 samples, for the next run of this view"},
-    {"bench-accuracy", .instead = "--error measures one picture, and trax-eval's sweep accuracy those of each method"},
+    {"error", .argument = "FILE.json",
+     .instead = "--layers writes what trax-compare --json compares; trax-eval's sweep accuracy does both"},
+    {"converged", .argument = "DIR", .instead = "--engine exact --samples 1024 renders that picture"},
+    {"bench-accuracy", .instead = "trax-eval's sweep accuracy measures errors and run time"},
     TRAX_OPTION_GROUP("Program"),
     {"mark-rays", FIELD(frame.mark_rays),
      .meaning = "compiles the program so that it counts each ray where it begins, for trax-sim --ray-kinds\n"
@@ -157,12 +157,12 @@ static const trax_option rows[] = {
     {"cache", .argument = "DIR", FIELD(cache), WRITTEN,
      .meaning = "where programs compiled for a picture are kept (default: XDG_CACHE_HOME/trax/programs,\n"
                 "or .cache/trax/programs in the home directory)"},
-    {"triangle", .argument = "METHOD", FIELD(frame.method.triangle), .choices = trax_triangle_names,
-     .meaning = "watertight (default) or moller-trumbore, which misses some rays between triangles"},
+    {"triangle", .argument = "METHOD",
+     .instead = "trax-eval has other tests as experiments, lib/trax/evaluation/experiments/triangles"},
     {"queues", .argument = "N", .parse = take_queues,
      .meaning = "how many queues the pixels wait in, 1 to 64; tms (default): one for each TM, whose\n"
                 "threads then share tiles and the cache's lines"},
-    {"fast-math", FIELD(frame.method.fast_math),
+    {"fast-math", FIELD(frame.fast_math),
      .meaning = "compiles the program with -ffast-math: its picture is not the twin's in every bit"},
     {"stack", .argument = "N",
      .instead = "trax-eval has short stacks as an experiment, lib/trax/evaluation/experiments/stack"},
@@ -215,7 +215,8 @@ trax_parsed options_parse(struct options *options, int argc, char **argv, trax_e
   options->meshes = (const char **)argv;
   options->mesh_count = (size_t)argc;
   options->frame.smooth = options->build.smooth;
-  options->frame.floats = options->frame.floats || (options->output && trax_picture_is_float(options->output));
+  options->frame.floats =
+      options->frame.floats || (options->output && trax_picture_is_float(options->output) && !options->layers);
   if (options_check(options, error) != TRAX_OK)
     return TRAX_PARSED_WRONG;
   if (options->explain.explore && options->source)

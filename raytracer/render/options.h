@@ -7,7 +7,7 @@
 #include "trax/options.h"
 
 /* The first two simulate the machine, to the same cycle. */
-enum engine { ENGINE_FAST, ENGINE_REFERENCE, ENGINE_NATIVE, ENGINE_EMBREE };
+enum engine { ENGINE_FAST, ENGINE_REFERENCE, ENGINE_NATIVE, ENGINE_EMBREE, ENGINE_EXACT };
 
 struct setting {
   const char *key;
@@ -40,8 +40,7 @@ struct options {
   const char *id_picture; /* the same */
   const char *stats, *keep, *program;
   const char *ray_trace; /* every ray; NULL: not wanted */
-  const char *error, *hits; /* figures as JSON; NULL: not wanted */
-  const char *converged;    /* where --error keeps pictures; NULL: nowhere */
+  const char *hits;         /* figures as JSON; NULL: not wanted */
   const char *source;       /* of the specialised program; NULL: the installation's */
   const char *cache; /* of specialised programs; NULL: the user's */
   const char *cost;  /* what --cost-picture and --cost-values show */
@@ -58,8 +57,8 @@ struct options {
   unsigned threads;            /* of the fast engine and the native twin; 0: as many as the host has */
   bool sampled;                /* most of the picture is not simulated */
   trax_slot_sampling sampling; /* fraction or error, and seed */
-  bool show;                   /* the picture as it arrives, in a window */
   const char *progress_png;    /* the same frames; NULL: not wanted */
+  bool layers;                 /* of the picture (layers.h) */
   bool compare, quiet, no_specialise;
   bool prepare; /* keep is written, nothing is rendered */
 };

@@ -14,6 +14,7 @@
 trax_status trax_picture_init(struct trax_picture *picture, uint32_t width, uint32_t height, trax_error *error) {
   picture->pixels = calloc((size_t)width * height, sizeof *picture->pixels);
   picture->radiance = NULL;
+  picture->layers = NULL;
   if (!picture->pixels)
     return trax_fail(error, "out of memory for a picture of %u x %u", width, height);
   picture->width = width;
@@ -24,6 +25,7 @@ trax_status trax_picture_init(struct trax_picture *picture, uint32_t width, uint
 void trax_picture_release(struct trax_picture *picture) {
   free(picture->pixels);
   free(picture->radiance);
+  free(picture->layers);
   memset(picture, 0, sizeof *picture);
 }
 
@@ -236,9 +238,14 @@ trax_status trax_picture_read(struct trax_picture *picture, const char *path, tr
   return status;
 }
 
-/* In parts of 255 of a root as it is seen, gamma 2; above white, in parts of the brighter one. */
+/* As it is seen, gamma 2. */
+static double root_of(float value) {
+  return copysign(sqrt(fabs((double)value)), (double)value);
+}
+
+/* In parts of 255 of a root; above white, in parts of the brighter one. */
 static double float_distance(float a, float b) {
-  const double x = copysign(sqrt(fabs((double)a)), (double)a), y = copysign(sqrt(fabs((double)b)), (double)b);
+  const double x = root_of(a), y = root_of(b);
   if (memcmp(&a, &b, sizeof a) == 0 || x == y)
     return 0;
   return isfinite(x) && isfinite(y) ? 255 * fabs(x - y) / fmax(1, fmax(fabs(x), fabs(y))) : INFINITY;
@@ -248,7 +255,7 @@ static double float_distance(float a, float b) {
 static void compare_floats(struct trax_difference *difference, const struct trax_picture *a,
                            const struct trax_picture *b, unsigned within) {
   const size_t count = 3 * (size_t)a->width * a->height;
-  double sum = 0, worst = 0;
+  double sum = 0, roots = 0, worst = 0;
   size_t finite = 0;
   for (size_t i = 0; i < count; i++) {
     worst = fmax(i % 3 ? worst : 0, float_distance(a->radiance[i], b->radiance[i]));
@@ -259,10 +266,13 @@ static void compare_floats(struct trax_difference *difference, const struct trax
       difference->not_finite++;
       continue;
     }
+    const double root_delta = 255 * (root_of(a->radiance[i]) - root_of(b->radiance[i]));
     sum += delta * delta;
+    roots += root_delta * root_delta;
     finite++;
   }
   difference->radiance_rmse = finite ? sqrt(sum / (double)finite) : 0;
+  difference->root_rmse = finite ? sqrt(roots / (double)finite) : 0;
 }
 
 void trax_picture_compare(struct trax_difference *difference, const struct trax_picture *a,

@@ -1,26 +1,11 @@
 #include "radiance.h"
 
-#include <OpenEXR/openexr.h>
+#include "layers.h"
+
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* Makes room up to `end`. */
-static bool reach(struct trax_bytes *bytes, size_t end) {
-  if (end > bytes->capacity) {
-    size_t capacity = bytes->capacity ? bytes->capacity : 1 << 16;
-    while (capacity < end)
-      capacity *= 2;
-    uint8_t *data = realloc(bytes->data, capacity);
-    if (!data)
-      return false;
-    memset(data + bytes->capacity, 0, capacity - bytes->capacity);
-    bytes->data = data;
-    bytes->capacity = capacity;
-  }
-  if (end > bytes->size)
-    bytes->size = end;
-  return true;
-}
+#include <tinyexr.h>
 
 static trax_status allocate(struct trax_picture *picture, uint64_t width, uint64_t height, const char *name,
                             trax_error *error) {
@@ -43,7 +28,8 @@ trax_status trax_pfm_encode(struct trax_bytes *bytes, const struct trax_picture 
   const int length = snprintf(header, sizeof header, "PF\n%u %u\n-1.0\n", picture->width, picture->height);
   const size_t row = 3 * sizeof(float) * picture->width;
   *bytes = (struct trax_bytes){0};
-  if (!reach(bytes, (size_t)length + row * picture->height))
+  bytes->size = (size_t)length + row * picture->height;
+  if (!(bytes->data = malloc(bytes->size)))
     return trax_fail(error, "%s: out of memory", name);
   memcpy(bytes->data, header, (size_t)length);
   for (uint32_t y = 0; y < picture->height; y++)
@@ -104,150 +90,70 @@ trax_status trax_pfm_decode(struct trax_picture *picture, const uint8_t *bytes, 
   return TRAX_OK;
 }
 
-/* --- EXR, by OpenEXR's C library --- */
+/* --- EXR, by tinyexr --- */
 
-struct stream {
-  struct trax_bytes *out;
-  const uint8_t *in;
-  size_t size;
-  char reason[200];
-};
+/* The channels in the order that the format asks for: that of their names. */
+static const struct channel {
+  const char *name;
+  int type;
+  bool layer;    /* of struct trax_layers, else of three floats */
+  size_t offset; /* in it */
+} channels[] = {{"B", TINYEXR_PIXELTYPE_FLOAT, false, 2 * sizeof(float)},
+                {"G", TINYEXR_PIXELTYPE_FLOAT, false, sizeof(float)},
+                {"N.X", TINYEXR_PIXELTYPE_FLOAT, true, offsetof(struct trax_layers, normal)},
+                {"N.Y", TINYEXR_PIXELTYPE_FLOAT, true, offsetof(struct trax_layers, normal) + sizeof(float)},
+                {"N.Z", TINYEXR_PIXELTYPE_FLOAT, true, offsetof(struct trax_layers, normal) + 2 * sizeof(float)},
+                {"R", TINYEXR_PIXELTYPE_FLOAT, false, 0},
+                {"Z", TINYEXR_PIXELTYPE_FLOAT, true, offsetof(struct trax_layers, depth)},
+                {"shadow", TINYEXR_PIXELTYPE_UINT, true, offsetof(struct trax_layers, shadow)},
+                {"triangle", TINYEXR_PIXELTYPE_UINT, true, offsetof(struct trax_layers, triangle)}};
+enum { CHANNELS = sizeof channels / sizeof *channels };
 
-static struct stream *stream_of(exr_const_context_t context) {
-  void *stream = NULL;
-  return exr_get_user_data(context, &stream) == EXR_ERR_SUCCESS ? stream : NULL;
-}
-
-static void remember(exr_const_context_t context, exr_result_t code, const char *message) {
-  struct stream *stream = stream_of(context);
-  (void)code;
-  if (stream && !stream->reason[0])
-    snprintf(stream->reason, sizeof stream->reason, "%s", message);
-}
-
-static int64_t read_stream(exr_const_context_t context, void *user, void *buffer, uint64_t size, uint64_t offset,
-                           exr_stream_error_func_ptr_t fail) {
-  const struct stream *stream = user;
-  (void)context, (void)fail;
-  if (offset > stream->size)
-    return -1;
-  const uint64_t left = stream->size - offset, count = size < left ? size : left;
-  memcpy(buffer, stream->in + offset, count);
-  return (int64_t)count;
-}
-
-static int64_t size_stream(exr_const_context_t context, void *user) {
-  (void)context;
-  return (int64_t)((const struct stream *)user)->size;
-}
-
-static int64_t write_stream(exr_const_context_t context, void *user, const void *buffer, uint64_t size, uint64_t offset,
-                            exr_stream_error_func_ptr_t fail) {
-  struct stream *stream = user;
-  (void)context, (void)fail;
-  if (!reach(stream->out, offset + size))
-    return -1;
-  memcpy(stream->out->data + offset, buffer, size);
-  return (int64_t)size;
-}
-
-static exr_context_initializer_t initializer(struct stream *stream) {
-  exr_context_initializer_t result = EXR_DEFAULT_CONTEXT_INITIALIZER;
-  result.error_handler_fn = remember;
-  result.user_data = stream;
-  result.max_image_width = result.max_image_height = (int)TRAX_RENDER_MAX_SIDE;
-  return result;
-}
-
-/* EXR has its channels in the order of their names. */
-static const char *const channel_names[3] = {"R", "G", "B"};
-
-static int channel_number(const char *name) {
-  for (int i = 0; i < 3; i++)
-    if (!strcmp(name, channel_names[i]))
-      return i;
-  return -1;
-}
-
-struct compressor {
-  exr_result_t (*function)(exr_encode_pipeline_t *);
-};
-
-/* A chunk as long as its data stands for the data themselves, so it must be them. The library (3.1.5) leaves packed
-   data there if they happen to be of that very length. */
-static exr_result_t compress_chunk(exr_encode_pipeline_t *encoder) {
-  const struct compressor *compressor = encoder->encoding_user_data;
-  const exr_result_t result = compressor->function(encoder);
-  if (result == EXR_ERR_SUCCESS && encoder->compressed_bytes == encoder->packed_bytes)
-    memcpy(encoder->compressed_buffer, encoder->packed_buffer, encoder->packed_bytes);
-  return result;
-}
-
-static exr_result_t write_lines(exr_context_t context, const struct trax_picture *picture) {
-  int32_t lines;
-  exr_encode_pipeline_t encoder = EXR_ENCODE_PIPELINE_INITIALIZER;
-  struct compressor compressor;
-  bool begun = false;
-  exr_result_t result = exr_get_scanlines_per_chunk(context, 0, &lines);
-  for (uint32_t y = 0; result == EXR_ERR_SUCCESS && y < picture->height; y += (uint32_t)lines) {
-    exr_chunk_info_t chunk;
-    result = exr_write_scanline_chunk_info(context, 0, (int)y, &chunk);
-    if (result == EXR_ERR_SUCCESS)
-      result = begun ? exr_encoding_update(context, 0, &chunk, &encoder)
-                     : exr_encoding_initialize(context, 0, &chunk, &encoder);
-    for (int i = 0; result == EXR_ERR_SUCCESS && i < encoder.channel_count; i++) {
-      const int channel = channel_number(encoder.channels[i].channel_name);
-      encoder.channels[i].user_bytes_per_element = sizeof(float);
-      encoder.channels[i].user_data_type = EXR_PIXEL_FLOAT;
-      encoder.channels[i].user_pixel_stride = 3 * sizeof(float);
-      encoder.channels[i].user_line_stride = 3 * (int32_t)sizeof(float) * (int32_t)picture->width;
-      encoder.channels[i].encode_from_ptr =
-          (const uint8_t *)(picture->radiance + 3 * (size_t)y * picture->width + channel);
-    }
-    if (result == EXR_ERR_SUCCESS && !begun) {
-      result = exr_encoding_choose_default_routines(context, 0, &encoder);
-      compressor.function = encoder.compress_fn;
-      encoder.encoding_user_data = &compressor;
-      encoder.compress_fn = compress_chunk;
-    }
-    begun = true;
-    if (result == EXR_ERR_SUCCESS)
-      result = exr_encoding_run(context, 0, &encoder);
-  }
-  if (begun)
-    exr_encoding_destroy(context, &encoder);
-  return result;
+/* The channel's word of a pixel. */
+static char *word_of(const struct trax_picture *picture, const struct channel *channel, size_t pixel) {
+  return channel->layer ? (char *)&picture->layers[pixel] + channel->offset
+                        : (char *)&picture->radiance[3 * pixel] + channel->offset;
 }
 
 trax_status trax_exr_encode(struct trax_bytes *bytes, const struct trax_picture *picture, const char *name,
                             trax_error *error) {
-  struct stream stream = {.out = bytes};
-  exr_context_initializer_t options = initializer(&stream);
-  exr_context_t context = NULL;
-  int part;
-  options.write_fn = write_stream;
+  const size_t pixels = (size_t)picture->width * picture->height;
+  EXRHeader header;
+  EXRImage image;
+  EXRChannelInfo infos[CHANNELS] = {0};
+  int types[CHANNELS];
+  unsigned char *planes[CHANNELS];
+  const char *reason = NULL;
+  InitEXRHeader(&header);
+  InitEXRImage(&image);
   *bytes = (struct trax_bytes){0};
-  exr_result_t result = exr_start_write(&context, name, EXR_WRITE_FILE_DIRECTLY, &options);
-  if (result == EXR_ERR_SUCCESS)
-    result = exr_add_part(context, "picture", EXR_STORAGE_SCANLINE, &part);
-  if (result == EXR_ERR_SUCCESS)
-    result = exr_initialize_required_attr_simple(context, part, (int32_t)picture->width, (int32_t)picture->height,
-                                                 EXR_COMPRESSION_ZIP);
-  for (int i = 0; i < 3 && result == EXR_ERR_SUCCESS; i++)
-    result = exr_add_channel(context, part, channel_names[i], EXR_PIXEL_FLOAT, EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
-  if (result == EXR_ERR_SUCCESS)
-    result = exr_write_header(context);
-  if (result == EXR_ERR_SUCCESS)
-    result = write_lines(context, picture);
-  const exr_result_t finished = context ? exr_finish(&context) : EXR_ERR_SUCCESS;
-  if (result == EXR_ERR_SUCCESS)
-    result = finished;
-  if (result == EXR_ERR_SUCCESS)
+  unsigned char *memory = malloc(CHANNELS * pixels * sizeof(float));
+  if (!memory)
+    return trax_fail(error, "%s: out of memory", name);
+  for (int i = 0; i < CHANNELS; i++) {
+    if (channels[i].layer && !picture->layers)
+      continue;
+    unsigned char *plane = memory + (size_t)header.num_channels * pixels * sizeof(float);
+    for (size_t pixel = 0; pixel < pixels; pixel++)
+      memcpy(plane + pixel * sizeof(float), word_of(picture, &channels[i], pixel), sizeof(float));
+    snprintf(infos[header.num_channels].name, sizeof infos->name, "%s", channels[i].name);
+    types[header.num_channels] = channels[i].type;
+    planes[header.num_channels++] = plane;
+  }
+  header.channels = infos;
+  header.pixel_types = header.requested_pixel_types = types;
+  header.compression_type = TINYEXR_COMPRESSIONTYPE_ZIP;
+  image.num_channels = header.num_channels;
+  image.images = planes;
+  image.width = (int)picture->width;
+  image.height = (int)picture->height;
+  bytes->size = SaveEXRImageToMemory(&image, &header, &bytes->data, &reason);
+  free(memory);
+  if (bytes->size > 0)
     return TRAX_OK;
-  free(bytes->data);
-  *bytes = (struct trax_bytes){0};
-  return trax_fail(error, "%s: cannot make an EXR: %s", name,
-                   stream.reason[0] ? stream.reason : exr_get_default_error_message(result));
+  trax_fail(error, "%s: cannot make an EXR: %s", name, reason ? reason : "out of memory");
+  FreeEXRErrorMessage(reason);
+  return TRAX_ERROR;
 }
 
 bool trax_is_exr(const uint8_t *bytes, size_t size) {
@@ -255,97 +161,87 @@ bool trax_is_exr(const uint8_t *bytes, size_t size) {
   return size > sizeof magic && memcmp(bytes, magic, sizeof magic) == 0;
 }
 
-/* What the file is, before any of its data is unpacked. NULL: nothing is wrong. */
-static const char *check_exr(exr_const_context_t context, exr_attr_box2i_t *window) {
-  int parts;
-  exr_storage_t storage;
-  exr_compression_t compression;
-  const exr_attr_chlist_t *channels;
-  if (exr_get_count(context, &parts) != EXR_ERR_SUCCESS || parts != 1)
-    return "it has several parts";
-  if (exr_get_storage(context, 0, &storage) != EXR_ERR_SUCCESS || storage != EXR_STORAGE_SCANLINE)
-    return "it is not made of scan lines";
-  if (exr_get_compression(context, 0, &compression) != EXR_ERR_SUCCESS ||
-      (compression != EXR_COMPRESSION_NONE && compression != EXR_COMPRESSION_RLE &&
-       compression != EXR_COMPRESSION_ZIPS && compression != EXR_COMPRESSION_ZIP))
-    return "it is packed by another method than RLE and ZIP";
-  if (exr_get_channels(context, 0, &channels) != EXR_ERR_SUCCESS)
-    return "it has no channels";
+/* The places of our channels among the file's, -1 for those that it has not. */
+static unsigned find_channels(int place[CHANNELS], const EXRHeader *header) {
   unsigned found = 0;
-  for (int i = 0; i < channels->num_channels; i++) {
-    const exr_attr_chlist_entry_t *entry = &channels->entries[i];
-    const int number = channel_number(entry->name.str);
-    if (entry->x_sampling != 1 || entry->y_sampling != 1)
-      return "a channel has fewer samples than pixels";
-    if (number >= 0 && entry->pixel_type != EXR_PIXEL_UINT)
-      found |= 1u << number;
+  for (int i = 0; i < CHANNELS; i++) {
+    place[i] = -1;
+    for (int j = 0; j < header->num_channels; j++)
+      if (!strcmp(header->channels[j].name, channels[i].name) &&
+          (header->pixel_types[j] == TINYEXR_PIXELTYPE_UINT) == (channels[i].type == TINYEXR_PIXELTYPE_UINT))
+        place[i] = j, found |= 1u << i;
   }
-  if (found != 7)
-    return "it has no channels R, G and B of floats";
-  return exr_get_data_window(context, 0, window) == EXR_ERR_SUCCESS ? NULL : "it has no size";
+  return found;
 }
 
-static exr_result_t read_lines(exr_context_t context, const struct trax_picture *picture, int first_line) {
-  int32_t lines;
-  exr_decode_pipeline_t decoder = EXR_DECODE_PIPELINE_INITIALIZER;
-  bool begun = false;
-  exr_result_t result = exr_get_scanlines_per_chunk(context, 0, &lines);
-  for (uint32_t y = 0; result == EXR_ERR_SUCCESS && y < picture->height; y += (uint32_t)lines) {
-    exr_chunk_info_t chunk;
-    result = exr_read_scanline_chunk_info(context, 0, first_line + (int)y, &chunk);
-    if (result == EXR_ERR_SUCCESS)
-      result = begun ? exr_decoding_update(context, 0, &chunk, &decoder)
-                     : exr_decoding_initialize(context, 0, &chunk, &decoder);
-    for (int i = 0; result == EXR_ERR_SUCCESS && i < decoder.channel_count; i++) {
-      const int channel = channel_number(decoder.channels[i].channel_name);
-      if (channel < 0)
-        continue;
-      decoder.channels[i].user_bytes_per_element = sizeof(float);
-      decoder.channels[i].user_data_type = EXR_PIXEL_FLOAT;
-      decoder.channels[i].user_pixel_stride = 3 * sizeof(float);
-      decoder.channels[i].user_line_stride = 3 * (int32_t)sizeof(float) * (int32_t)picture->width;
-      decoder.channels[i].decode_to_ptr = (uint8_t *)(picture->radiance + 3 * (size_t)y * picture->width + channel);
-    }
-    if (result == EXR_ERR_SUCCESS && !begun)
-      result = exr_decoding_choose_default_routines(context, 0, &decoder);
-    begun = true;
-    if (result == EXR_ERR_SUCCESS)
-      result = exr_decoding_run(context, 0, &decoder);
+/* bytes: of the file. NULL: it can be read. */
+static const char *check_exr(EXRHeader *header, const EXRVersion *version, int64_t width, int64_t height,
+                             size_t bytes) {
+  enum { MOST_RATIO = 1100 }; /* of bytes to packed bytes: RLE and deflate have less */
+  if (version->multipart || version->non_image || version->tiled)
+    return "it is not one part of scan lines";
+  if (header->compression_type < TINYEXR_COMPRESSIONTYPE_NONE || header->compression_type > TINYEXR_COMPRESSIONTYPE_ZIP)
+    return "it is packed by another method than RLE and ZIP";
+  for (int i = 0; i < header->num_channels; i++) {
+    if (header->channels[i].x_sampling != 1 || header->channels[i].y_sampling != 1)
+      return "a channel has fewer samples than pixels";
+    if (header->pixel_types[i] == TINYEXR_PIXELTYPE_HALF)
+      header->requested_pixel_types[i] = TINYEXR_PIXELTYPE_FLOAT;
   }
-  if (begun)
-    exr_decoding_destroy(context, &decoder);
-  return result;
+  if (width > 0 && height > 0 &&
+      (uint64_t)width * (uint64_t)height * (uint64_t)header->num_channels * 2 / MOST_RATIO > bytes)
+    return "cut off";
+  return NULL;
+}
+
+/* Every layer of the file is needed. */
+static const unsigned all_channels = (1u << CHANNELS) - 1, colours = 1u << 0 | 1u << 1 | 1u << 5;
+
+static trax_status take_image(struct trax_picture *picture, const EXRHeader *header, const EXRImage *image,
+                              const char *name, trax_error *error) {
+  int place[CHANNELS];
+  const unsigned found = find_channels(place, header);
+  if ((found & colours) != colours)
+    return trax_fail(error, "%s: not a readable EXR: it has no channels R, G and B of floats", name);
+  const size_t pixels = (size_t)picture->width * picture->height;
+  if (found == all_channels && !(picture->layers = calloc(pixels, sizeof *picture->layers)))
+    return trax_fail(error, "out of memory for the layers of %u x %u pixels", picture->width, picture->height);
+  for (int i = 0; i < CHANNELS; i++)
+    for (size_t pixel = 0; pixel < pixels && (picture->layers || !channels[i].layer); pixel++)
+      memcpy(word_of(picture, &channels[i], pixel), image->images[place[i]] + pixel * sizeof(float), sizeof(float));
+  return TRAX_OK;
 }
 
 trax_status trax_exr_decode(struct trax_picture *picture, const uint8_t *bytes, size_t size, const char *name,
                             trax_error *error) {
-  struct stream stream = {.in = bytes, .size = size};
-  exr_context_initializer_t options = initializer(&stream);
-  exr_context_t context = NULL;
-  exr_attr_box2i_t window = {0};
-  options.read_fn = read_stream;
-  options.size_fn = size_stream;
-  *picture = (struct trax_picture){0};
-  exr_result_t result = exr_start_read(&context, name, &options);
+  EXRVersion version;
+  EXRHeader header;
+  EXRImage image;
+  const char *reason = NULL;
   trax_status status = TRAX_OK;
-  if (result == EXR_ERR_SUCCESS) {
-    const char *wrong = check_exr(context, &window);
-    if (wrong)
-      status = trax_fail(error, "%s: not a readable EXR: %s", name, wrong);
+  *picture = (struct trax_picture){0};
+  InitEXRHeader(&header);
+  InitEXRImage(&image);
+  if (ParseEXRVersionFromMemory(&version, bytes, size) != TINYEXR_SUCCESS ||
+      ParseEXRHeaderFromMemory(&header, &version, bytes, size, &reason) != TINYEXR_SUCCESS) {
+    trax_fail(error, "%s: not a readable EXR: %s", name, reason ? reason : "it has no header");
+    FreeEXRErrorMessage(reason);
+    return TRAX_ERROR;
   }
-  /* Each chunk of up to 16 lines has its place in a table and at least eight bytes of its own: nothing is allocated for
-     a size that the file cannot hold. */
-  const int64_t width = (int64_t)window.max.x - window.min.x + 1, height = (int64_t)window.max.y - window.min.y + 1;
-  if (result == EXR_ERR_SUCCESS && status == TRAX_OK && height > 0 && (uint64_t)height > size)
-    status = trax_fail(error, "%s: not a readable EXR: cut off", name);
-  if (result == EXR_ERR_SUCCESS && status == TRAX_OK)
+  const EXRBox2i window = header.data_window;
+  const int64_t width = (int64_t)window.max_x - window.min_x + 1, height = (int64_t)window.max_y - window.min_y + 1;
+  const char *wrong = check_exr(&header, &version, width, height, size);
+  if (wrong)
+    status = trax_fail(error, "%s: not a readable EXR: %s", name, wrong);
+  if (status == TRAX_OK)
     status = allocate(picture, (uint64_t)(width > 0 ? width : 0), (uint64_t)(height > 0 ? height : 0), name, error);
-  if (result == EXR_ERR_SUCCESS && status == TRAX_OK)
-    result = read_lines(context, picture, window.min.y);
-  if (context)
-    exr_finish(&context);
-  if (result != EXR_ERR_SUCCESS && status == TRAX_OK)
-    status = trax_fail(error, "%s: not a readable EXR: %s", name,
-                       stream.reason[0] ? stream.reason : exr_get_default_error_message(result));
+  if (status == TRAX_OK && LoadEXRImageFromMemory(&image, &header, bytes, size, &reason) != TINYEXR_SUCCESS) {
+    status = trax_fail(error, "%s: not a readable EXR: %s", name, reason ? reason : "its data are damaged");
+  } else if (status == TRAX_OK) {
+    status = take_image(picture, &header, &image, name, error);
+    FreeEXRImage(&image); /* of an image that it cannot load the library has done so */
+  }
+  FreeEXRErrorMessage(reason);
+  FreeEXRHeader(&header);
   return status;
 }

@@ -19,21 +19,12 @@
 
 /* --- frame.c: what is rendered --- */
 
-/* How the device program computes what its parameters ask for: chosen when it is compiled. Zeros: the default. */
-enum trax_triangle_method { TRAX_TRIANGLE_WATERTIGHT, TRAX_TRIANGLE_MOLLER_TRUMBORE, TRAX_TRIANGLE_METHODS };
-extern const char *const trax_triangle_names[TRAX_TRIANGLE_METHODS + 1]; /* as options give them; NULL */
-
-struct trax_method {
-  enum trax_triangle_method triangle; /* device/triangle.h */
-  bool fast_math;                     /* -ffast-math: only a specialised program has it, not the twin */
-};
-
 struct trax_frame {
   struct trax_render_params *params; /* with what render_params.h has behind it; from malloc */
   uint32_t params_size;              /* bytes */
   const struct trax_scene *scene;
-  struct trax_view view; /* the reference's lights are made of it */
-  struct trax_method method;
+  struct trax_view view; /* Embree's lights are made of it */
+  bool fast_math;        /* the program is compiled with -ffast-math, the twin is not */
 };
 
 struct trax_frame_options {
@@ -50,7 +41,7 @@ struct trax_frame_options {
   uint32_t occlusion;     /* rays for ambient occlusion, up to TRAX_RENDER_MAX_OCCLUSION; 0: none */
   double occlusion_reach; /* how far they go, as a part of the diagonal of the scene's box; 0: TRAX_DEFAULT_REACH */
   bool mark_rays;         /* the program counts each ray where it begins */
-  struct trax_method method;
+  bool fast_math;         /* the program is compiled with -ffast-math */
 };
 
 #define TRAX_DEFAULT_AMBIENT 0.12f
@@ -76,6 +67,9 @@ void trax_frame_release(struct trax_frame *frame);
 /* Of the device program's buffer `image`. */
 uint32_t trax_frame_image_bytes(const struct trax_frame *frame);
 
+/* features.c: the features that the picture needs, a bit each. */
+uint32_t trax_features_of(const struct trax_frame_options *options, const struct trax_view *view,
+                          const struct trax_scene *scene);
 /* Its name in reports. */
 const char *trax_feature_name(enum trax_feature feature);
 /* The sections of the scene that are read for these features: 1 << enum trax_scene_section_kind each. */
@@ -120,8 +114,8 @@ struct trax_specialise_options {
 
 /* Compiles the device program for one picture, or finds it among those compiled before. Where that cannot be done,
    TRAX_OK with why in note, and *program is as it was; note also tells of a damaged one that was made anew. TRAX_ERROR:
-   a cache that was asked for cannot be written, or nothing else will do, since the frame's method is not the default or
-   the program is to record. */
+   a cache that was asked for cannot be written, or nothing else will do, since the program is to
+   record. */
 trax_status trax_program_specialise(struct trax_program *program, const struct trax_frame *frame,
                                     const struct trax_specialise_options *options, char note[256], trax_error *error);
 
@@ -143,6 +137,7 @@ struct trax_picture {
   uint32_t width, height;
   uint32_t *pixels; /* row by row from the top left; R, G, B, A in the bytes from the lowest; from malloc */
   float *radiance;  /* R, G, B for each pixel, linear, not bounded by 1; from malloc; NULL: of bytes only */
+  struct trax_layers *layers; /* of each pixel (layers.h); from malloc; NULL: none */
 };
 
 trax_status trax_picture_init(struct trax_picture *picture, uint32_t width, uint32_t height, trax_error *error);
@@ -171,6 +166,7 @@ struct trax_difference {
   /* Of two pictures with linear floats: */
   bool floats;
   double radiance_rmse;   /* of the channels that are finite in both */
+  double root_rmse;       /* of the same channels' roots, in parts of 255 */
   uint64_t not_finite;    /* the other channels */
   uint64_t floats_beyond; /* pixels with floats that differ by more than `within` parts in 255 of their root, or of 1 if
                              that is darker */
@@ -195,12 +191,13 @@ struct trax_render_run {
   const void *image;             /* out, of the twin, while it runs: what the program has written of its picture */
   uint64_t rays;                 /* out: rays traced; 0 with accesses, which know of them slot by slot */
   uint64_t kinds[TRAX_RAY_KIND_COUNT]; /* out, of the twin: the same by kind */
+  bool layers;                   /* the picture gets layers (layers.h) */
+  bool exactly;                  /* of Embree: hits without error (exact.h), of the rays that the device program has */
   bool holes;                    /* of hits (hits.h): rays go on through holes and, if they are, missing back faces */
   struct trax_access_log *accesses; /* of the twin, which then has one thread: told what it reads; NULL: nobody is */
 };
 
-/* twin.c: the device program on `threads` host threads (0: as many as the host has), with the frame's triangle test and
-   without fast-math. One run at a time in a process: the program's globals are the process's. */
+/* twin.c: the device program on `threads` host threads (0: as many as the host has). One run at a time in a process: the program's globals are the process's. */
 trax_status trax_render_twin(struct trax_picture *picture, const struct trax_frame *frame, unsigned threads,
                              struct trax_render_run *run, trax_error *error);
 
@@ -208,25 +205,7 @@ trax_status trax_render_twin(struct trax_picture *picture, const struct trax_fra
 trax_status trax_render_embree(struct trax_picture *picture, const struct trax_frame *frame,
                                struct trax_render_run *run, trax_error *error);
 
-/* What a sample's rays met. */
-struct trax_exact_sample {
-  uint32_t triangle; /* its number; TRAX_NO_TRIANGLE: nothing */
-  enum trax_shadow shadow;
-  double distance; /* of the triangle, in units of the ray's direction */
-};
 #define TRAX_NO_TRIANGLE UINT32_MAX
-
-struct trax_exact {
-  uint32_t width, height, samples;
-  double *channels;               /* R, G, B of each pixel, 0 to 255 as in a picture, but not rounded */
-  struct trax_exact_sample *seen; /* of each sample of each pixel; NULL: not wanted */
-};
-
-/* embree.c too: the hits are found in binary64 as well (exact.c), among the triangles as the scene has them. The
-   directions of the rays from the eye are the device's, rounded to binary32 as there: of the same rays. */
-trax_status trax_render_exact(struct trax_exact *exact, const struct trax_frame *frame, bool seen,
-                              struct trax_render_run *run, trax_error *error);
-void trax_exact_release(struct trax_exact *exact);
 
 /* --- cost.c: what each pixel cost its thread, from the item before to this one --- */
 
@@ -282,6 +261,7 @@ struct trax_simulated_options {
   const struct trax_explain_options *explain; /* NULL: nothing is explained */
   struct trax_costs *costs;                   /* to fill; NULL: not wanted */
   const char *title;                          /* of the page that explains the run; NULL: the program's name */
+  bool layers;                                /* the program records (trax/record.h); the picture gets layers */
   bool is_twin;                               /* the program visits the nodes and triangles that the twin does */
 };
 

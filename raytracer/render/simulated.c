@@ -1,8 +1,8 @@
 /* The picture as the emulated machine renders it. */
+#include "layers.h"
 #include "plain_scene.h"
 #include "render.h"
 #include "trax/explain.h"
-#include "trax/record.h"
 
 #include <string.h>
 
@@ -17,7 +17,10 @@ static trax_status take_picture(struct trax_picture *picture, const struct trax_
   uint32_t size;
   if (trax_machine_read_buffer(machine, "image", &bytes, &size, error) != TRAX_OK)
     return TRAX_ERROR;
-  return trax_picture_take(picture, frame, bytes, error);
+  trax_status status = trax_picture_take(picture, frame, bytes, error);
+  if (status == TRAX_OK && options->layers)
+    status = trax_machine_read_buffer(machine, "record", &bytes, &size, error);
+  return status == TRAX_OK && options->layers ? trax_layers_take(picture, frame, bytes, error) : status;
 }
 
 /* Writes what explains the run; the page has the picture, and what its rays visited. */
@@ -61,8 +64,7 @@ static trax_status relocate(trax_machine *machine, trax_error *error) {
 
 /* What a program that records fills (trax/record.h). */
 static trax_status bind_record(trax_machine *machine, const struct trax_render_params *params, trax_error *error) {
-  const uint64_t size = (uint64_t)params->width * params->height *
-                        (sizeof(struct trax_pixel_record) + params->samples * sizeof(struct trax_sample_record));
+  const uint64_t size = trax_record_bytes(params);
   if (size > UINT32_MAX)
     return trax_fail(error, "what is recorded of %u x %u pixels and %u samples exceeds the machine's address space",
                      params->width, params->height, params->samples);

@@ -13,10 +13,8 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/prctl.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 #include <xxhash.h>
 
@@ -25,11 +23,11 @@ enum { FLAG_COUNT = sizeof flags / sizeof *flags, MOST_FLAGS = FLAG_COUNT + 3 };
 enum { PAPERS_CACHE = 4096 }; /* bytes: its instruction cache */
 
 /* The flags above and those that were chosen. What is recorded takes more stack than a TP has memory for. */
-static size_t chosen_flags(const char *chosen[MOST_FLAGS], const struct trax_method *method, bool record) {
+static size_t chosen_flags(const char *chosen[MOST_FLAGS], bool fast_math, bool record) {
   size_t count = 0;
   for (; count < FLAG_COUNT; count++)
     chosen[count] = flags[count];
-  if (method->fast_math)
+  if (fast_math)
     chosen[count++] = "-ffast-math";
   if (record) {
     chosen[count++] = "-DTRAX_RECORD";
@@ -72,8 +70,6 @@ static char *constants_text(const struct trax_frame *frame, unsigned queues) {
     if (frame->params->features >> feature & 1)
       fprintf(out, " %s", trax_feature_name(feature));
   fputs(" */\n", out);
-  if (frame->method.triangle == TRAX_TRIANGLE_MOLLER_TRUMBORE)
-    fputs("#define TRAX_TRIANGLE TRAX_MOLLER_TRUMBORE\n", out);
   if (frame->params->features & TRAX_FEATURE_BIT(EXACT))
     fputs("#define TRAX_EXACT_HITS 1\n", out);
   if (queues > 1)
@@ -268,11 +264,8 @@ static trax_status compile(const struct recipe *recipe, const struct places *pla
     return trax_fail(error, "no temporary file: %s", strerror(errno));
   trax_reads_share();                          /* what the source includes is an input, too */
   trax_reads_drop_path(recipe->work->program); /* an earlier attempt, which was measured */
-  const pid_t parent = getpid(), child = trax_fork();
+  const pid_t child = trax_fork(SIGTERM);
   if (child == 0) {
-    prctl(PR_SET_PDEATHSIG, SIGTERM);
-    if (getppid() != parent)
-      _exit(127);
     dup2(fileno(said), STDERR_FILENO);
     dup2(fileno(said), STDOUT_FILENO);
     execv(clang, (char *const *)arguments);
@@ -282,23 +275,8 @@ static trax_status compile(const struct recipe *recipe, const struct places *pla
   int status = 0;
   if (child < 0)
     result = trax_fail(error, "the compiler does not start: %s", strerror(errno));
-  for (const struct timespec pause = {.tv_nsec = 2000000}; result == TRAX_OK;) {
-    const pid_t ended = waitpid(child, &status, WNOHANG);
-    if (ended == child)
-      break;
-    if (ended < 0 && errno != EINTR)
-      result = trax_fail(error, "the compiler is lost: %s", strerror(errno));
-    else if (recipe->interrupt && *recipe->interrupt) {
-      kill(child, SIGTERM);
-      while (waitpid(child, &status, 0) < 0 && errno == EINTR)
-        ;
-      result = TRAX_INTERRUPTED;
-    } else {
-      nanosleep(&pause, NULL);
-    }
-  }
-  if (result == TRAX_OK && recipe->interrupt && *recipe->interrupt) /* ended before the loop saw it, or by it */
-    result = TRAX_INTERRUPTED;
+  else if ((result = trax_wait_for_child(child, SIGTERM, recipe->interrupt, &status)) == TRAX_ERROR)
+    trax_fail(error, "the compiler is lost: %s", strerror(errno));
   if (result == TRAX_OK && (!WIFEXITED(status) || WEXITSTATUS(status) != 0)) {
     char line[160];
     first_line(line, fileno(said), status);
@@ -341,19 +319,18 @@ static trax_status build(const struct recipe *recipe, const struct trax_frame *f
   return status;
 }
 
-/* The general program takes the place of one that cannot be had, unless the method was chosen. */
+/* The general program takes the place of one that cannot be had, unless it cannot do the same. */
 static trax_status note_or_error(const struct trax_frame *frame, const struct trax_specialise_options *options,
                                  const char *note, trax_error *error) {
-  const struct trax_method *method = &frame->method;
   if (options->record)
     return trax_fail(error, "there is no program that records: %s", note);
   if (options->source)
     return trax_fail(error, "--source %s: there is no program: %s", options->source, note);
   if (frame->params->features & TRAX_FEATURE_BIT(RAY_KINDS))
     return trax_fail(error, "--mark-rays: there is no program for it: %s", note);
-  if (method->triangle == TRAX_TRIANGLE_WATERTIGHT && !method->fast_math)
-    return TRAX_OK;
-  return trax_fail(error, "%s: there is no program for it: %s", method->fast_math ? "--fast-math" : "--triangle", note);
+  if (frame->fast_math)
+    return trax_fail(error, "--fast-math: there is no program for it: %s", note);
+  return TRAX_OK;
 }
 
 trax_status trax_program_specialise(struct trax_program *program, const struct trax_frame *frame,
@@ -362,7 +339,7 @@ trax_status trax_program_specialise(struct trax_program *program, const struct t
   const char *const source = options->source ? options->source : own;
   trax_error reason;
   const char *chosen[MOST_FLAGS];
-  const size_t chosen_count = chosen_flags(chosen, &frame->method, options->record);
+  const size_t chosen_count = chosen_flags(chosen, frame->fast_math, options->record);
   const uint32_t icache_bytes = options->icache_bytes ? options->icache_bytes : PAPERS_CACHE;
   note[0] = '\0';
   if (options->cache && snprintf(cache, sizeof cache, "%s", options->cache) >= (int)sizeof cache)

@@ -1,6 +1,6 @@
-/* The native twin: the device program's main, compiled for the host under another name for each triangle test, run by
-   host threads. */
+/* The native twin: the device program's main, compiled for the host under another name, run by host threads. */
 #include "hits.h"
+#include "layers.h"
 #include "render.h"
 
 #include <pthread.h>
@@ -10,19 +10,11 @@
 #include <time.h>
 #include <trax.h>
 
-/* The program's own (raytracer/device/main.c), the variables common to all. */
+/* The program's own (raytracer/device/main.c). */
 extern struct trax_buffer scene, params, image, paths, record;
 extern unsigned next_slot[1];
-int trax_twin_watertight(void);
-int trax_twin_moller_trumbore(void);
-int trax_twin_recording(void);
-int trax_twin_watertight_accesses(void); /* these tell the log what they read (device/access.h) */
-int trax_twin_moller_trumbore_accesses(void);
-struct trax_access_log *trax_access_log;
-
-static int (*const mains[TRAX_TRIANGLE_METHODS][2])(void) = {
-    {trax_twin_watertight, trax_twin_watertight_accesses},
-    {trax_twin_moller_trumbore, trax_twin_moller_trumbore_accesses}};
+int trax_twin(void);
+struct trax_access_log *trax_access_log; /* device/access.h */
 
 struct worker {
   pthread_t thread;
@@ -33,7 +25,6 @@ struct worker {
 struct crew {
   pthread_mutex_t lock;
   pthread_cond_t changed;
-  int (*main)(void);
   unsigned running;
   uint64_t rays, kinds[TRAX_RAY_KIND_COUNT];
 };
@@ -41,7 +32,7 @@ struct crew {
 static void *work(void *argument) {
   struct worker *worker = argument;
   trax_native = (struct trax_native){.thread = worker->number, .tp = worker->number, .threads = worker->count};
-  worker->crew->main();
+  trax_twin();
   pthread_mutex_lock(&worker->crew->lock);
   worker->crew->rays += trax_native.rays;
   for (unsigned kind = 0; kind < TRAX_RAY_KIND_COUNT; kind++)
@@ -52,7 +43,8 @@ static void *work(void *argument) {
   return NULL;
 }
 
-/* Until every worker is done: reports progress and passes an interrupt on, ten times a second. True: interrupted. */
+/* Waits for all workers. Every 0.1 s it reports progress and forwards an interrupt. Returns whether it was interrupted.
+ */
 static bool wait_for_crew(struct crew *crew, uint32_t slot_count, const struct trax_render_run *run) {
   bool interrupted = false;
   pthread_mutex_lock(&crew->lock);
@@ -75,8 +67,8 @@ static bool wait_for_crew(struct crew *crew, uint32_t slot_count, const struct t
   return interrupted;
 }
 
-static trax_status run_twin(struct trax_picture *picture, int (*twin)(void), const struct trax_frame *frame,
-                            unsigned threads, struct trax_render_run *run, trax_error *error) {
+static trax_status run_twin(struct trax_picture *picture, const struct trax_frame *frame, unsigned threads,
+                            struct trax_render_run *run, trax_error *error) {
   if (threads == 0)
     threads = trax_host_processors();
   const uint32_t image_bytes = trax_frame_image_bytes(frame);
@@ -98,8 +90,7 @@ static trax_status run_twin(struct trax_picture *picture, int (*twin)(void), con
   if (run->accesses)
     threads = 1;
 
-  struct crew crew = {
-      .lock = PTHREAD_MUTEX_INITIALIZER, .changed = PTHREAD_COND_INITIALIZER, .main = twin, .running = threads};
+  struct crew crew = {.lock = PTHREAD_MUTEX_INITIALIZER, .changed = PTHREAD_COND_INITIALIZER, .running = threads};
   unsigned started = 0;
   int failure = 0;
   for (; started < threads; started++) {
@@ -130,11 +121,24 @@ static trax_status run_twin(struct trax_picture *picture, int (*twin)(void), con
 
 trax_status trax_render_twin(struct trax_picture *picture, const struct trax_frame *frame, unsigned threads,
                              struct trax_render_run *run, trax_error *error) {
-  int (*const twin)(void) = mains[frame->method.triangle][run->accesses != NULL];
-  return run_twin(picture, twin, frame, threads, run, error);
+  const uint64_t record_bytes = trax_record_bytes(frame->params);
+  if (!run->layers)
+    return run_twin(picture, frame, threads, run, error);
+  if (record_bytes > UINT32_MAX)
+    return trax_fail(error, "what the rays meet takes %.1f GB to record; 32-bit offsets end at 4.29",
+                     (double)record_bytes * 1e-9);
+  record = (struct trax_buffer){calloc(1, record_bytes), (unsigned)record_bytes};
+  if (!record.data)
+    return trax_fail(error, "out of memory for what the rays meet");
+  trax_status status = run_twin(picture, frame, threads, run, error);
+  if (status == TRAX_OK)
+    status = trax_layers_take(picture, frame, record.data, error);
+  free(record.data);
+  record = (struct trax_buffer){0};
+  return status;
 }
 
-/* What says where holes are. */
+/* The features that decide where holes are. */
 #define HOLES                                                                                                          \
   (TRAX_FEATURE_BIT(ALPHA) | TRAX_FEATURE_BIT(ONE_SIDED) | TRAX_FEATURE_BIT(TEXTURES) | TRAX_FEATURE_BIT(MATERIALS))
 
@@ -145,37 +149,27 @@ static bool has_holes(const struct trax_frame *frame) {
 trax_status trax_hits_native(struct trax_hits *hits, const struct trax_frame *frame, unsigned threads,
                              struct trax_render_run *run, trax_error *error) {
   const size_t pixels = (size_t)frame->params->width * frame->params->height;
-  const size_t record_bytes = pixels * (sizeof(struct trax_pixel_record) + sizeof(struct trax_sample_record));
-  const uint32_t triangles_at = frame->scene->header->sections[TRAX_SCENE_TRIANGLES].offset;
   struct trax_frame plain = *frame;
   struct trax_picture picture = {0};
+  struct trax_render_run recorded = *run;
+  recorded.layers = true;
   *hits = (struct trax_hits){.width = frame->params->width, .height = frame->params->height};
   hits->triangles = malloc(pixels * sizeof *hits->triangles);
   plain.params = malloc(frame->params_size);
-  record = (struct trax_buffer){record_bytes > UINT32_MAX ? NULL : calloc(1, record_bytes), (unsigned)record_bytes};
-  trax_status status = TRAX_OK;
-  if (record_bytes > UINT32_MAX)
-    status = trax_fail(error, "what %zu pixels hit takes %.1f GB to record; 32-bit offsets end at 4.29", pixels,
-                       (double)record_bytes * 1e-9);
-  else if (!hits->triangles || !plain.params || !record.data)
-    status = trax_fail(error, "out of memory for what %zu pixels hit", pixels);
-  else {
+  trax_status status =
+      hits->triangles && plain.params ? TRAX_OK : trax_fail(error, "out of memory for what %zu pixels hit", pixels);
+  if (status == TRAX_OK) {
     /* One ray a pixel and no shading that matters. */
     memcpy(plain.params, frame->params, frame->params_size);
     plain.params->features &= TRAX_FEATURE_BIT(EXACT) | (run->holes && has_holes(frame) ? HOLES : 0);
     plain.params->samples = 1;
-    status = run_twin(&picture, trax_twin_recording, &plain, threads, run, error);
+    status = trax_render_twin(&picture, &plain, threads, &recorded, error);
+    run->rays = recorded.rays;
   }
-  const struct trax_pixel_record *channels = record.data;
-  const struct trax_sample_record *samples = (const struct trax_sample_record *)(channels + pixels);
   for (size_t i = 0; status == TRAX_OK && i < pixels; i++)
-    hits->triangles[i] = samples[i].triangle
-                             ? (samples[i].triangle - triangles_at) / (uint32_t)sizeof(struct trax_triangle)
-                             : TRAX_NO_TRIANGLE;
+    hits->triangles[i] = picture.layers[i].triangle;
   trax_picture_release(&picture);
   free(plain.params);
-  free(record.data);
-  record = (struct trax_buffer){0};
   if (status != TRAX_OK)
     trax_hits_release(hits);
   return status;

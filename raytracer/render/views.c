@@ -1,6 +1,7 @@
 #include "views.h"
 
 #include "emulated.h"
+#include "installation.h"
 #include "room.h"
 #include "trax/names.h"
 

@@ -106,7 +106,7 @@ static bool on_progress(void *pointer, double fraction) {
   return true;
 }
 
-/* All triangles, or of those at one place the first only; returns how many. */
+/* Fills in all triangles, or with duplicates only the first at each place. Returns their number. */
 static uint32_t fill_primitives(struct RTCBuildPrimitive *primitives, const struct trax_mesh *mesh,
                                 const struct scene_duplicates *duplicates) {
   uint32_t count = 0;
@@ -136,7 +136,7 @@ static struct scene_box bounds_of(const struct RTCBuildPrimitive *primitives, ui
 
 /* --- improving what was built --- */
 
-/* Of the subtree; returns its number. */
+/* Adds the links of the subtree. Returns the index of its root. */
 static uint32_t link_built(struct scene_links *links, struct built_node **of, struct built_node *built,
                            uint32_t parent) {
   const uint32_t index = links->count++;
@@ -153,7 +153,7 @@ static uint32_t link_built(struct scene_links *links, struct built_node **of, st
   return index;
 }
 
-/* A tree that is too deep is not: scene_number_built rebuilds what is. */
+/* Improves the tree unless it is too deep: scene_number_built rebuilds subtrees that are. */
 static trax_status improve(struct built_node **root, unsigned max_depth, const struct trax_build_options *options,
                            trax_error *error) {
   if ((*root)->triangle_count || (*root)->height > max_depth || options->passes == 0)
@@ -218,6 +218,22 @@ static trax_status check_options(const struct trax_build_options *options, trax_
   return TRAX_OK;
 }
 
+/* Decides about splits. Finds the duplicates if triangles are split. */
+static trax_status choose_splits(float *factor, struct scene_duplicates *duplicates, const struct trax_mesh *mesh,
+                                 const struct trax_build_options *options, trax_error *error) {
+  *factor = options->splits;
+  if (!options->choose_splits && *factor <= 1)
+    return TRAX_OK;
+  if (!options->choose_splits && scene_check_emitters(mesh, error) != TRAX_OK)
+    return TRAX_ERROR;
+  const trax_status result = scene_find_duplicates(duplicates, mesh, error);
+  if (result == TRAX_OK && options->choose_splits)
+    *factor = scene_splits_suit(mesh, duplicates) ? TRAX_DEFAULT_SPLITS : 0;
+  if (*factor <= 1)
+    scene_duplicates_release(duplicates);
+  return result;
+}
+
 trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *mesh,
                              const struct trax_build_options *options, trax_error *error) {
   *tree = (struct scene_tree){0};
@@ -230,18 +246,15 @@ trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *me
       scene_tree_release(tree);
     return result;
   }
-  const float factor = options->choose_splits ? (scene_splits_suit(mesh) ? TRAX_DEFAULT_SPLITS : 0) : options->splits;
+  float factor;
+  struct scene_duplicates duplicates = {0};
+  result = choose_splits(&factor, &duplicates, mesh, options, error);
+  if (result != TRAX_OK)
+    return result;
   const bool splits = factor > 1;
   struct trax_build_options chosen = *options; /* and no longer to be chosen */
   chosen.splits = factor;
   options = &chosen;
-  struct scene_duplicates duplicates = {0};
-  if (splits)
-    result = scene_check_emitters(mesh, error);
-  if (splits && result == TRAX_OK)
-    result = scene_find_duplicates(&duplicates, mesh, error);
-  if (result != TRAX_OK)
-    return result;
   unsigned max_depth = options->max_depth ? options->max_depth : default_max_depth;
   struct build_context context = {.options = options, .mesh = mesh};
 

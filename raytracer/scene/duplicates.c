@@ -1,6 +1,5 @@
-/* Triangles at one place, vertex by vertex: which of them a ray hits follows from their order in the file alone
-   (device/triangle.h). They get it by their numbers, so that the one that was imported first is seen, however the tree
-   has distributed them. */
+/* Duplicates: triangles with the same vertices. Their order in the file alone decides which of them a ray hits
+   (device/triangle.h). They are ordered by their numbers, so that the first one imported is seen in every tree. */
 #include "internal.h"
 
 #include <stdlib.h>
@@ -87,7 +86,7 @@ trax_status scene_order_duplicates(struct scene_tree *tree, const struct trax_me
   trax_status result = scene_find_duplicates(&duplicates, mesh, error);
   if (result != TRAX_OK)
     return result;
-  /* Of each place the next triangle to be put into the tree, where its first one is. */
+  /* next[first]: the next triangle at this place to be put into the tree. It starts at the first. */
   uint32_t *next = malloc((mesh->triangle_count + (size_t)1) * sizeof *next);
   if (!next)
     result = scene_out_of_memory(error, "BVH");

@@ -323,8 +323,10 @@ void scene_tree_release(struct scene_tree *tree);
 
 /* --- splits.c --- */
 
-/* Whether splits gain in this mesh. */
-bool scene_splits_suit(const struct trax_mesh *mesh);
+struct scene_duplicates;
+
+/* Whether splits gain in this mesh. Only the first triangle at each place counts, as in the tree. */
+bool scene_splits_suit(const struct trax_mesh *mesh, const struct scene_duplicates *duplicates);
 /* Refuses splits of a mesh that emits light: a triangle that is split stands in the file several times, and would be
    several lamps. */
 trax_status scene_check_emitters(const struct trax_mesh *mesh, trax_error *error);
@@ -368,7 +370,7 @@ void scene_report(const struct trax_build_options *options, enum scene_phase pha
 
 #define SCENE_NO_DUPLICATE UINT32_MAX
 
-/* Of each triangle: the first one with the same vertices, perhaps itself, and the next one, or SCENE_NO_DUPLICATE. */
+/* For each triangle: the first one with the same vertices, perhaps itself, and the next one or SCENE_NO_DUPLICATE. */
 struct scene_duplicates {
   uint32_t *first, *after;
   bool any;
@@ -377,12 +379,12 @@ struct scene_duplicates {
 trax_status scene_find_duplicates(struct scene_duplicates *duplicates, const struct trax_mesh *mesh, trax_error *error);
 void scene_duplicates_release(struct scene_duplicates *duplicates);
 
-/* Has triangles whose vertices are the same stand in the tree, depth first, in the order of their numbers. */
+/* Puts triangles with the same vertices in the order of their numbers, along the tree depth first. */
 trax_status scene_order_duplicates(struct scene_tree *tree, const struct trax_mesh *mesh, trax_error *error);
 
 /* --- order.c --- */
 
-/* Where the inner nodes of a tree stand in the file. Those of one group share a line; the root of a group is its first
+/* The positions of a tree's inner nodes in the file. Nodes of one group share a line; the root of a group is its first
    node, and stands first in it. */
 struct scene_order {
   uint32_t *position; /* of each inner node of the tree, among those of the file; the root's is 0 */

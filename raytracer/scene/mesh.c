@@ -7,14 +7,11 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
-#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
-#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 void trax_mesh_release(struct trax_mesh *mesh) {
@@ -118,7 +115,6 @@ static bool write_arrays(FILE *out, struct trax_mesh *mesh) {
 }
 
 static _Noreturn void run_child(FILE *out, const char *path, const struct trax_import_options *options) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
   setrlimit(RLIMIT_CPU, &(struct rlimit){max_import_seconds, max_import_seconds});
   /* What a crashing importer prints is of no use to the user. */
   int null = open("/dev/null", O_WRONLY);
@@ -137,24 +133,11 @@ static _Noreturn void run_child(FILE *out, const char *path, const struct trax_i
 
 /* Waits for the child, or kills it when *interrupt becomes true. */
 static trax_status wait_for_child(pid_t child, const char *path, const volatile int *interrupt, trax_error *error) {
-  const struct timespec pause = {.tv_nsec = 2000000};
   int status;
-  for (;;) {
-    pid_t ended = waitpid(child, &status, interrupt ? WNOHANG : 0);
-    if (ended == child)
-      break;
-    if (ended < 0 && errno != EINTR)
-      return trax_fail(error, "%s: cannot wait for the importer: %s", path, strerror(errno));
-    if (scene_is_interrupted(interrupt)) {
-      kill(child, SIGKILL);
-      while (waitpid(child, &status, 0) < 0 && errno == EINTR)
-        ;
-      return TRAX_INTERRUPTED;
-    }
-    if (ended == 0)
-      nanosleep(&pause, NULL);
-  }
-  if (scene_is_interrupted(interrupt))
+  const trax_status waited = trax_wait_for_child(child, SIGKILL, interrupt, &status);
+  if (waited == TRAX_ERROR)
+    return trax_fail(error, "%s: cannot wait for the importer: %s", path, strerror(errno));
+  if (waited == TRAX_INTERRUPTED)
     return TRAX_INTERRUPTED;
   if (WIFSIGNALED(status))
     return trax_fail(error, "%s: the importer crashed on it (%s): the file is damaged or not a mesh", path,
@@ -205,7 +188,7 @@ trax_status scene_read_mesh_isolated(struct trax_mesh *mesh, const char *path,
   }
   fflush(NULL); /* or the child would write what is buffered a second time */
   trax_status result;
-  pid_t child = trax_fork();
+  pid_t child = trax_fork(SIGKILL);
   if (child == 0)
     run_child(exchange, path, options);
   if (child < 0)

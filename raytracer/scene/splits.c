@@ -27,12 +27,14 @@ static bool emits(const struct trax_mesh *mesh, const struct trax_mesh_triangle 
    triangle as seen along the axes: many, where triangles are large and askew. */
 #define BOXES_IN_VAIN 2
 
-bool scene_splits_suit(const struct trax_mesh *mesh) {
+bool scene_splits_suit(const struct trax_mesh *mesh, const struct scene_duplicates *duplicates) {
   struct scene_box bounds = scene_empty_box();
   double in_vain = 0;
   for (uint32_t i = 0; i < mesh->triangle_count; i++) {
     if (emits(mesh, &mesh->triangles[i]))
       return false;
+    if (duplicates->first[i] != i)
+      continue;
     const uint32_t *vertices = mesh->triangles[i].vertices;
     const float *a = mesh->vertices[vertices[0]], *b = mesh->vertices[vertices[1]], *c = mesh->vertices[vertices[2]];
     const struct scene_box box = scene_triangle_box(mesh, i);

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""trax-eval: sweeps are expanded and refused as documented, a killed command loses nothing, every runner gives the same bytes.
+"""trax-eval: sweeps are expanded and refused as documented, a killed command loses nothing, every runner gives the same
+bytes.
 
     tests/evaluation/evaluation_test.py --bin build/bin [--only NAME] [--kills N]
 
---only slurm needs Slurm's commands and a controller that answers: tests/evaluation/slurm.sh starts one. Exit status 77: there is none.
-"""
+--only slurm needs Slurm's commands and a controller that answers: tests/evaluation/slurm.sh starts one. Exit status 77:
+there is none. """
 
 import argparse
 import importlib
@@ -17,27 +18,19 @@ import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import threading
 import time
-import traceback
 import unittest.mock
 
-from inside import Inside
+from scripts import Inside, check, main
 
 BUNNY = "/usr/share/glmark2/models/bunny.obj"
-SMALL = {"name": "small", "scenes": [{"name": "bunny", "meshes": [BUNNY], "view": "bunny"}], "programs": "ours", "chips": ["1x32", "2x48"],
-         "set": {"icache.banks": [1, 16], "memory.bandwidth_gbps": [4, 8]}, "size": "40x24", "series": 2000}
+SMALL = {
+    "name": "small", "scenes": [{"name": "bunny", "meshes": [BUNNY], "view": "bunny"}], "programs": "ours",
+    "chips": ["1x32", "2x48"], "set": {"icache.banks": [1, 16],
+                                       "memory.bandwidth_gbps": [4, 8]}, "size": "40x24", "series": 2000
+}
 RUNS = 8
-
-failures = 0
-
-
-def check(condition, text):
-    global failures
-    if not condition:
-        failures += 1
-        print(f"FAILED: {text}", flush=True)
 
 
 class Evaluation:
@@ -61,11 +54,12 @@ class Evaluation:
 
 def same_bytes(scratch, one, other):
     """Everything that does not say what it took on the host."""
-
     def files(out):
         root = scratch / out
-        return {str(path.relative_to(root)): path.read_bytes() for folder in ("jobs", "runs", "pictures", "sweeps") for path in (root / folder).rglob("*")
-                if not path.name.endswith(".host.json")}
+        return {
+            str(path.relative_to(root)): path.read_bytes() for folder in ("jobs", "runs", "pictures", "sweeps")
+            for path in (root / folder).rglob("*") if not path.name.endswith(".host.json")
+        }
 
     left, right = files(one), files(other)
     check(left.keys() == right.keys(), f"{one} and {other} have other files: {sorted(left.keys() ^ right.keys())[:5]}")
@@ -83,25 +77,34 @@ def test_sweep(evaluation, scratch):
     results = evaluation.results("undisturbed")
     runs = results["runs"]
     expected = {(chip, banks, bandwidth) for chip in ("1x32", "2x48") for banks in (1, 16) for bandwidth in (4, 8)}
-    check({(one["config"], one["set"].get("icache.banks", 16), one["set"].get("memory.bandwidth_gbps", 8)) for one in runs} == expected, "the combinations")
+    check({(one["config"], one["set"].get("icache.banks", 16), one["set"].get("memory.bandwidth_gbps", 8))
+           for one in runs} == expected, "the combinations")
     check(not any(one["set"].get("icache.banks") == 16 for one in runs), "what the chip has anyway is no change")
     check(len(runs) == RUNS and all(one["status"] == "done" for one in runs), "not all runs are done")
     for one in runs:
         configuration = one["stats"]["configuration"]
         check(configuration["icache"]["banks"] == one["machine"]["icache.banks"], "a run has not its configuration")
         check(one["stats"]["items"] == 40 * 24, "pixels")
-        check(not {"tms", "channels", "instructions_by_operation", "identity"} & one["stats"].keys(), "what is left out")
+        check(not {"tms", "channels", "instructions_by_operation", "identity"} & one["stats"].keys(),
+              "what is left out")
         full = json.loads((scratch / "undisturbed" / one["json"]).read_text())
         check(full["statistics"]["identity"]["holds"] is True, "issued and lost cycles are not all thread-cycles")
         check("host_seconds" not in full["statistics"] and one["host_seconds"] > 0, "the host's time is kept apart")
     check(len({one["picture"] for one in runs}) == 1, "the picture depends on the machine")
-    check(subprocess.run([evaluation.program.replace("trax-eval", "trax-render"), BUNNY, "--view", "bunny", "--size", "40x24", "--engine", "native", "-q", "-o",
-                          scratch / "native.png"]).returncode == 0, "the native picture")
-    check(subprocess.run([evaluation.program.replace("trax-eval", "trax-compare"), "-q", scratch / "native.png", scratch / "undisturbed" / runs[0]["picture"]])
-          .returncode == 0, "the picture is not that of the native twin")
+    check(
+        subprocess.run([
+            evaluation.program.replace("trax-eval", "trax-render"), BUNNY, "--view", "bunny", "--size", "40x24",
+            "--engine", "native", "-q", "-o", scratch / "native.png"
+        ]).returncode == 0, "the native picture")
+    check(
+        subprocess.run([
+            evaluation.program.replace("trax-eval", "trax-compare"), "-q", scratch / "native.png",
+            scratch / "undisturbed" / runs[0]["picture"]
+        ]).returncode == 0, "the picture is not that of the native twin")
     check(len(results["series"]) == RUNS, "time series")
     for series, one in zip(results["series"], runs):
-        check(all(share is None or 0 <= share <= 1 for row in series["rows"] for share in row[1:]), "shares of a time series")
+        check(all(share is None or 0 <= share <= 1 for row in series["rows"] for share in row[1:]),
+              "shares of a time series")
         check(series["rows"][-1][0] == one["stats"]["cycles"], "the time series ends with the run")
 
 
@@ -109,13 +112,15 @@ def test_again(evaluation, scratch):
     """A second call makes nothing; --dry-run says so."""
     before = {path: path.stat().st_mtime_ns for path in (scratch / "undisturbed/runs").iterdir()}
     run = evaluation.run(SMALL, "undisturbed")
-    check(before == {path: path.stat().st_mtime_ns for path in (scratch / "undisturbed/runs").iterdir()}, "finished runs were made again")
+    check(before == {path: path.stat().st_mtime_ns for path in (scratch / "undisturbed/runs").iterdir()},
+          "finished runs were made again")
     run = evaluation.run(SMALL, "dry", "--dry-run", "--size", "41x24")
     check(f"{RUNS} of {RUNS} runs are missing" in run.stdout, f"--dry-run: {run.stdout}")
 
 
 def test_quick(evaluation, scratch):
-    """Quick runs stand beside the exact ones of the same sweep, with rays that were counted and no picture of the machine's."""
+    """Quick runs stand beside the exact ones of the same sweep, with rays that were counted and no picture of the
+    machine's."""
     for mode in (["--mode", "exact"], ["--quick"]):
         run = evaluation.run(dict(SMALL, series=0, set={}), "quick", "--size", "256x144", *mode)
         check(run.returncode == 0, f"{mode}: {run.stderr}")
@@ -128,22 +133,32 @@ def test_quick(evaluation, scratch):
         low, rate, high = quick["values"]["mrps_low"], quick["stats"]["mrps"], quick["values"]["mrps_high"]
         counted = [(one["stats"]["items"], one["stats"]["rays"]) for one in pair.values()]
         check(counted[0] == counted[1], f"what a quick run has counted: {counted}")
-        check(low < rate < high and abs(1 / rate - (1 / low + 1 / high) / 2) < 1e-6 / rate, f"a quick run's interval, which is symmetric in cycles: {low}, {rate}, {high}")
-        check(high / low < 1.2 and low <= exact["stats"]["mrps"] <= high, f"the interval {low} to {high} has not the exact {exact['stats']['mrps']}")
-        check(quick["stats"]["sampled"]["detailed_slots"] < 256 * 144 and "--sampled" in quick["command"], "a quick run is sampled")
-    check(found and evaluation.run(dict(SMALL, series=0, set={}), "quick", "--size", "256x144", "--quick", "--dry-run").stdout.startswith("0 of"), "quick runs are kept")
+        check(low < rate < high and abs(1 / rate - (1 / low + 1 / high) / 2) < 1e-6 / rate,
+              f"a quick run's interval, which is symmetric in cycles: {low}, {rate}, {high}")
+        check(high / low < 1.2 and low <= exact["stats"]["mrps"] <= high,
+              f"the interval {low} to {high} has not the exact {exact['stats']['mrps']}")
+        check(quick["stats"]["sampled"]["detailed_slots"] < 256 * 144 and "--sampled" in quick["command"],
+              "a quick run is sampled")
+    check(
+        found and evaluation.run(dict(SMALL, series=0, set={}), "quick", "--size", "256x144", "--quick",
+                                 "--dry-run").stdout.startswith("0 of"), "quick runs are kept")
 
 
 def test_small(evaluation, scratch):
     """A picture that is small by the sweep gets smaller instead, and stands beside the larger one."""
     for mode in ([], ["--quick"]):
-        check(evaluation.run(dict(SMALL, series=0, set={}, size="96x54"), "smaller", *mode).returncode == 0, f"a small picture, {mode}")
-    check(sorted({(*one["size"], one["mode"]) for one in evaluation.results("smaller")["runs"]}) == [(80, 45, "exact"), (96, 54, "exact")], "sizes of small pictures")
+        check(
+            evaluation.run(dict(SMALL, series=0, set={}, size="96x54"), "smaller", *mode).returncode == 0,
+            f"a small picture, {mode}")
+    check(
+        sorted({(*one["size"], one["mode"]) for one in evaluation.results("smaller")["runs"]}) == [(80, 45, "exact"),
+                                                                                                   (96, 54, "exact")],
+        "sizes of small pictures")
 
 
 def test_lockstep(evaluation, scratch):
     """What needs every cycle stays exact. Pixels in lockstep: one thread wastes nothing."""
-    run = evaluation.run(dict(SMALL, series=0, set={}, lockstep=True), "lockstep", "--mode", "quick")
+    evaluation.run(dict(SMALL, series=0, set={}, lockstep=True), "lockstep", "--mode", "quick")
     for one in evaluation.results("lockstep")["runs"]:
         check(one["mode"] == "exact" and one["values"]["simd_utilisation.1"] == 1, "lockstep")
         check(1 / 32 <= one["values"]["simd_utilisation.32"] <= one["values"]["simd_bound.32"] < 1, "warps of 32")
@@ -156,8 +171,10 @@ def test_caches(evaluation, scratch):
     made = {}
     for one in evaluation.results("caches")["runs"]:
         inputs = json.loads((scratch / "caches/jobs" / f"{one['key']}.json").read_text())["inputs"]
-        made[one["machine"]["icache.bytes"], one["machine"]["dcache.bytes"]] = inputs["program"]["xxh128"], inputs["buffers"][0]["xxh128"]
-    check(made[1024, 16384][0] != made[4096, 16384][0] == made[4096, 2048][0], "the program is not the instruction cache's")
+        made[one["machine"]["icache.bytes"],
+             one["machine"]["dcache.bytes"]] = inputs["program"]["xxh128"], inputs["buffers"][0]["xxh128"]
+    check(made[1024, 16384][0] != made[4096, 16384][0] == made[4096, 2048][0],
+          "the program is not the instruction cache's")
     check(made[4096, 2048][1] != made[4096, 16384][1], "the order of nodes is not the data cache's")
 
 
@@ -166,7 +183,8 @@ def test_damaged_job(evaluation, scratch):
     shutil.copytree(scratch / "undisturbed", scratch / "damaged", symlinks=True)
     for key in [path.stem for path in (scratch / "damaged/jobs").glob("*.json")][:2]:
         (scratch / "damaged/runs" / f"{key}.json").unlink()
-    victim, other = sorted((scratch / "damaged/jobs").glob("*.json"), key=lambda path: (scratch / "damaged/runs" / path.name).exists())[:2]
+    victim, other = sorted((scratch / "damaged/jobs").glob("*.json"), key=lambda path:
+                           (scratch / "damaged/runs" / path.name).exists())[:2]
     job = json.loads(victim.read_text())
     victim.write_text(json.dumps(job | {"series": job["series"] + 1}))
     run = subprocess.run([evaluation.program, "job", scratch / "damaged", victim.stem], capture_output=True, text=True)
@@ -174,85 +192,132 @@ def test_damaged_job(evaluation, scratch):
     for path in (scratch / "damaged/inputs").glob("*/program.elf"):
         path.write_bytes(path.read_bytes()[:-1])
     run = subprocess.run([evaluation.program, "job", scratch / "damaged", other.stem], capture_output=True, text=True)
-    check(run.returncode == 1 and "program.elf: " in run.stderr and "bytes, but" in run.stderr, f"damaged inputs: {run.stderr}")
+    check(run.returncode == 1 and "program.elf: " in run.stderr and "bytes, but" in run.stderr,
+          f"damaged inputs: {run.stderr}")
     check("bytes, but" in (scratch / "damaged/runs" / f"{other.stem}.error").read_text(), "its reason is kept")
 
 
 def test_rays(evaluation, scratch):
     """Workloads, of ours and of a file beside the sweep, and what the rays of each kind took."""
     (scratch / "two.json").write_text('{"name": "two", "render": ["--occlusion", "2"]}')
-    sweep = {"name": "rays", "scenes": SMALL["scenes"], "chips": ["1x32"], "workloads": ["primary-shadow", "two.json", "paths", "glass"], "ray_kinds": True, "lockstep": True,
-             "size": "40x24"}
+    sweep = {
+        "name": "rays", "scenes": SMALL["scenes"], "chips": ["1x32"],
+        "workloads": ["primary-shadow", "two.json", "paths",
+                      "glass"], "ray_kinds": True, "lockstep": True, "size": "40x24"
+    }
     run = evaluation.run(sweep, "rays", "--jobs", "2")
     check(run.returncode == 0, f"exit status {run.returncode}: {run.stderr}")
     found = {one["workload"]: one for one in evaluation.results("rays")["runs"]}
-    kinds = {"primary-shadow": {"primary", "shadow"}, "two": {"primary", "shadow", "occlusion"}, "paths": {"primary", "shadow", "diffuse"}, "glass": {"primary", "mirror", "glass"}}
+    kinds = {
+        "primary-shadow": {"primary", "shadow"}, "two": {"primary", "shadow", "occlusion"},
+        "paths": {"primary", "shadow", "diffuse"}, "glass": {"primary", "mirror", "glass"}
+    }
     check(found.keys() == kinds.keys(), f"workloads {found.keys()}")
     for name, one in found.items():
         values, stats = one["values"], one["stats"]
-        seen = {key.split(".")[1] for key, value in values.items() if key.startswith("rays.") and key.endswith(".count") and value}
+        seen = {
+            key.split(".")[1] for key, value in values.items()
+            if key.startswith("rays.") and key.endswith(".count") and value
+        }
         check(seen == kinds[name], f"{name}: kinds {seen}")
-        check(all(values[f"rays.{kind}.count"] == stats["rays_by_kind"][kind] for kind in seen) and values["rays.primary.count"] == 40 * 24, f"{name}: counts")
-        check(abs(sum(value for key, value in values.items() if key.startswith("rays.") and key.endswith(".share")) - 1) < 1e-9, f"{name}: shares of the thread-cycles")
+        check(
+            all(values[f"rays.{kind}.count"] == stats["rays_by_kind"][kind] for kind in seen) and
+            values["rays.primary.count"] == 40 * 24, f"{name}: counts")
+        check(
+            abs(sum(value
+                    for key, value in values.items() if key.startswith("rays.") and key.endswith(".share")) - 1) < 1e-9,
+            f"{name}: shares of the thread-cycles")
         for kind in seen:
             mine = {key.split(".", 2)[2]: value for key, value in values.items() if key.startswith(f"rays.{kind}.")}
-            check(abs(sum(mine[part] for part in ("utilisation", "fetch", "memory", "dcache", "units", "rest")) - 1) < 1e-9 and mine["rest"] >= 0, f"{name} {kind}: {mine}")
+            check(
+                abs(sum(mine[part]
+                        for part in ("utilisation", "fetch", "memory", "dcache", "units", "rest")) - 1) < 1e-9 and
+                mine["rest"] >= 0, f"{name} {kind}: {mine}")
             check(1 / 32 <= mine["lanes.32"] < mine["lanes.4"] < mine["lanes.1"] == 1, f"{name} {kind}: lanes {mine}")
-            check(mine["mrps"] > 0 and mine["energy_per_ray"] > 0 and mine["bytes_per_ray"] >= 0, f"{name} {kind}: {mine}")
+            check(mine["mrps"] > 0 and mine["energy_per_ray"] > 0 and mine["bytes_per_ray"] >= 0,
+                  f"{name} {kind}: {mine}")
         check("--mark-rays" in one["command"], one["command"])
-    check("--occlusion 2" in found["two"]["command"] and "--material glass:1.5" in found["glass"]["command"], "commands repeat the workload")
+    check("--occlusion 2" in found["two"]["command"] and "--material glass:1.5" in found["glass"]["command"],
+          "commands repeat the workload")
     check("two" in run.stdout and "occlusion" in run.stdout and "32 lanes" in run.stdout, f"the table: {run.stdout}")
     # The paper's tables are of the paper's workload alone.
     page = evaluation.scratch / "rays.html"
-    made = subprocess.run([evaluation.program, "report", str(evaluation.scratch / "rays/results.json"), "-o", str(page)], capture_output=True, text=True, timeout=120)
+    made = subprocess.run(
+        [evaluation.program, "report",
+         str(evaluation.scratch / "rays/results.json"), "-o",
+         str(page)], capture_output=True, text=True, timeout=120)
     check(made.returncode == 0, f"report: {made.stderr}")
     text = page.read_text()
     check('id="rays-table"' in text and 'id="rays-lanes"' in text and "of 32 lanes" in text, "the report's section")
 
 
 def test_options(evaluation, scratch):
-    """Options of trax-scene and trax-render as keys, variants with programs of their own, and pictures beside that of a reference."""
-    sweep = dict(SMALL, series=0, chips="1x32", reference="as it is", set=[
-        {"name": "as it is"}, {"name": "small leaves", "trax-scene --leaf": 1}, {"name": "other program", "program": "era"}, {"name": "by hand", "trax-render --queues": 4},
-        {"name": "dim", "trax-render --ambient": 0.05, "trax-render --no-shadows": [True, False]}, {"name": "slow", "memory.bandwidth_gbps": 4, "trax-scene --splits": False}])
+    """Options of trax-scene and trax-render as keys, variants with programs of their own, and pictures beside that of a
+    reference."""
+    sweep = dict(
+        SMALL, series=0, chips="1x32", reference="as it is",
+        set=[{"name": "as it is"}, {"name": "small leaves", "trax-scene --leaf": 1},
+             {"name": "other program", "program": "era"}, {"name": "by hand", "trax-render --queues": 4},
+             {"name": "dim", "trax-render --ambient": 0.05, "trax-render --no-shadows": [True, False]},
+             {"name": "slow", "memory.bandwidth_gbps": 4, "trax-scene --splits": False}])
     run = evaluation.run(sweep, "options", "--jobs", "2")
     check(run.returncode == 0, f"exit status {run.returncode}: {run.stderr}")
     results = evaluation.results("options")
     runs = {(one["variant"], one["set"].get("trax-render --no-shadows")): one for one in results["runs"]}
     names = ["as it is", "small leaves", "other program", "by hand", "dim", "dim", "slow"]
     check(sorted(name for name, _ in runs) == sorted(names), f"variants {list(runs)}")
-    check([one["variants"] for one in results["sweeps"]] == [list(dict.fromkeys(names))] and results["sweeps"][0]["reference"] == "as it is", f"sweeps {results['sweeps']}")
-    check([program["name"] for program in results["programs"]] == ["ours", "era"] and all(program["title"] for program in results["programs"]), f"programs {results['programs']}")
+    check([one["variants"] for one in results["sweeps"]] == [list(dict.fromkeys(names))] and
+          results["sweeps"][0]["reference"] == "as it is", f"sweeps {results['sweeps']}")
+    check([program["name"] for program in results["programs"]] == ["ours", "era"] and
+          all(program["title"] for program in results["programs"]), f"programs {results['programs']}")
     check([scene["name"] for scene in results["scenes"]] == ["bunny"] and results["version"] == 2, "scenes and version")
     plain = runs["as it is", None]
     differ = {key: one["values"]["picture.pixels_that_differ"] for key, one in runs.items()}
-    check(all(differ[key, None] == 0 for key in ("as it is", "small leaves", "by hand", "slow")), f"pixels that differ: {differ}")
-    check(differ["dim", True] >= 100 and differ["dim", False] >= 100 and 0 <= differ["other program", None] < 100, f"pixels that differ: {differ}")
-    check(runs["dim", True]["stats"]["rays"] < runs["dim", False]["stats"]["rays"] == plain["stats"]["rays"], "rays without shadows")
-    check(runs["small leaves", None]["stats"]["cycles"] != plain["stats"]["cycles"] != runs["by hand", None]["stats"]["cycles"], "the options change nothing")
-    check(runs["other program", None]["program"] == "era" and runs["other program", None]["machine"] == {"fpu.compare_units": True}, "a variant's program")
-    check(runs["slow", None]["machine"] == {"memory.bandwidth_gbps": 4} and runs["slow", None]["stats"]["configuration"]["memory"]["bandwidth_gbps"] == 4 and plain["set"] == {},
-          "keys of the machine")
-    check("trax-scene --leaf=1 MESHES -o scene.trax && trax-render scene.trax" in runs["small leaves", None]["command"] and "--ambient=0.05" in runs["dim", True]["command"],
-          "commands repeat the options")
+    check(all(differ[key, None] == 0 for key in ("as it is", "small leaves", "by hand", "slow")),
+          f"pixels that differ: {differ}")
+    check(differ["dim", True] >= 100 and differ["dim", False] >= 100 and 0 <= differ["other program", None] < 100,
+          f"pixels that differ: {differ}")
+    check(runs["dim", True]["stats"]["rays"] < runs["dim", False]["stats"]["rays"] == plain["stats"]["rays"],
+          "rays without shadows")
+    check(
+        runs["small leaves", None]["stats"]["cycles"] != plain["stats"]["cycles"] !=
+        runs["by hand", None]["stats"]["cycles"], "the options change nothing")
+    check(
+        runs["other program", None]["program"] == "era" and
+        runs["other program", None]["machine"] == {"fpu.compare_units": True}, "a variant's program")
+    check(
+        runs["slow", None]["machine"] == {"memory.bandwidth_gbps": 4} and
+        runs["slow", None]["stats"]["configuration"]["memory"]["bandwidth_gbps"] == 4 and plain["set"] == {},
+        "keys of the machine")
+    check(
+        "trax-scene --leaf=1 MESHES -o scene.trax && trax-render scene.trax" in runs["small leaves", None]["command"]
+        and "--ambient=0.05" in runs["dim", True]["command"], "commands repeat the options")
     run = evaluation.run(sweep, "options", "--variant", "dim", "--scene", "bunny", "--chip", "1x32", "--dry-run")
-    check(run.stdout == "0 of 3 runs are missing\n", f"--variant, which keeps the reference, --scene, --chip: {run.stdout}{run.stderr}")
-    # What trax-render tells of a picture, of a changed program, too; and seeds of samples, which an exact run has no use for.
-    sweep = dict(SMALL, name="measured", series=0, chips="1x32", programs=["ours", "order/fixed"], error=True, hits=True, set={"special.precision_bits": [9, 24]})
+    check(run.stdout == "0 of 3 runs are missing\n",
+          f"--variant, which keeps the reference, --scene, --chip: {run.stdout}{run.stderr}")
+    # What trax-render tells of a picture, of a changed program, too; and seeds of samples, which an exact run has no
+    # use for.
+    sweep = dict(SMALL, name="measured", series=0, chips="1x32", programs=["ours", "order/fixed"], error=True,
+                 hits=True, set={"special.precision_bits": [9, 24]})
     run = evaluation.run(sweep, "measured", "--jobs", "2")
     check(run.returncode == 0, f"error and hits: {run.stderr}")
     for one in evaluation.results("measured")["runs"]:
         values, bits = one["values"], one["machine"]["special.precision_bits"]
         check(values["hits.pixels"] == values["hits.nearest"] == 40 * 24, f"hits: {values}")
-        check((values["error.numerical_rmse"] > 1) == (bits == 9) and values["error.numerical_rmse"] < 60 and values["error.total_rmse"] > 1, f"error of {bits} bits: {values}")
-        check(1000 < values["code.bytes"] < 8192 and 0 < values["code.stack_bytes"] <= 512 and values["scene_bytes"] > 69000 * 40, f"sizes: {values}")
-    seeds = dict(SMALL, name="seeds", series=0, chips="1x32", set={"trax-render --sample-seed": [1, 2]}, mode="quick", size="256x144")
+        check((values["error.numerical_rmse"] > 1) == (bits == 9) and values["error.numerical_rmse"] < 60 and
+              values["error.total_rmse"] > 1, f"error of {bits} bits: {values}")
+        check(
+            1000 < values["code.bytes"] < 8192 and 0 < values["code.stack_bytes"] <= 512 and
+            values["scene_bytes"] > 69000 * 40, f"sizes: {values}")
+    seeds = dict(SMALL, name="seeds", series=0, chips="1x32", set={"trax-render --sample-seed": [1, 2]}, mode="quick",
+                 size="256x144")
     for mode, runs in (([], 2), (["--mode", "exact"], 1)):
         run = evaluation.run(seeds, "measured", *mode, "--dry-run")  # where the scene has been imported
         check(f"{runs} of {runs} runs are missing" in run.stdout, f"seeds of samples, {mode}: {run.stdout}{run.stderr}")
     run = evaluation.run(dict(seeds, size="40x24"), "seeds", "--mode", "exact", "--jobs", "2")
     found = [(one["set"], len(one["points"])) for one in evaluation.results("seeds")["runs"]]
-    check(run.returncode == 0 and found == [({}, 1)], f"an exact run has no seed, so that tables find it: {found}, {run.stderr}")
+    check(run.returncode == 0 and found == [({}, 1)],
+          f"an exact run has no seed, so that tables find it: {found}, {run.stderr}")
     sweep = dict(SMALL, series=0, chips="1x32", set={"trax-scene --leaf": [1, 4]})
     for size, smaller in (("60x34", "60x34"), ("320x180", "80x45"), ("640x360", "640x360"), ("1280x720", "853x480")):
         run = evaluation.run(dict(sweep, size=size), "options", "--quick", "--dry-run")
@@ -260,21 +325,30 @@ def test_options(evaluation, scratch):
 
 
 REFUSED = [
-    ('{"name": "x", "set": {"trax-scene --leafs": 4}}', "set.trax-scene --leafs: unknown option --leafs; did you mean --leaf?"),
-    ('{"name": "x", "set": {"trax-scene --leaf": [4, 9]}}', "set.trax-scene --leaf: --leaf: '9' is not a whole number from 1 to 7"),
+    ('{"name": "x", "set": {"trax-scene --leafs": 4}}',
+     "set.trax-scene --leafs: unknown option --leafs; did you mean --leaf?"),
+    ('{"name": "x", "set": {"trax-scene --leaf": [4, 9]}}',
+     "set.trax-scene --leaf: --leaf: '9' is not a whole number from 1 to 7"),
     ('{"name": "x", "set": {"trax-render --ambient": "much"}}', "set.trax-render --ambient: --ambient: 'much'"),
     ('{"name": "x", "set": {"trax-render --smooth": "yes"}}', "--smooth takes no value"),
-    ('{"name": "x", "set": {"trax-render --siz": "9x9"}}', "set.trax-render --siz: --size is what trax-eval says itself"),
-    ('{"name": "x", "set": {"trax-render --pre": "d"}}', "set.trax-render --pre: --prepare writes files, and trax-eval itself says which"),
-    ('{"name": "x", "set": {"trax-render --views": true}}', "set.trax-render --views: --views ends trax-render before it does anything"),
-    ('{"name": "x", "set": {"trax-sim --engine": "fast"}}', 'set.trax-sim --engine: "trax-sim" is no program whose options can be set; "trax-scene", "trax-render" are'),
+    ('{"name": "x", "set": {"trax-render --siz": "9x9"}}',
+     "set.trax-render --siz: --size is what trax-eval says itself"),
+    ('{"name": "x", "set": {"trax-render --pre": "d"}}',
+     "set.trax-render --pre: --prepare writes files, and trax-eval itself says which"),
+    ('{"name": "x", "set": {"trax-render --views": true}}',
+     "set.trax-render --views: --views ends trax-render before it does anything"),
+    ('{"name": "x", "set": {"trax-sim --engine": "fast"}}',
+     'set.trax-sim --engine: "trax-sim" is no program whose options can be set; "trax-scene", "trax-render" are'),
     ('{"name": "x", "set": {"trax-scene --leaf": [[1]]}}', "expected a text, a number, true (given), false (left out)"),
     ('{"name": "x", "set": [{"name": "a"}, {"name": "a", "icache.banks": 4}]}', 'set: the variant "a" is there twice'),
     ('{"name": "x", "set": [{"name": ""}]}', "set: name: expected a text of at most 100"),
-    ('{"name": "x", "set": [{"name": "a", "program": "theirs"}]}', 'set.program: "theirs" is no program; allowed are "era"'),
-    ('{"name": "x", "set": [{"name": "a", "program": "paper"}]}', "set.program: is a set of programs; a variant has one"),
+    ('{"name": "x", "set": [{"name": "a", "program": "theirs"}]}',
+     'set.program: "theirs" is no program; allowed are "era"'),
+    ('{"name": "x", "set": [{"name": "a", "program": "paper"}]}',
+     "set.program: is a set of programs; a variant has one"),
     ('{"name": "x", "set": [{"name": "a", "program": 1}]}', "set.program: expected the name"),
-    ('{"name": "x", "set": [{"name": "a"}], "reference": "b"}', 'reference: "b" is neither a variant nor a program of this sweep; "a", "ours", "era" are'),
+    ('{"name": "x", "set": [{"name": "a"}], "reference": "b"}',
+     'reference: "b" is neither a variant nor a program of this sweep; "a", "ours", "era" are'),
     ('{"name": "x", "table": 1}', "table: expected an object or a list of objects"),
     ('{"name": "x", "error": 1}', "error: expected true or false"),
     ('{"name": "x", "mode": "quick", "programs": "ours", "hits": true}', "mode: series, lockstep"),
@@ -285,21 +359,28 @@ REFUSED = [
     ('{"name": "x", "chips": []}', "chips: expected a list of texts"),
     ('{"name": "x", "chips": ["4x32", "4x32"]}', "twice"),
     ('{"name": "x", "programs": ["theirs"]}', 'programs: "theirs" is no program; allowed are "era", '),
-    ('{"name": "x", "scenes": ["cornell"]}', 'scenes: "cornell" is no scene; allowed are "conference", "crytek-sponza"'),
-    ('{"name": "x", "scenes": [{"name": "y", "mesh": "z"}]}', 'scenes: unknown key "mesh", did you mean "meshes"? Allowed are "name", "title", "meshes", "view"'),
+    ('{"name": "x", "scenes": ["cornell"]}',
+     'scenes: "cornell" is no scene; allowed are "conference", "crytek-sponza"'),
+    ('{"name": "x", "scenes": [{"name": "y", "mesh": "z"}]}',
+     'scenes: unknown key "mesh", did you mean "meshes"? Allowed are "name", "title", "meshes", "view"'),
     ('{"name": "x", "set": {"icache.bank": 4}}', 'unknown key "icache.bank"; did you mean icache.banks'),
     ('{"name": "x", "set": {"icache.banks": [4, 0]}}', "icache.banks is 0; allowed are"),
     ('{"name": "x", "set": {"icache.banks": []}}', "set.icache.banks: expected a number"),
     ('{"name": "x", "set": {"icache.banks": "4"}}', "set.icache.banks: expected a number"),
-    ('{"name": "x", "set": {"dcache.replacement": ["lru", "mru"]}}', 'dcache.replacement is "mru"; allowed are fifo, lru'),
+    ('{"name": "x", "set": {"dcache.replacement": ["lru", "mru"]}}',
+     'dcache.replacement is "mru"; allowed are fifo, lru'),
     ('{"name": "x", "set": {"icache.banks": 4, "icache.banks": 8}}', '"icache.banks" is there twice'),
     ('{"name": "x", "set": {"memory.bandwidth_gbps": NaN}}', "NaN is no number"),
     ('{"name": "x", "size": "0x10"}', "size: expected"),
     ('{"name": "x", "mode": "fast"}', '"fast" is unknown; allowed are "exact", "quick"'),
     ('{"name": "x", "series": -1}', "series: expected"),
-    ('{"name": "x", "mode": "quick", "series": 100}', 'mode: series, lockstep, ray_kinds, workloads, error, hits and programs that are compiled or converted need "exact"'),
+    ('{"name": "x", "mode": "quick", "series": 100}',
+     'mode: series, lockstep, ray_kinds, workloads, error, hits and programs that are compiled or converted need '
+     '"exact"'
+     ),
     ('{"name": "x", "ray_kinds": 1}', "ray_kinds: expected true or false"),
-    ('{"name": "x", "ray_kinds": true, "programs": ["ours", "era"]}', 'programs: workloads and ray_kinds need programs with "rays": true, which '),
+    ('{"name": "x", "ray_kinds": true, "programs": ["ours", "era"]}',
+     'programs: workloads and ray_kinds need programs with "rays": true, which '),
     ('{"name": "x", "workloads": ["fog"]}', 'workloads: "fog" is no workload; allowed are "diffuse", "glass"'),
     ('{"name": "x", "workloads": ["../none.json"]}', '"../none.json" is no workload'),
     ('{"name": "x", "workloads": []}', "workloads: expected a list of texts"),
@@ -311,7 +392,8 @@ REFUSED = [
     ('{"name": "x", "chips": "4x32", "title": "\\ud800"}', "no text"),
     ('{"name": "x", "chips": "4x32\\u0000"}', "no text"),
     ('{"name": "x", "chips": "4x32", "set": {"memory.bandwidth_gbps": 1e999}}', "1e999 is no number"),
-    ('{"name": "x", "chips": "4x32", "set": {%s}}' % ", ".join(f'"a{i}": [1, 2, 3, 4, 5, 6, 7, 8, 9, 10]' for i in range(20)), "more than 100000 combinations"),
+    ('{"name": "x", "chips": "4x32", "set": {%s}}' % ", ".join(f'"a{i}": [1, 2, 3, 4, 5, 6, 7, 8, 9, 10]'
+                                                               for i in range(20)), "more than 100000 combinations"),
     ('{"name": "x", "chips": "4x32", "title": "%s"}' % (1100000 * "x"), "more than 1048576 bytes"),
     ("[]", "expected an object"),
     ('{"name": "x",', "sweep.json:1:"),
@@ -319,50 +401,84 @@ REFUSED = [
 ]
 
 
+REFUSED_WORDS = (
+    ([], "no experiment"),
+    (["table9"], '"table9" is neither an experiment'),
+    (["table2", "--size", "1"], "--size 1: expected"),
+    (["table2", "--program", "x"], "--program x: allowed"),
+    (["table2", "--jobs", "0"], "--jobs 0"),
+    (["--nonsense"], "--nonsense"),
+    (["table2", "--hosts", "a"], "--hosts is for"),
+    (["table2", "--scene", "x"], "--scene x: the sweep has conference; crytek-sponza"),
+    (["era-choices", "--variant", "x"], "--variant x: the sweep has as chosen; "),
+    (["table2", "--chip", ""], "--chip: the value is empty"),
+    (["table2", "--program", "none.json"], '"none.json" is no program'),
+    (["new-sweep"], "copy "),
+    (["table2", "--runner", "pbs"], "invalid choice"),
+    (["no.json"], "no.json: No such"),
+)
+
+
 def test_refusals(evaluation, scratch):
     complete = {"scenes": [{"name": "bunny", "meshes": [BUNNY]}], "chips": "4x32"}
     for text, message in REFUSED:
         if text.startswith('{"name": ') and text.endswith("}") and "without" not in message:  # nothing else is wrong
-            text = text[:-1] + "".join(f', "{key}": {json.dumps(value)}' for key, value in complete.items() if f'"{key}"' not in text) + "}"
+            text = text[:-1] + "".join(f', "{key}": {json.dumps(value)}'
+                                       for key, value in complete.items() if f'"{key}"' not in text) + "}"
         run = evaluation.inside(evaluation.file(text), scratch, "-o", scratch / "refused")
         check(run.returncode == 1, f"{text[:60]}: exit status {run.returncode}: {run.stderr[-300:]}")
-        check(message in run.stderr and "sweep.json" in run.stderr, f"{text[:60]}: {run.stderr.strip()!r} has not {message!r}")
-    for words, message in (([], "no experiment"), (["table9"], '"table9" is neither an experiment'), (["table2", "--size", "1"], "--size 1: expected"),
-                           (["table2", "--program", "x"], "--program x: allowed"), (["table2", "--jobs", "0"], "--jobs 0"), (["--nonsense"], "--nonsense"),
-                           (["table2", "--hosts", "a"], "--hosts is for"), (["table2", "--scene", "x"], "--scene x: the sweep has conference; crytek-sponza"),
-                           (["era-choices", "--variant", "x"], "--variant x: the sweep has as chosen; "), (["table2", "--chip", ""], "--chip: the value is empty"),
-                           (["table2", "--program", "none.json"], '"none.json" is no program'), (["new-sweep"], "expected one file"), (["table2", "--runner", "pbs"], "invalid choice"), (["no.json"], "no.json: No such")):
+        check(message in run.stderr and "sweep.json" in run.stderr,
+              f"{text[:60]}: {run.stderr.strip()!r} has not {message!r}")
+    for words, message in REFUSED_WORDS:
         run = evaluation.inside(*words, "-o", scratch / "refused")
         check(run.returncode == 1 and message in run.stderr, f"{words}: {run.stderr.strip()!r} has not {message!r}")
     check(not list((scratch / "refused").rglob("*.json")), "what was refused left files")
     refuse_writing(evaluation, scratch, complete)
     # Scenes that are not there: the others are run, and the status tells.
-    run = evaluation.run({"name": "x", "scenes": ["conference", {"name": "bunny", "meshes": [BUNNY]}], "chips": "4x32", "programs": "ours", "size": "8x8"}, "partly")
-    check(run.returncode == 1 and "neither conference.ply nor conference.ply.xz is there" in run.stderr, f"a missing scene: {run.stderr}")
-    check(sorted(one["status"] for one in evaluation.results("partly")["runs"]) == ["done", "failed"], "the other scene was not run")
+    run = evaluation.run(
+        {
+            "name": "x", "scenes": ["conference", {"name": "bunny", "meshes": [BUNNY]}], "chips": "4x32",
+            "programs": "ours", "size": "8x8"
+        }, "partly")
+    check(run.returncode == 1 and "neither conference.ply nor conference.ply.xz is there" in run.stderr,
+          f"a missing scene: {run.stderr}")
+    check(
+        sorted(one["status"] for one in evaluation.results("partly")["runs"]) == ["done", "failed"],
+        "the other scene was not run")
 
 
-READING = {"trax-scene": ("tree", "tree-triangles", "tree-boxes"), "trax-render": ("view",)}  # options with files that are not refused
+READING = {"trax-scene": ("tree", "tree-triangles", "tree-boxes"),
+           "trax-render": ("view", )}  # options with files that are not refused
 
 
 def refuse_writing(evaluation, scratch, complete):
-    """Before anything runs, also of --dry-run: every option with a file in sweeps, programs and workloads, but for those that read; however it is spelled."""
+    """Before anything runs, also of --dry-run: every option with a file in sweeps, programs and workloads, but for
+    those that read; however it is spelled."""
     victim = scratch / "victim"
     for tool, key in (("trax-scene", "scene"), ("trax-render", "render")):
-        listed = re.findall(r"^ +(?:-(\w), )?--([\w-]+) \S*(?:FILE|DIR|SCENE)", subprocess.run([evaluation.program.replace("trax-eval", tool), "--help"], capture_output=True, text=True).stdout, re.MULTILINE)
+        listed = re.findall(
+            r"^ +(?:-(\w), )?--([\w-]+) \S*(?:FILE|DIR|SCENE)",
+            subprocess.run([evaluation.program.replace("trax-eval", tool), "--help"], capture_output=True,
+                           text=True).stdout, re.MULTILINE)
         check(len(listed) > 5, f"{tool} --help lists {listed}")
         for letter, name in listed:
             good = name in READING[tool]
-            spelled = [["--no-textures", f"--{name}", str(victim)], [f"--{name}={victim}"], *([[f"-{letter}{victim}"], [f"-q{letter}", str(victim)]] if letter else [])]
-            files = [("set", {f"{tool} --{name}": str(victim)}), *(("workloads", words) for words in spelled), ("programs", spelled[0])]
+            spelled = [["--no-textures", f"--{name}", str(victim)], [f"--{name}={victim}"],
+                       *([[f"-{letter}{victim}"], [f"-q{letter}", str(victim)]] if letter else [])]
+            files = [("set", {f"{tool} --{name}": str(victim)}), *(("workloads", words) for words in spelled),
+                     ("programs", spelled[0])]
             for number, (kind, value) in enumerate(files):
                 one = f"{tool}-{name}-{number}.json"
                 if kind != "set":
-                    (scratch / one).write_text(json.dumps({"name": "one", key: value} | ({"like": "ours"} if kind == "programs" else {})))
-                sweep = {"name": "x"} | complete | {kind: value if kind == "set" else one} | ({"programs": "ours"} if kind != "programs" else {})
+                    (scratch / one).write_text(
+                        json.dumps({"name": "one", key: value} | ({"like": "ours"} if kind == "programs" else {})))
+                sweep = {"name": "x"} | complete | {kind: value if kind == "set" else one
+                                                    } | ({"programs": "ours"} if kind != "programs" else {})
                 run = evaluation.inside(evaluation.file(sweep), scratch, "--dry-run", "-o", scratch / "refused")
                 said = re.search(rf"--{name}[: ].*(trax-eval itself says which|what trax-eval says itself)", run.stderr)
-                check(bool(said) != good and (run.returncode == 1) != good, f"{kind} {value}: exit status {run.returncode}: {run.stderr.strip()[-300:]!r}")
+                check(
+                    bool(said) != good and (run.returncode == 1) != good,
+                    f"{kind} {value}: exit status {run.returncode}: {run.stderr.strip()[-300:]!r}")
     check(not victim.exists(), "what was refused wrote a file")
 
 
@@ -371,28 +487,43 @@ def test_folders(evaluation, scratch):
     for name in ("scenes", "rays", "table2"):
         (scratch / "named" / name).mkdir(parents=True)
         (scratch / "named" / name / "here.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
-    (scratch / "named/mine.json").write_text(json.dumps({"name": "mine", "scenes": [{"name": "here", "meshes": ["here.obj"]}], "programs": "ours", "chips": "1x32"}))
-    for words, runs, note in ((["mine.json", "scenes"], 1, True), (["mine.json", "rays"], 1, True), (["mine.json", "./rays"], 1, False), (["mine.json", "table2", "scenes"], None, True),
-                              (["scenes", "mine.json", "rays"], None, True), (["scenes", "."], 5, False), (["scenes"], 5, False)):
-        run = evaluation.inside(*words, "--dry-run", "--size", "8x8", "-o", scratch / "named/out", cwd=scratch / "named")
+    (scratch / "named/mine.json").write_text(
+        json.dumps(
+            {"name": "mine", "scenes": [{"name": "here", "meshes": ["here.obj"]}], "programs": "ours",
+             "chips": "1x32"}))
+    for words, runs, note in ((["mine.json", "scenes"], 1, True), (["mine.json", "rays"], 1, True),
+                              (["mine.json", "./rays"], 1, False), (["mine.json", "table2", "scenes"], None, True),
+                              (["scenes", "mine.json", "rays"], None, True), (["scenes",
+                                                                               "."], 5, False), (["scenes"], 5, False)):
+        run = evaluation.inside(*words, "--dry-run", "--size", "8x8", "-o", scratch / "named/out",
+                                cwd=scratch / "named")
         lines = run.stdout.splitlines()
-        check(run.returncode == 0 and ("is taken for the folder" in run.stderr) == note, f"{words}: {run.returncode}: {run.stderr}")
-        check(runs != 1 or lines[-1:] == ["1 of 1 runs are missing"] and "neither" not in run.stderr, f"{words}: {lines}: {run.stderr}")
-        check(runs is not None or any("here" in line for line in lines) and len(lines) > 2, f"{words}: {lines}: {run.stderr}")
-        check(runs != 5 or not any("here" in line for line in lines) and any("forest" in line for line in lines), f"{words}: {lines}: {run.stderr}")
+        check(run.returncode == 0 and ("is taken for the folder" in run.stderr) == note,
+              f"{words}: {run.returncode}: {run.stderr}")
+        check(runs != 1 or lines[-1:] == ["1 of 1 runs are missing"] and "neither" not in run.stderr,
+              f"{words}: {lines}: {run.stderr}")
+        check(runs is not None or any("here" in line for line in lines) and len(lines) > 2,
+              f"{words}: {lines}: {run.stderr}")
+        check(runs != 5 or not any("here" in line for line in lines) and any("forest" in line for line in lines),
+              f"{words}: {lines}: {run.stderr}")
 
 
 def test_names(evaluation, scratch):
-    """A run belongs to every experiment whose machine it is, whatever a sweep calls the machine: 1x32 with 48 TPs in a TM is 1x48."""
+    """A run belongs to every experiment whose machine it is, whatever a sweep calls the machine: 1x32 with 48 TPs in a
+    TM is 1x48."""
     folder, out = scratch / "named-scenes", scratch / "named"
     folder.mkdir()
     scenes = [f"{name}.json" for name in ("conference", "crytek-sponza", "dragon", "forest")]
     for name in scenes:
         scene = json.loads((evaluation.inside.data / "scenes" / name).read_text())
         (scratch / name).write_text(json.dumps(scene | {"meshes": [BUNNY]}))
-    sweeps = {"a-sweep": {"chips": "1x32", "set": {"chip.tps_per_tm": [48, 64, 16]}, "x": "chip.tps_per_tm"}, "table1": {"chips": ["1x48", "1x64"]},
-              "table2": {"chips": ["1x32", "1x48", "1x64"]}, "table3": {"chips": "8x32", "set": {"memory.bandwidth_gbps": 16}},
-              "wide": {"chips": "4x32", "set": {"chip.tms": 8, "memory.bandwidth_gbps": 16}, "x": "chip.tms"}}
+    sweeps = {
+        "a-sweep": {"chips": "1x32", "set": {"chip.tps_per_tm": [48, 64, 16]},
+                    "x": "chip.tps_per_tm"}, "table1": {"chips": ["1x48", "1x64"]},
+        "table2": {"chips": ["1x32", "1x48",
+                             "1x64"]}, "table3": {"chips": "8x32", "set": {"memory.bandwidth_gbps": 16}},
+        "wide": {"chips": "4x32", "set": {"chip.tms": 8, "memory.bandwidth_gbps": 16}, "x": "chip.tms"}
+    }
     files = []
     for name, sweep in sweeps.items():
         files.append(scratch / f"{name}.json")
@@ -401,32 +532,49 @@ def test_names(evaluation, scratch):
     check(run.returncode == 0, f"machines with two names: {run.stderr}")
     results = json.loads((out / "results.json").read_text())
     found = {(one["config"], tuple(one["set"])): sorted(one["experiments"]) for one in results["runs"]}
-    check(found == {("1x32", ()): ["table2"], ("1x48", ()): ["a-sweep", "table1", "table2"], ("1x64", ()): ["a-sweep", "table1", "table2"],
-                    ("1x32", ("chip.tps_per_tm",)): ["a-sweep"], ("8x32", ("memory.bandwidth_gbps",)): ["table3", "wide"]}, f"the runs are of {found}")
+    check(
+        found == {("1x32", ()): ["table2"], ("1x48", ()): ["a-sweep", "table1", "table2"],
+                  ("1x64", ()): ["a-sweep", "table1", "table2"], ("1x32", ("chip.tps_per_tm", )): ["a-sweep"],
+                  ("8x32", ("memory.bandwidth_gbps", )): ["table3", "wide"]}, f"the runs are of {found}")
     for chip in ("1x48", "1x64"):
-        check(sum(line.split()[:2] == ["|", chip] for line in run.stdout.splitlines()) == 4, f"Table 1, its GFLOPS by scene, Table 2 and the speed-ups have {chip}: {run.stdout}")
+        check(
+            sum(line.split()[:2] == ["|", chip] for line in run.stdout.splitlines()) == 4,
+            f"Table 1, its GFLOPS by scene, Table 2 and the speed-ups have {chip}: {run.stdout}")
     title, table = run.stdout.split("a-sweep: MRPS (")[1].split("\n\n")[:2]
     rows = [line.split("|")[1].strip() for line in table.splitlines()[2:]]
     check("1x32" in title and rows == ["16", "48", "64"], f"the sweep has its own names: {title}, {rows}")
-    check(subprocess.run([evaluation.program, "report", out / "results.json", "-o", out / "report.html"]).returncode == 0, "the report")
+    check(
+        subprocess.run([evaluation.program, "report", out / "results.json", "-o", out / "report.html"]).returncode == 0,
+        "the report")
     page = (out / "report.html").read_text()
-    cells = {row.split("<td")[1].split(">")[1].split("<")[0]: row.count("not run") + row.count("missing") for row in page.split('id="table2-ours"')[1].split("</table>")[0].split("<tr>")
-             if row.startswith("<td")}
-    check([chip for chip, missing in cells.items() if not missing] == ["1x32", "1x48", "1x64"], f"the report's Table 2 has {cells}")
+    cells = {
+        row.split("<td")[1].split(">")[1].split("<")[0]: row.count("not run") + row.count("missing")
+        for row in page.split('id="table2-ours"')[1].split("</table>")[0].split("<tr>") if row.startswith("<td")
+    }
+    check([chip for chip, missing in cells.items() if not missing] == ["1x32", "1x48", "1x64"],
+          f"the report's Table 2 has {cells}")
 
 
 def test_experiments(evaluation, scratch):
     """The sweeps that come with trax ask for machines that there are; without its meshes a scene is left out."""
     empty = scratch / "no-scenes"
     empty.mkdir()
-    run = subprocess.run([evaluation.program, "--all", empty, "--size", "16x16", "--dry-run", "-o", scratch / "experiments"], capture_output=True, text=True)
+    run = subprocess.run(
+        [evaluation.program, "--all", empty, "--size", "16x16", "--dry-run", "-o", scratch / "experiments"],
+        capture_output=True, text=True)
     check(run.returncode == 0 and "error" not in run.stderr, f"--all --dry-run: {run.stderr}")
-    check(run.stdout.count("forest") > 100 and "conference" not in run.stdout, "the generated forest needs no mesh, the others do")
+    check(
+        run.stdout.count("forest") > 100 and "conference" not in run.stdout,
+        "the generated forest needs no mesh, the others do")
     check("occlusion" not in run.stdout, "--all leaves out what the paper has no figure of")
-    run = subprocess.run([evaluation.program, "rays", empty, "--size", "16x16", "--dry-run", "-o", scratch / "experiments"], capture_output=True, text=True)
+    run = subprocess.run(
+        [evaluation.program, "rays", empty, "--size", "16x16", "--dry-run", "-o", scratch / "experiments"],
+        capture_output=True, text=True)
     check(run.stdout.count("forest") == 6 * 15, f"rays: every chip with every workload: {run.stdout[-300:]}")
     known = subprocess.run([evaluation.program, "--help"], capture_output=True, text=True).stdout
-    check(all(f"  {name} " in known for name in ("table1", "table2", "table3", "fpu-sharing", "staggering", "lockstep")), "--help lists the experiments")
+    check(
+        all(f"  {name} " in known for name in ("table1", "table2", "table3", "fpu-sharing", "staggering", "lockstep")),
+        "--help lists the experiments")
 
 
 # --- killed
@@ -454,7 +602,8 @@ def wait_for_simulators(folder):
 
 
 def test_kill(evaluation, scratch, kills):
-    """kills moments at random; a command that is at its end before its moment comes begins again in another folder, and tells how long one takes."""
+    """kills moments at random; a command that is at its end before its moment comes begins again in another folder, and
+    tells how long one takes."""
     generator = random.Random(7)
     begin = time.monotonic()
     evaluation.run(SMALL, "once", "--jobs", "2")
@@ -462,8 +611,8 @@ def test_kill(evaluation, scratch, kills):
     hit, folders, fresh = 0, 1, True
     while hit < kills and folders < 3 * kills:
         name, begin = f"killed-{folders}", time.monotonic()
-        process = subprocess.Popen(evaluation.command(SMALL, name, "--jobs", "2"), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                                   start_new_session=True)
+        process = subprocess.Popen(evaluation.command(SMALL, name, "--jobs", "2"), stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.DEVNULL, start_new_session=True)
         try:
             process.wait(timeout=generator.uniform(0, whole))
             check(process.returncode == 0, f"{name}: exit status {process.returncode} after kills")
@@ -504,16 +653,24 @@ def wait_for_reader(pipe):
 
 
 def test_interrupt(evaluation, scratch):
-    """Each signal ends the command, by itself, and what it has started: a simulator, an importer; and while it waits for a pipe."""
+    """Each signal ends the command, by itself, and what it has started: a simulator, an importer; and while it waits
+    for a pipe."""
     os.mkfifo(scratch / "pipe.json")
-    slow, large = dict(SMALL, size="1280x720"), {"name": "w", "chips": "4x32", "scenes": [{"name": "large", "meshes": ["generate:forest"]}]}
-    sweeps, numbers = {"simulated": slow, "imported": large, "read": None}, (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+    slow, large = dict(SMALL, size="1280x720"), {
+        "name": "w", "chips": "4x32", "scenes": [{"name": "large", "meshes": ["generate:forest"]}]
+    }
+    sweeps, numbers = {"simulated": slow, "imported": large,
+                       "read": None}, (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
     for place, number in enumerate(numbers):
         for name in list(sweeps)[:place] + list(sweeps)[place + 1:]:  # two of the three each
             sweep = sweeps[name]
-            command = evaluation.command(sweep, "interrupted", "--jobs", "2") if sweep else [evaluation.program, str(scratch / "pipe.json"), "-o", str(scratch / "interrupted")]
+            command = evaluation.command(sweep, "interrupted", "--jobs", "2") if sweep else [
+                evaluation.program, str(scratch / "pipe.json"), "-o",
+                str(scratch / "interrupted")
+            ]
             process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-            wanted, deadline = {"simulated": "trax-sim", "imported": "trax-scene", "read": None}[name], time.monotonic() + 60
+            wanted, deadline = {"simulated": "trax-sim", "imported": "trax-scene",
+                                "read": None}[name], time.monotonic() + 60
             while wanted and not simulators(scratch / "interrupted", wanted) and time.monotonic() < deadline:
                 time.sleep(0.01)
             writer = None if wanted else wait_for_reader(scratch / "pipe.json")
@@ -522,17 +679,24 @@ def test_interrupt(evaluation, scratch):
             errors = process.communicate(timeout=60)[1]
             if writer:
                 os.close(writer)
-            check(process.returncode == -number and "the same command goes on" in errors and "Traceback" not in errors, f"{name}, interrupted: {process.returncode}: {errors}")
-            check(not wanted or not simulators(scratch / "interrupted", wanted), f"{name}, interrupted: a {wanted} lives on")
-            left = [path for folder in ("scratch", "scenes") for path in (scratch / "interrupted" / folder).glob("*") if path.suffix not in (".trax", ".json")]
+            check(process.returncode == -number and "the same command goes on" in errors and "Traceback" not in errors,
+                  f"{name}, interrupted: {process.returncode}: {errors}")
+            check(not wanted or not simulators(scratch / "interrupted", wanted),
+                  f"{name}, interrupted: a {wanted} lives on")
+            left = [
+                path for folder in ("scratch", "scenes") for path in (scratch / "interrupted" / folder).glob("*")
+                if path.suffix not in (".trax", ".json")
+            ]
             check(not left, f"{name}, interrupted: {left} are left")
             shutil.rmtree(scratch / "interrupted/scenes", ignore_errors=True)
     check(not list((scratch / "interrupted/runs").glob("*.error")), "an interrupt is no failure of a run")
 
 
 def test_held(evaluation, scratch):
-    """An interrupt finds every process that was started, at each place where it may come: test_interrupt hits only some of them."""
-    interrupts, runners, tools = (importlib.import_module(f"trax_eval.{name}") for name in ("interrupts", "runners", "tools"))
+    """An interrupt finds every process that was started, at each place where it may come: test_interrupt hits only some
+    of them."""
+    interrupts, runners, tools = (importlib.import_module(f"trax_eval.{name}")
+                                  for name in ("interrupts", "runners", "tools"))
     begun, ended, show = [], threading.Event(), runners.Progress(2, {}, True)
 
     def interrupted(call, *arguments):
@@ -571,9 +735,11 @@ def test_held(evaluation, scratch):
     show.show = lambda: ended.is_set() and interrupt()
     with unittest.mock.patch.object(runners, "try_job", job):
         with unittest.mock.patch.object(runners.concurrent.futures.ThreadPoolExecutor, "submit", second):
-            check(interrupted(runners.run_locally, scratch, None, ["long", "short"], options, show), "interrupted while jobs are handed out")
+            check(interrupted(runners.run_locally, scratch, None, ["long", "short"], options, show),
+                  "interrupted while jobs are handed out")
         begun.clear()
-        check(interrupted(runners.run_locally, scratch, None, ["long", "short"], options, show), "interrupted when a process has just ended")
+        check(interrupted(runners.run_locally, scratch, None, ["long", "short"], options, show),
+              "interrupted when a process has just ended")
 
     class Started(subprocess.Popen):
         def __init__(self, *words, **where):
@@ -631,7 +797,8 @@ def end(pid):
 
 os.close(mine)
 os.setsid()
-shell = subprocess.Popen(["/bin/sh", "-c", " ".join(words)], cwd="/", env={"HOME": "/", "PATH": "/usr/local/bin:/usr/bin:/bin", "SHELL": "/bin/sh"})
+environment = {"HOME": "/", "PATH": "/usr/local/bin:/usr/bin:/bin", "SHELL": "/bin/sh"}
+shell = subprocess.Popen(["/bin/sh", "-c", " ".join(words)], cwd="/", env=environment)
 while shell.poll() is None:
     if select.select([connection], [], [], 0.02)[0]:
         end(shell.pid)
@@ -640,7 +807,8 @@ os._exit(shell.wait() & 255)
 
 
 def test_hosts(evaluation, scratch):
-    """GNU parallel over hosts, which a command in the place of ssh is: a shell in another folder, without this environment, that ends when ssh does."""
+    """GNU parallel over hosts, which a command in the place of ssh is: a shell in another folder, without this
+    environment, that ends when ssh does."""
     ssh = scratch / "ssh"
     ssh.write_text(SSH)
     ssh.chmod(0o755)
@@ -652,56 +820,54 @@ def test_hosts(evaluation, scratch):
         used = {line.split("\t")[1] for line in log.readlines()[1:]}
     check({name.split()[-1] for name in used} == {"first", "second"}, f"runs were on {used}")
     # A host that does not answer is an error that names it; an interrupt ends what runs on the others.
-    run = evaluation.run(dict(SMALL, chips="1x32"), "no-host", "--runner", "parallel", "--hosts", hosts.replace("first", "nowhere.invalid").split(",")[0])
-    check(run.returncode == 1 and "nowhere.invalid" in run.stderr and "Traceback" not in run.stderr, f"a host that is not there: {run.returncode}: {run.stderr}")
-    process = subprocess.Popen(evaluation.command(dict(SMALL, size="1280x720"), "hosts-interrupted", "--runner", "parallel", "--hosts", hosts),
-                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    run = evaluation.run(dict(SMALL, chips="1x32"), "no-host", "--runner", "parallel", "--hosts",
+                         hosts.replace("first", "nowhere.invalid").split(",")[0])
+    check(run.returncode == 1 and "nowhere.invalid" in run.stderr and "Traceback" not in run.stderr,
+          f"a host that is not there: {run.returncode}: {run.stderr}")
+    process = subprocess.Popen(
+        evaluation.command(dict(SMALL, size="1280x720"), "hosts-interrupted", "--runner", "parallel", "--hosts", hosts),
+        stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     deadline = time.monotonic() + 60
     while not simulators(scratch / "hosts-interrupted") and time.monotonic() < deadline:
         time.sleep(0.01)
     process.send_signal(signal.SIGINT)
     errors = process.communicate(timeout=60)[1]
-    check(process.returncode == -signal.SIGINT and "Traceback" not in errors, f"interrupted: {process.returncode}: {errors}")
+    check(process.returncode == -signal.SIGINT and "Traceback" not in errors,
+          f"interrupted: {process.returncode}: {errors}")
     wait_for_simulators(scratch / "hosts-interrupted")
 
 
 def test_slurm(evaluation, scratch):
     if not shutil.which("sbatch") or subprocess.run(["sinfo"], capture_output=True).returncode != 0:
-        print("Slurm is not installed, or no controller answers: tests/evaluation/slurm.sh starts one (see docs/testing.md)")
+        print(
+            "Slurm is not installed, or no controller answers: tests/evaluation/slurm.sh starts one (see "
+            "docs/testing.md)"
+        )
         sys.exit(77)
     run = evaluation.run(SMALL, "slurm", "--runner", "slurm")
     check(run.returncode == 0, f"Slurm: {run.stderr}")
     same_bytes(scratch, "undisturbed", "slurm")
 
 
-TESTS = ("sweep", "again", "quick", "small", "lockstep", "caches", "damaged_job", "rays", "options", "refusals", "folders", "names", "experiments", "kill", "interrupt", "held",
-         "parallel", "hosts", "slurm")
+TESTS = (test_sweep, test_again, test_quick, test_small, test_lockstep, test_caches, test_damaged_job, test_rays,
+         test_options, test_refusals, test_folders, test_names, test_experiments, test_kill, test_interrupt, test_held,
+         test_parallel, test_hosts, test_slurm)
+OF_SWEEP = {"again", "damaged_job", "kill", "parallel", "hosts", "slurm"}  # they need the results of test_sweep
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--bin", type=pathlib.Path, required=True)
-    parser.add_argument("--only", choices=TESTS)
-    parser.add_argument("--kills", type=int, default=10)
-    options = parser.parse_args()
-    for number in (signal.SIGINT, signal.SIGHUP):  # what runs in the background of a shell, or by nohup, ignores them, and so would its children
+def tests(options, scratch):
+    for number in (signal.SIGINT, signal.SIGHUP):  # a shell's background and nohup ignore them: children would, too
         signal.signal(number, signal.SIG_DFL)
-    with tempfile.TemporaryDirectory(dir=os.environ.get("TRAX_TEST_FOLDER")) as temporary:
-        scratch = pathlib.Path(temporary).resolve()
-        evaluation = Evaluation(options.bin.resolve(), scratch)
-        wanted = [options.only] if options.only else [name for name in TESTS if name != "slurm"]
-        if "sweep" not in wanted and set(wanted) & {"again", "damaged_job", "kill", "parallel", "hosts", "slurm"}:
-            evaluation.run(SMALL, "undisturbed", "--jobs", "2")
-        for name in wanted:
-            begin = time.monotonic()
-            arguments = (options.kills,) if name == "kill" else ()
-            try:
-                globals()[f"test_{name}"](evaluation, scratch, *arguments)
-            except Exception:  # the others are run all the same
-                check(False, traceback.format_exc())
-            print(f"{name}: {time.monotonic() - begin:.1f} s", flush=True)
-    return 1 if failures else 0
+    evaluation = Evaluation(options.bin, scratch)
+    if options.only in OF_SWEEP:
+        evaluation.run(SMALL, "undisturbed", "--jobs", "2")
+    listed = {test.__name__.removeprefix("test_"): test for test in TESTS}
+    if options.only != "slurm":
+        del listed["slurm"]
+    more = {"kill": (options.kills,)}
+    return {name: lambda name=name, test=test: test(evaluation, scratch, *more.get(name, ()))
+            for name, test in listed.items()}
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(__doc__, tests, kills=10))

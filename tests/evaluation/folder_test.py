@@ -4,7 +4,6 @@ killed leaves nothing.
 
     tests/evaluation/folder_test.py --bin build/bin"""
 
-import argparse
 import json
 import os
 import pathlib
@@ -13,37 +12,28 @@ import signal
 import struct
 import subprocess
 import sys
-import tempfile
 import time
-import traceback
-import zlib
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
-import checking  # noqa: E402
-from checking import check  # noqa: E402
+from scripts import check, main
+from png_files import png_of
 
 QUAD = ("mtllib quad.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl a\n"
         "f 1/1 2/2 3/3 4/4\n")
 VIEW = ("eye = [0.0, 0.0, 3.0];\nlook_at = [0.0, 0.0, 0.0];\nup = [0.0, 1.0, 0.0];\nfov = 45.0;\n"
         "light = [1.0, 1.0, 4.0];\n")
-SWEEP = {"name": "quad", "scenes": [{"name": "quad", "meshes": ["../quad.obj"], "view": "../quad.view"}],
-         "programs": ["ours"], "chips": ["1x32"], "size": "8x8", "series": 500}
+SWEEP = {
+    "name": "quad", "scenes": [{"name": "quad", "meshes": ["../quad.obj"], "view": "../quad.view"}],
+    "programs": ["ours"], "chips": ["1x32"], "size": "8x8", "series": 500
+}
 
 
 def grey(path, value):
     """A picture of 4x4 pixels."""
-
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-
-    rows = 4 * (b"\0" + bytes([value] * 12))
-    header = struct.pack(">IIBBBBB", 4, 4, 8, 2, 0, 0, 0)
-    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+    path.write_bytes(png_of(4 * [bytes([value] * 12)]))
 
 
 class Folder:
     """A sweep of one quad with a texture, and its results."""
-
     def __init__(self, programs, scratch):
         self.programs, self.path, self.out = programs, scratch, scratch / "out"
         for name in ("textures", "asked"):  # nothing changes beside the mesh
@@ -105,9 +95,12 @@ def test_read(folder):
 
 def test_own_tree(folder):
     """Arrays of another builder's tree are files that an import reads, too."""
-    own = SWEEP | {"programs": ["era"], "series": 0, "set": {
-        "trax-scene --tree": "asked/nodes.npy", "trax-scene --tree-triangles": "asked/order.npy",
-        "trax-scene --splits": False, "trax-scene --passes": False}}
+    own = SWEEP | {
+        "programs": ["era"], "series": 0, "set": {
+            "trax-scene --tree": "asked/nodes.npy", "trax-scene --tree-triangles": "asked/order.npy",
+            "trax-scene --splits": False, "trax-scene --passes": False
+        }
+    }
 
     def array(name, shape, values):
         header = f"{{'descr': '<u4', 'fortran_order': False, 'shape': {shape}, }}".ljust(117) + "\n"
@@ -144,8 +137,10 @@ def test_damage(folder):
 
     def files():
         """Hosts' times differ. Files of the same bytes may be one file."""
-        return {path.relative_to(folder.out): path.read_bytes() for path in sorted(folder.out.rglob("*"))
-                if path.is_file() and not path.name.endswith(".host.json") and path.parent != folder.out}
+        return {
+            path.relative_to(folder.out): path.read_bytes() for path in sorted(folder.out.rglob("*"))
+            if path.is_file() and not path.name.endswith(".host.json") and path.parent != folder.out
+        }
 
     good = files()
     kinds = {}
@@ -159,7 +154,7 @@ def test_damage(folder):
         figure = data.index(b'"cycles": ') + 10 if b'"cycles": ' in data else len(data) // 2
         changed = data[:figure] + bytes([data[figure] ^ 1]) + data[figure + 1:]
         damages = [("empty", b""), ("changed", changed), ("cut", data[:-1])]
-        for name, damage in damages[: 3 if path.parts[0] == "runs" and path.suffix == ".json" else 1 + number % 2]:
+        for name, damage in damages[:3 if path.parts[0] == "runs" and path.suffix == ".json" else 1 + number % 2]:
             (folder.out / path).write_bytes(damage)
             if path.parts[0] == "runs" and name == "changed":
                 said = folder(sweep, "--dry-run").stdout
@@ -170,7 +165,8 @@ def test_damage(folder):
             now = files()
             differ = [str(name) for name in now.keys() | good.keys() if now.get(name) != good.get(name)]
             check(not differ, f"{path}, {name}: {differ} differ")
-            check([one["status"] for one in folder.runs()] == ["done", "done"], f"{path}, {name}: not all runs are done")
+            check([one["status"] for one in folder.runs()] == ["done", "done"],
+                  f"{path}, {name}: not all runs are done")
     # What another sweep's command has left, and cannot be made by this one, is told.
     folder(SWEEP | {"name": "other", "chips": ["1x48"]})
     others = [one for one in folder.runs() if one["experiments"] == ["other"]]
@@ -183,8 +179,16 @@ def test_damage(folder):
     check("other.json" in folder(sweep).stderr and len(folder.runs()) == 2, "a damaged request of another sweep")
 
 
+def test_shared_inputs(folder):
+    """Machines that share inputs find them as they are."""
+    runs = [folder(SWEEP | {"chips": [chip]}) for chip in ("2x32", "2x48", "2x32")]
+    check(len(list((folder.out / "inputs").glob("*/manifest.json"))) == 1, "the machines have inputs of their own")
+    check(not any("damaged" in run.stderr for run in runs), f"inputs of another machine: {runs[1].stderr}")
+
+
 def test_killed(folder):
-    """After SIGKILL no child runs on, and the next start removes what is left, in the folder for temporary files, too."""
+    """After SIGKILL no child runs on, and the next start removes what is left, in the folder for temporary files,
+    too."""
     temporary = folder.path / "tmp"
     temporary.mkdir()
     large = SWEEP | {"name": "large", "scenes": [{"name": "large", "meshes": ["generate:forest"]}]}
@@ -196,7 +200,8 @@ def test_killed(folder):
         if more:  # of a scene that has been imported
             folder()
         command = folder.command(sweep, "-q", *more)
-        process = subprocess.Popen(command, cwd=folder.path, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        process = subprocess.Popen(command, cwd=folder.path, env=environment, stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE)
         deadline = time.monotonic() + 60
         while not (children := descendants(process.pid, name)) and time.monotonic() < deadline:
             time.sleep(0.01)
@@ -230,26 +235,10 @@ def descendants(pid, name):
     return found
 
 
-TESTS = (test_read, test_own_tree, test_scene_file, test_damage, test_killed)
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--bin", type=pathlib.Path, required=True)
-    parser.add_argument("--only", help="a test's name without test_")
-    options = parser.parse_args()
-    with tempfile.TemporaryDirectory(dir=os.environ.get("TRAX_TEST_FOLDER")) as temporary:
-        for test in TESTS:
-            if options.only in (None, test.__name__.removeprefix("test_")):
-                begin = time.monotonic()
-                try:
-                    test(Folder(options.bin.resolve(), pathlib.Path(temporary).resolve() / test.__name__))
-                except Exception:
-                    checking.failures += 1
-                    print(f"FAILED: {test.__name__}: {traceback.format_exc()}", flush=True)
-                print(f"{test.__name__}: {time.monotonic() - begin:.1f} s", flush=True)
-    return 1 if checking.failures else 0
+def tests(options, scratch):
+    return {test.__name__: lambda test=test: test(Folder(options.bin, scratch / test.__name__))
+            for test in (test_read, test_own_tree, test_scene_file, test_damage, test_shared_inputs, test_killed)}
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(__doc__, tests))

@@ -1,4 +1,5 @@
-"""trax-eval's own functions, called in this process: a start of the program takes longer than most of what is refused."""
+"""trax-eval's own functions, called in this process: a start of the program takes longer than most of what is
+refused."""
 
 import contextlib
 import importlib
@@ -9,13 +10,13 @@ import sys
 
 
 class Inside:
-    """Called with the command's words and a folder; returns what subprocess.run would, or raises what would be a traceback."""
-
+    """Called with the command's words and a folder; returns what subprocess.run would, or raises what would be a
+    traceback."""
     def __init__(self, folder):
         self.folder, self.data = folder, folder.parent / "lib/trax/evaluation"
         sys.dont_write_bytecode = True
         sys.path[:0] = [str(self.data)]
-        self.main = importlib.import_module("trax_eval.main").main
+        self.main = importlib.import_module("command.main").main
 
     def __call__(self, *words, cwd=None):
         errors, out, before = io.StringIO(), io.StringIO(), os.getcwd()

@@ -3,9 +3,9 @@
 
     tests/evaluation/mutants_test.py --bin build/bin [--seed N] [--count N]
 
-Sweeps, programs, scenes and workloads are mutated in this process, which calls the command's own functions; folders and options are those of the program."""
+Sweeps, programs, scenes and workloads are mutated in this process, which calls the command's own functions; folders and
+options are those of the program."""
 
-import argparse
 import copy
 import json
 import os
@@ -14,29 +14,33 @@ import random
 import resource
 import subprocess
 import sys
-import tempfile
 
-from inside import Inside
+from scripts import Inside, check, main
 
-GOOD = {"name": "x", "title": "t", "claim": "c", "x": "icache.banks", "y": "mrps", "y_per": "area_mm2", "scenes": [{"name": "y", "meshes": ["generate:forest"], "view": "forest"}],
-        "programs": ["ours"], "chips": ["1x32"], "set": {"icache.banks": [4, 16]}, "size": "8x8", "mode": "exact", "series": 100, "lockstep": False,
-        "workloads": ["occlusion"], "ray_kinds": True}
-VARIANTS = GOOD | {"set": [{"name": "a"}, {"name": "b", "program": "ours", "trax-scene --leaf": [1, 4]}, {"name": "c", "trax-render --no-shadows": True}], "reference": "a", "lockstep": True,
-                   "table": [{"rows": "variant", "columns": "chip", "values": ["mrps"]}], "error": False, "hits": False, "workloads": ["primary-shadow"], "scenes": ["forest"]}
-PROGRAM = {"name": "p", "title": "t", "program": "p.c", "flags": ["-O2"], "patch": ["p.patch"], "scene": ["--leaf", "2"], "render": ["--ambient", "0.1"], "set": {"icache.banks": 4},
-           "convert": ["true"], "counters": ["a", "b"], "rays": True}
+GOOD = {
+    "name": "x", "title": "t", "claim": "c", "x": "icache.banks", "y": "mrps", "y_per": "area_mm2",
+    "scenes": [{"name": "y", "meshes": ["generate:forest"],
+                "view": "forest"}], "programs": ["ours"], "chips": ["1x32"], "set": {"icache.banks": [4, 16]},
+    "size": "8x8", "mode": "exact", "series": 100, "lockstep": False, "workloads": ["occlusion"], "ray_kinds": True
+}
+VARIANTS = GOOD | {
+    "set": [{"name": "a"}, {"name": "b", "program": "ours", "trax-scene --leaf": [1, 4]}, {
+        "name": "c", "trax-render --no-shadows": True
+    }], "reference": "a", "lockstep": True, "table": [{"rows": "variant", "columns": "chip", "values": ["mrps"]}],
+    "error": False, "hits": False, "workloads": ["primary-shadow"], "scenes": ["forest"]
+}
+PROGRAM = {
+    "name": "p", "title": "t", "program": "p.c", "flags": ["-O2"], "patch": ["p.patch"], "scene": ["--leaf", "2"],
+    "render": ["--ambient", "0.1"], "set": {"icache.banks": 4}, "convert": ["true"], "counters": ["a",
+                                                                                                  "b"], "rays": True
+}
 SCENE = {"name": "s", "title": "t", "meshes": ["generate:forest"], "view": "forest", "licence": "l", "paper": "fairy"}
 WORKLOAD = {"name": "w", "title": "t", "render": ["--occlusion", "2"], "scene": ["--material", "mirror"]}
-ODD = [None, True, False, 0, -1, 1.5, 1e300, 10 ** 400, "", "x", "..", "/", "\n", "\0", "\ud800", "é" * 5000, [], [[]], [None], ["x"], {}, {"name": 0}, {"": [0]}, [{}],
-       {"a": {"b": [1]}}, list(range(300)), [[[[[[[]]]]]]]]
-failures = 0
-
-
-def check(condition, text):
-    global failures
-    if not condition:
-        failures += 1
-        print(f"FAILED: {text}", flush=True)
+ODD = [
+    None, True, False, 0, -1, 1.5, 1e300, 10**400, "", "x", "..", "/", "\n", "\0", "\ud800", "é" * 5000, [], [[]],
+    [None], ["x"], {}, {"name": 0}, {"": [0]}, [{}], {"a": {"b": [1]}},
+    list(range(300)), [[[[[[[]]]]]]]
+]
 
 
 def mutated(source, good):
@@ -61,7 +65,7 @@ def mutated(source, good):
     data = bytearray(json.dumps(value, ensure_ascii=source.random() < 0.5).encode("utf-8", "surrogatepass"))
     for _ in range(source.choice((0, 0, 0, 1, 3))):
         data[source.randrange(len(data))] = source.randrange(256)
-    return bytes(data[: source.randrange(len(data))] if source.random() < 0.05 else data)
+    return bytes(data[:source.randrange(len(data))] if source.random() < 0.05 else data)
 
 
 def test_files(inside, scratch, seed, count):
@@ -69,14 +73,16 @@ def test_files(inside, scratch, seed, count):
     source = random.Random(seed)
     for name in ("p.c", "p.patch"):
         (scratch / name).write_text("")
-    for kind, good in (("sweep", GOOD), ("variants", VARIANTS), ("programs", PROGRAM), ("scenes", SCENE), ("workloads", WORKLOAD)):
+    for kind, good in (("sweep", GOOD), ("variants", VARIANTS), ("programs", PROGRAM), ("scenes", SCENE), ("workloads",
+                                                                                                           WORKLOAD)):
         taken = 0
         for number in range(count):
             text, path = mutated(source, good), scratch / f"{kind}-{number}.json"
             path.write_bytes(text)
             if kind not in ("sweep", "variants"):
                 path = scratch / "sweep.json"
-                path.write_text(json.dumps(GOOD | {"workloads": ["primary-shadow"], "set": {}, kind: [f"{kind}-{number}.json"]}))
+                path.write_text(
+                    json.dumps(GOOD | {"workloads": ["primary-shadow"], "set": {}, kind: [f"{kind}-{number}.json"]}))
             try:
                 run = inside(path, scratch, "--dry-run", "-q", "-o", scratch / "none")
                 taken += run.returncode == 0
@@ -95,7 +101,9 @@ def test_commands(folder, inside, scratch):
     (scratch / "meshes").mkdir()
     (scratch / "meshes/triangle.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
     small = [{"name": "y", "meshes": [str(scratch / "meshes/triangle.obj")], "view": "forest"}]
-    good.write_text(json.dumps(GOOD | {"scenes": small, "series": 0, "y": "configuration.chip", "y_per": "status", "x": "configuration"}))
+    good.write_text(
+        json.dumps(
+            GOOD | {"scenes": small, "series": 0, "y": "configuration.chip", "y_per": "status", "x": "configuration"}))
     deep.write_text('{"name":' + "[" * 200000)
     (scratch / "binary.json").write_bytes(bytes(range(256)) * 64)
     (scratch / "zero.json").symlink_to("/dev/zero")
@@ -112,13 +120,22 @@ def test_commands(folder, inside, scratch):
     empty = scratch / "empty"
     empty.mkdir()
     results = scratch / "results.json"
-    results.write_text(json.dumps({"format": "trax-eval-results", "version": 1, "runs": [{"scene": "\ud800", "points": [{}]}], "sweeps": [], "series": []}))
-    refused = [[good, "-o", ""], [good, "-o", scratch / "file"], [good, "-o", scratch / "file/below"], [good, "-o", "/dev/null/x"], [good, "-o", "/proc/x"], [good, "-o", "x" * 300],
-               [good, "-o", foreign], *([good, "-o", scratch / f"blocked-{place}"] for place in ("jobs", "inputs", "runs", "scratch", "scenes", "sweeps")),
-               *([scratch / f"{name}.json"] for name in ("deep", "binary", "zero", "folder", "loop", "none")), [good, scratch / "nowhere"], [good, scratch / "file"],
-               [good, scratch / ("x" * 300)], ["table1", empty, "--size", "8x8"], [good, empty, empty], ["--all", good], [good, "--jobs", "x"], [good, "--jobs", "99999999999999999999"],
-               [good, "--size", "8x" + 5000 * "8"], [good, "--program", ""], [good, "--mode", ""], ["job"], ["job", "x", "y"], ["job", empty, "y"], ["job", empty, "--list", "none"],
-               ["job", empty, "--list", "/dev/null"], ["report"], ["report", "/dev/zero"], ["report", empty], ["report", scratch / "binary.json"], ["report", deep], ["report", results],
+    results.write_text(
+        json.dumps({
+            "format": "trax-eval-results", "version": 1, "runs": [{"scene": "\ud800", "points": [{}]}], "sweeps": [],
+            "series": []
+        }))
+    refused = [[good, "-o", ""], [good, "-o", scratch / "file"], [good, "-o", scratch / "file/below"],
+               [good, "-o", "/dev/null/x"], [good, "-o", "/proc/x"], [good, "-o", "x" * 300], [good, "-o", foreign],
+               *([good, "-o", scratch / f"blocked-{place}"]
+                 for place in ("jobs", "inputs", "runs", "scratch", "scenes", "sweeps")),
+               *([scratch / f"{name}.json"] for name in ("deep", "binary", "zero", "folder", "loop", "none")),
+               [good, scratch / "nowhere"], [good, scratch / "file"], [good, scratch / ("x" * 300)],
+               ["table1", empty, "--size", "8x8"], [good, empty, empty], ["--all", good], [good, "--jobs", "x"],
+               [good, "--jobs", "99999999999999999999"], [good, "--size", "8x" + 5000 * "8"], [good, "--program", ""],
+               [good, "--mode", ""], ["job"], ["job", "x", "y"], ["job", empty, "y"], ["job", empty, "--list", "none"],
+               ["job", empty, "--list", "/dev/null"], ["report"], ["report", "/dev/zero"], ["report", empty],
+               ["report", scratch / "binary.json"], ["report", deep], ["report", results],
                ["report", good, "-o", "/dev/null/x"]]
     os.environ.pop("SLURM_ARRAY_TASK_ID", None)
     os.environ["TRAX_SCENES"] = str(scratch / "nowhere")
@@ -126,18 +143,23 @@ def test_commands(folder, inside, scratch):
         more = [] if "-o" in words or words[0] in ("report", "job") else ["-o", scratch / "out"]
         try:
             run = inside(*words, *more, cwd=scratch)
-            check(run.returncode in (1, 2) and run.stderr, f"{[str(word)[:80] for word in words]}: {run.returncode}: {run.stderr[-600:]}")
+            check(run.returncode in (1, 2) and run.stderr,
+                  f"{[str(word)[:80] for word in words]}: {run.returncode}: {run.stderr[-600:]}")
         except Exception as error:  # what would be a traceback
             check(False, f"{[str(word)[:80] for word in words]}: {error!r}")
     # A disk that is full wherever it fills up: files may have so many bytes.
     for limit in (0, 100, 2000, 8000):
-        run = subprocess.run([program, good, empty, "-o", scratch / f"full-{limit}"], capture_output=True, text=True, timeout=100,
-                             preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
-        check(run.returncode == 1 and "Traceback" not in run.stderr, f"files of {limit} bytes: {run.returncode}: {run.stderr[-600:]}")
+        run = subprocess.run([program, good, empty, "-o", scratch / f"full-{limit}"], capture_output=True, text=True,
+                             timeout=100, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
+        check(run.returncode == 1 and "Traceback" not in run.stderr,
+              f"files of {limit} bytes: {run.returncode}: {run.stderr[-600:]}")
     run = subprocess.run([program, good, empty, "-o", scratch / "out"], capture_output=True, text=True, timeout=100)
-    check(run.returncode == 0 and "Traceback" not in run.stderr, f"axes that are no numbers: {run.returncode}: {run.stderr[-600:]}")
-    run = subprocess.run([program, "report", scratch / "out/results.json", "-o", scratch / "page.html"], capture_output=True, text=True, timeout=100)
-    check(run.returncode == 0 and "Traceback" not in run.stderr, f"the report of it: {run.returncode}: {run.stderr[-600:]}")
+    check(run.returncode == 0 and "Traceback" not in run.stderr,
+          f"axes that are no numbers: {run.returncode}: {run.stderr[-600:]}")
+    run = subprocess.run([program, "report", scratch / "out/results.json", "-o", scratch / "page.html"],
+                         capture_output=True, text=True, timeout=100)
+    check(run.returncode == 0 and "Traceback" not in run.stderr,
+          f"the report of it: {run.returncode}: {run.stderr[-600:]}")
 
 
 def test_dry_run(folder, scratch):
@@ -151,25 +173,20 @@ def test_dry_run(folder, scratch):
     (bare / "scenes").mkdir()
     for name in ("conference.ply", "crytek-sponza.ply", "dragon.ply", "dragon_box.obj", "sibenik.ply"):
         (bare / "scenes" / name).write_text("no mesh")
-    run = subprocess.run([bare / "bin/trax-eval", "--all", bare / "scenes", "--dry-run", "-o", bare / "out"], capture_output=True, text=True, timeout=100, env=os.environ | {"PATH": "/nowhere:" + str(pathlib.Path(sys.executable).parent)})
-    check(run.returncode == 0 and run.stdout.count("conference") > 100 and not run.stderr, f"--all --dry-run: {run.returncode}: {run.stderr[-600:]}")
+    run = subprocess.run([bare / "bin/trax-eval", "--all", bare / "scenes", "--dry-run", "-o", bare / "out"],
+                         capture_output=True, text=True, timeout=100,
+                         env=os.environ | {"PATH": "/nowhere:" + str(pathlib.Path(sys.executable).parent)})
+    check(run.returncode == 0 and run.stdout.count("conference") > 100 and not run.stderr,
+          f"--all --dry-run: {run.returncode}: {run.stderr[-600:]}")
     check(not (bare / "out").exists(), "--dry-run wrote something")
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--bin", type=pathlib.Path, required=True)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--count", type=int, default=60)
-    options = parser.parse_args()
-    with tempfile.TemporaryDirectory(dir=os.environ.get("TRAX_TEST_FOLDER")) as temporary:
-        scratch, folder = pathlib.Path(temporary).resolve(), options.bin.resolve()
-        inside = Inside(folder)
-        test_commands(folder, inside, scratch)
-        test_dry_run(folder, scratch)
-        test_files(inside, scratch, options.seed, options.count)
-    return 1 if failures else 0
+def tests(options, scratch):
+    inside = Inside(options.bin)
+    return {"commands": lambda: test_commands(options.bin, inside, scratch),
+            "dry run": lambda: test_dry_run(options.bin, scratch),
+            "files": lambda: test_files(inside, scratch, options.seed, options.count)}
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(__doc__, tests, seed=1, count=60))

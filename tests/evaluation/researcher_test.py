@@ -1,36 +1,29 @@
 #!/usr/bin/env python3
-"""Another researcher's folder (researcher/: a program in C, a scene, a chip, a workload and a sweep of them), outside the tree: one command gives a report
-with all of them, and nothing in the tree changes.
+"""Another researcher's folder (researcher/: a program in C, a scene, a chip, a workload and a sweep of them), outside
+the tree: one command gives a report with all of them, and nothing in the tree changes.
 
     tests/evaluation/researcher_test.py --bin build/bin"""
 
-import argparse
 import html
+import itertools
 import json
-import os
 import pathlib
 import shutil
 import subprocess
 import sys
-import tempfile
 
-from inside import Inside
+from scripts import Inside, check, main
 
 HERE = pathlib.Path(__file__).resolve().parent
 TREE = HERE.parents[1]
-failures = 0
-
-
-def check(condition, text):
-    global failures
-    if not condition:
-        failures += 1
-        print(f"FAILED: {text}", flush=True)
 
 
 def state(*folders):
     """Every file below the folders, and when it was written."""
-    return {path: (path.stat().st_size, path.stat().st_mtime_ns) for folder in folders for path in folder.rglob("*") if path.is_file() and ".git" not in path.parts}
+    return {
+        path: (path.stat().st_size, path.stat().st_mtime_ns) for folder in folders for path in folder.rglob("*")
+        if path.is_file() and ".git" not in path.parts
+    }
 
 
 def command(program, folder, *words):
@@ -49,22 +42,33 @@ def test_report(program, data, scratch):
     results = json.loads((scratch / "out/results.json").read_text())
     runs = results["runs"]
     seen = {(one["program"], one["config"], one["workload"], one["machine"]["memory.bandwidth_gbps"]) for one in runs}
-    check(seen == {(name, chip, workload, rate) for name in ("rings", "ours") for chip in ("small.cfg", "1x32") for workload in ("primary-shadow", "dusk") for rate in (4, 8)},
-          f"the runs are {seen}")
-    check(all(one["status"] == "done" and one["scene"] == "steps" for one in runs), f"not all runs are done: {[one.get('error') for one in runs]}")
+    check(
+        seen == {(name, chip, workload, rate) for name in ("rings", "ours") for chip in ("small.cfg", "1x32")
+                 for workload in ("primary-shadow", "dusk") for rate in (4, 8)}, f"the runs are {seen}")
+    check(all(one["status"] == "done" and one["scene"] == "steps" for one in runs),
+          f"not all runs are done: {[one.get('error') for one in runs]}")
     for one in runs:
         threads = 8 if one["config"] == "small.cfg" else 32
-        check(one["stats"]["threads"] == threads and one["stats"]["configuration"]["dcache"]["bytes"] == (4096 if threads == 8 else 16384), "the chip's settings")
-        check(one["stats"]["rays_by_kind"]["primary"] == 24 * 16 and one["stats"]["rays_by_kind"]["shadow"] > 0, "rays by kind")
+        check(
+            one["stats"]["threads"] == threads and
+            one["stats"]["configuration"]["dcache"]["bytes"] == (4096 if threads == 8 else 16384),
+            "the chip's settings")
+        check(one["stats"]["rays_by_kind"]["primary"] == 24 * 16 and one["stats"]["rays_by_kind"]["shadow"] > 0,
+              "rays by kind")
         counted = {key: value for key, value in one["values"].items() if key.startswith("counters.")}
         if one["program"] == "rings":
-            check(counted.keys() == {"counters.boxes", "counters.triangles"} and counted["counters.boxes"] > 5 * 24 * 16 and counted["counters.triangles"] > 24, f"counters: {counted}")
+            check(
+                counted.keys() == {"counters.boxes", "counters.triangles"} and
+                counted["counters.boxes"] > 5 * 24 * 16 and counted["counters.triangles"] > 24, f"counters: {counted}")
         else:
             check(not counted, "our program counts nothing")
-    check(len({(one["values"]["counters.boxes"], one["values"]["counters.triangles"]) for one in runs if one["program"] == "rings"}) == 1,
-          "what the program counts depends on the machine or on the light")
+    check(
+        len({(one["values"]["counters.boxes"], one["values"]["counters.triangles"]) for one in runs
+             if one["program"] == "rings"}) == 1, "what the program counts depends on the machine or on the light")
     pictures = {(one["program"], one["workload"]): one["picture"] for one in runs}
-    check(len(set(pictures.values())) == 4 and len({one["picture"] for one in runs}) == 4, "a picture for each program and workload")
+    check(
+        len(set(pictures.values())) == 4 and len({one["picture"] for one in runs}) == 4,
+        "a picture for each program and workload")
     # Where nothing is, both programs show the workload's background; it is where the other sees no triangle.
     sys.path.insert(0, str(data))
     sys.dont_write_bytecode = True
@@ -74,10 +78,14 @@ def test_report(program, data, scratch):
     for (name, workload), path in pictures.items():
         background = bytes.fromhex({"primary-shadow": "98a8b8ff", "dusk": "101020ff"}[workload])
         rows = rows_of((scratch / "out" / path).read_bytes())[1]
-        empty[name, workload] = {(row, at) for row, pixels in enumerate(rows) for at in range(24) if bytes(pixels[4 * at:4 * at + 4]) == background}
-    check(len(empty["rings", "dusk"]) > 50 and len(set(map(frozenset, empty.values()))) == 1, f"background: {[len(pixels) for pixels in empty.values()]}")
+        empty[name, workload] = {(row, at) for row, pixels in enumerate(rows) for at in range(24)
+                                 if bytes(pixels[4 * at:4 * at + 4]) == background}
+    check(
+        len(empty["rings", "dusk"]) > 50 and len(set(map(frozenset, empty.values()))) == 1,
+        f"background: {[len(pixels) for pixels in empty.values()]}")
     page = html.unescape((scratch / "out/report.html").read_text())
-    for text in ("rings", "small.cfg", "dusk", "steps", "A program, a scene, a chip and a workload of one's own", "memory.bandwidth_gbps"):
+    for text in ("rings", "small.cfg", "dusk", "steps", "A program, a scene, a chip and a workload of one's own",
+                 "memory.bandwidth_gbps"):
         check(text in page, f"the report does not have {text!r}")
     check("rings" in run.stdout and "small.cfg" in run.stdout, f"the table: {run.stdout}")
     # From another folder, the same bytes; and nothing is made again.
@@ -85,16 +93,24 @@ def test_report(program, data, scratch):
     run = command(program, scratch / "elsewhere", "mine.json", "-q", "-o", scratch / "again")
     check(run.returncode == 0, f"from another folder: {run.stderr}")
     for folder in ("jobs", "runs", "pictures"):
-        one, other = ({path.name: path.read_bytes() for path in (scratch / out / folder).iterdir() if not path.name.endswith(".host.json")} for out in ("out", "again"))
+        one, other = ({
+            path.name: path.read_bytes() for path in (scratch / out / folder).iterdir()
+            if not path.name.endswith(".host.json")
+        } for out in ("out", "again"))
         check(one == other, f"{folder} depend on where the sweep is")
     run = command(program, mine, "mine.json", "--dry-run", "-o", scratch / "out")
     check(run.stdout.endswith("0 of 16 runs are missing\n"), f"a second call: {run.stdout}{run.stderr}")
     # A command of results.json makes the run alone.
     one = next(one for one in runs if one["program"] == "rings")
-    repeated = subprocess.run(one["command"].replace("trax-sim", program.replace("trax-eval", "trax-sim"), 1), shell=True, cwd=scratch / "out", capture_output=True, text=True)
-    check(repeated.returncode == 0 and json.loads((scratch / "out/stats.json").read_text())["cycles"] == one["stats"]["cycles"], f"{one['command']}: {repeated.stderr}")
+    repeated = subprocess.run(one["command"].replace("trax-sim", program.replace("trax-eval", "trax-sim"), 1),
+                              shell=True, cwd=scratch / "out", capture_output=True, text=True)
+    check(
+        repeated.returncode == 0 and json.loads(
+            (scratch / "out/stats.json").read_text())["cycles"] == one["stats"]["cycles"],
+        f"{one['command']}: {repeated.stderr}")
     # One's own program in the place of a sweep's that comes with trax.
-    run = command(program, mine, "table2", "--program", "rings.json", "--scene", "forest", "--chip", "1x32", "--size", "8x8", "--dry-run", "-o", scratch / "out")
+    run = command(program, mine, "table2", "--program", "rings.json", "--scene", "forest", "--chip", "1x32", "--size",
+                  "8x8", "--dry-run", "-o", scratch / "out")
     check("forest 1x32 rings 8x8" in run.stdout, f"--program NAME.json: {run.stdout}{run.stderr}")
 
 
@@ -152,49 +168,34 @@ def test_refusals(inside, scratch):
         sweep = json.loads(json.dumps(sweep).replace(f'"{name}"', f'"{bad}"'))
         (mine / "sweep.json").write_text(json.dumps(sweep))
         run = inside("sweep.json", "-q", "-o", scratch / "refused-out", cwd=mine)
-        check(run.returncode == 1 and message in run.stderr, f"{name} {members}: exit status {run.returncode}: {run.stderr.strip()!r} has not {message!r}")
-        check(bad in run.stderr or "none.obj" in message or "rays" in message, f"{name} {members}: the message names no file: {run.stderr.strip()!r}")
+        check(run.returncode == 1 and message in run.stderr,
+              f"{name} {members}: exit status {run.returncode}: {run.stderr.strip()!r} has not {message!r}")
+        check(bad in run.stderr or "none.obj" in message or "rays" in message,
+              f"{name} {members}: the message names no file: {run.stderr.strip()!r}")
 
 
-def test_new_sweep(program, scratch):
-    """It asks, takes no answer that would not do, and writes a sweep that runs."""
-    mine = scratch / "asked"
+def test_example(program, data, scratch):
+    """The sweep to copy runs as it is but for its scene. new-sweep, which once asked for one, names it."""
+    mine = scratch / "copied"
     shutil.copytree(HERE / "researcher", mine)
-
-    def ask(name, *answers):
-        return subprocess.run([program, "new-sweep", name], cwd=mine, input="".join(f"{answer}\n" for answer in answers), capture_output=True, text=True, timeout=100)
-
-    begin = ["", "Leaves and bandwidth", "nowhere", "steps.json", "rings.json, ours", "", "small.cfg,1x32", "big", "24x16"]
-    run = ask("asked.json", *begin, "memory.bandwith_gbps", "4", "memory.bandwidth_gbps", "4, 8", "trax-scene --leaf", "9", "trax-scene --leaf", "1,4", "", "", "")
-    check(run.returncode == 0, f"new-sweep: {run.returncode}: {run.stderr}")
-    for text in ('"nowhere" is no scene', 'size: expected "WIDTHxHEIGHT"', 'unknown key "memory.bandwith_gbps"', "--leaf: '9' is not a whole number", "asked.json: 16 runs"):
-        check(text in run.stdout, f"new-sweep did not say {text!r}: {run.stdout}")
-    written = json.loads((mine / "asked.json").read_text())
-    check(written == {"name": "asked", "title": "Leaves and bandwidth", "scenes": "steps.json", "programs": ["rings.json", "ours"], "chips": ["small.cfg", "1x32"], "size": "24x16",
-                      "set": {"memory.bandwidth_gbps": [4, 8], "trax-scene --leaf": [1, 4]}, "x": "memory.bandwidth_gbps", "y": "mrps"}, f"new-sweep wrote {written}")
-    run = command(program, mine, "asked.json", "-q", "-o", scratch / "asked-out")
-    check(run.returncode == 0 and len(json.loads((scratch / "asked-out/results.json").read_text())["runs"]) == 16, f"the sweep does not run: {run.stderr}")
-    for words, message in ((("asked.json",), "is there already"), (("asked.txt",), "expected NAME.json"), (("none/x.json",), "no such folder"), (("early.json", "x"), "the answers ended early")):
-        run = ask(*words)
-        check(run.returncode == 1 and message in run.stderr, f"new-sweep {words}: {run.returncode}: {run.stderr}")
-    run = subprocess.run([program, "new-sweep", "early.json"], cwd=mine, input=b"\xff\n", capture_output=True, timeout=100, env=os.environ | {"PYTHONIOENCODING": "utf-8:strict"})
-    check(run.returncode == 1 and b"are no text" in run.stderr, f"answers that are no text: {run.stderr}")
-    run = ask("early.json", "", "", "", "", "", "", "8x8", "icache.banks", "[" * 100000, "icache.banks", "1e999", "x" * 300, "1")
-    check(run.returncode == 1 and "Traceback" not in run.stderr, f"odd answers: {run.stderr}")
-    check(sorted(path.name for path in mine.iterdir()) == sorted([*(path.name for path in (HERE / "researcher").iterdir()), "asked.json"]), "new-sweep left other files")
+    (mine / "leaves.json").write_text((data / "example.json").read_text().replace('"forest"', '"steps.json"'))
+    run = command(program, mine, "leaves.json", "-q", "--size", "24x16", "-o", scratch / "copied-out")
+    check(run.returncode == 0, f"the example: {run.stderr}")
+    results = json.loads((scratch / "copied-out/results.json").read_text())
+    seen = sorted((one["variant"], one["config"]) for one in results["runs"])
+    names = ["as it is", "bandwidth", "bandwidth", "binary nodes", "small leaves"]
+    check(seen == sorted(itertools.product(names, ("4x32", "8x64"))), f"runs of the example: {seen}")
+    run = command(program, mine, "new-sweep", "mine.json")
+    check(run.returncode == 1 and str(data / "example.json") in run.stderr,
+          f"new-sweep: {run.returncode}: {run.stderr}")
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--bin", type=pathlib.Path, required=True)
-    folder = parser.parse_args().bin.resolve()
-    with tempfile.TemporaryDirectory(dir=os.environ.get("TRAX_TEST_FOLDER")) as temporary:
-        scratch, program = pathlib.Path(temporary).resolve(), str(folder / "trax-eval")
-        test_report(program, folder.parent / "lib/trax/evaluation", scratch)
-        test_refusals(Inside(folder), scratch)
-        test_new_sweep(program, scratch)
-    return 1 if failures else 0
+def tests(options, scratch):
+    program, data = str(options.bin / "trax-eval"), options.bin.parent / "lib/trax/evaluation"
+    return {"report": lambda: test_report(program, data, scratch),
+            "example": lambda: test_example(program, data, scratch),
+            "refusals": lambda: test_refusals(Inside(options.bin), scratch)}
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(__doc__, tests))

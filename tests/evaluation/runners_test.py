@@ -9,16 +9,10 @@ import importlib
 import os
 import pathlib
 import sys
-import tempfile
 import threading
-import traceback
 import unittest.mock
 
-from inside import Inside
-
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
-import checking  # noqa: E402
-from checking import check  # noqa: E402
+from scripts import Inside, check, main
 
 STUB = """#!/bin/sh
 echo "$0" "$@" >>"$LOG"
@@ -31,7 +25,6 @@ esac
 
 class Slurm:
     """Commands of Slurm. answers: what squeue does, in sh; its n-th call has n in $n."""
-
     def __init__(self, scratch, answers):
         self.out, self.log = scratch / "o%A%%u", scratch / "log"
         (self.out / "runs").mkdir(parents=True)
@@ -44,15 +37,16 @@ class Slurm:
         self.runners = importlib.import_module("trax_eval.runners")
         self.problem = importlib.import_module("trax_eval.util").Problem
 
-    def run(self, keys=("a",), patience=600, grace=0.5, interval=0.1):
+    def run(self, keys=("a", ), patience=600, grace=0.5, interval=0.1):
         """What was reported of each key."""
         reported, options = {}, argparse.Namespace(slurm_options="")
         progress = self.runners.Progress(len(keys), {}, True)
         progress.finished = lambda key, error: reported.update({key: error})
         tools = unittest.mock.Mock()
         tools.path = lambda name: f"/nowhere/{name}"
-        settings = {"POLL_SECONDS": 0.02, "SQUEUE_SECONDS": interval, "SQUEUE_PATIENCE": patience,
-                    "GRACE_SECONDS": grace}
+        settings = {
+            "POLL_SECONDS": 0.02, "SQUEUE_SECONDS": interval, "SQUEUE_PATIENCE": patience, "GRACE_SECONDS": grace
+        }
         environment = {"PATH": f"{self.log.parent}/bin:{os.environ['PATH']}", "LOG": str(self.log)}
         constants = unittest.mock.patch.multiple(self.runners, create=True, **settings)
         with constants, unittest.mock.patch.dict(os.environ, environment):
@@ -68,8 +62,9 @@ class Slurm:
 
 def test_failing_squeue(scratch):
     """A controller that does not answer for a while ends nothing."""
-    slurm = Slurm(scratch, '[ "$n" -gt 3 ] && { echo 42_0; exit; }\n'
-                  'echo "slurm_load_jobs error: Socket timed out on send/recv operation" >&2; exit 1')
+    slurm = Slurm(
+        scratch, '[ "$n" -gt 3 ] && { echo 42_0; exit; }\n'
+        'echo "slurm_load_jobs error: Socket timed out on send/recv operation" >&2; exit 1')
     slurm.later(1)
     check(slurm.run() == {"a": None}, "the run was not reported")
     check(len(slurm.calls("squeue")) > 4 and not slurm.calls("scancel"), f"calls: {slurm.log.read_text()}")
@@ -133,29 +128,19 @@ def test_reason(scratch):
     runners = importlib.import_module("trax_eval.runners")
     progress = runners.Progress(1, {"a": "run a"}, False)
     with unittest.mock.patch.object(sys, "stderr") as errors:
-        progress.finished("a", "trax-sim: fault: abort\n  message     this program renders boxes only\n  at          0x000014c0")
+        progress.finished(
+            "a", "trax-sim: fault: abort\n  message     this program renders boxes only\n  at          0x000014c0")
     said = "".join(call.args[0] for call in errors.write.call_args_list)
     wanted = "run a: FAILED: trax-sim: fault: abort: this program renders boxes only (1 of 1)"
     check(wanted in said, f"it says {said!r}")
 
 
-TESTS = (test_failing_squeue, test_dead_squeue, test_asked_seldom, test_late_result, test_percent, test_interrupted,
-         test_reason)
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--bin", type=pathlib.Path, required=True)
-    Inside(parser.parse_args().bin.resolve())
-    with tempfile.TemporaryDirectory(dir=os.environ.get("TRAX_TEST_FOLDER")) as temporary:
-        for test in TESTS:
-            try:
-                test(pathlib.Path(temporary).resolve() / test.__name__)
-            except Exception:
-                checking.failures += 1
-                print(f"FAILED: {test.__name__}: {traceback.format_exc()}", flush=True)
-    return 1 if checking.failures else 0
+def tests(options, scratch):
+    Inside(options.bin)
+    listed = (test_failing_squeue, test_dead_squeue, test_asked_seldom, test_late_result, test_percent,
+              test_interrupted, test_reason)
+    return {test.__name__: lambda test=test: test(scratch / test.__name__) for test in listed}
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(__doc__, tests))

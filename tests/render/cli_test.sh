@@ -42,7 +42,7 @@ refuse '--quiet takes no value' "$render" "$box" -o x.png --quiet=1
 for size in '' 0x10 10x0 10 10x 10x10x10 -1x5 16385x1 1x16385 1e3x10 99999999999999999999x1 ' 1x1'; do
   refuse '--size' "$render" "$box" -o x.png --size "$size"
 done
-refuse "--engine: 'gpu' is none of fast, reference, native and embree" "$render" "$box" -o x.png --engine gpu
+refuse "--engine: 'gpu' is none of fast, reference, native, embree and exact" "$render" "$box" -o x.png --engine gpu
 refuse "--ambient: '2' is not" "$render" "$box" -o x.png --ambient 2
 refuse "--ambient: 'nan' is not" "$render" "$box" -o x.png --ambient nan
 for samples in 0 4097 2.5 '' -1; do
@@ -73,15 +73,13 @@ refuse 'need the emulator' "$render" "$box" -o x.png --engine native --no-specia
 refuse '--no-specialise asks for none' "$render" "$box" -o x.png --no-specialise --cache here
 refuse '--program asks for another' "$render" "$box" -o x.png --program x.elf --cache here
 refuse '--cache /dev/null/x' "$render" "$box" -o x.png --cache /dev/null/x
-refuse "--triangle: 'fast' is none of watertight and moller-trumbore" "$render" "$box" -o x.png --triangle fast
+refuse "--triangle has been removed" "$render" "$box" -o x.png --triangle moller-trumbore
 refuse "--queues: '65' is neither tms nor a whole number from 1 to 64" "$render" "$box" -o x.png --queues 65
 refuse "--queues: '0' is neither" "$render" "$box" -o x.png --queues 0
 refuse '--queues needs a program.*--no-specialise' "$render" "$box" -o x.png --queues tms --no-specialise
 refuse '--queues needs the emulator' "$render" "$box" -o x.png --engine native --queues tms
-refuse '--triangle needs a program compiled' "$render" "$box" -o x.png --triangle moller-trumbore --no-specialise
 refuse '--fast-math needs a program.*--program asks' "$render" "$box" -o x.png --fast-math --program x.elf
 refuse '--fast-math needs the emulator' "$render" "$box" -o x.png --engine native --fast-math
-refuse 'engine embree has a test of its own' "$render" "$box" -o x.png --engine embree --triangle moller-trumbore
 refuse "--cost: 'time' is none of cycles" "$render" "$box" -o x.png --cost-picture c.png --cost time
 for option in '-o x.png' '--stats s.json' --compare '--explore p.html' '--cost-picture c.png' '--id-picture i.png'; do
   refuse '--prepare renders nothing' "$render" "$box" --prepare prepared $option
@@ -285,6 +283,17 @@ refuse 'unknown option' "$compare" --nonsense a.png a.png
 "$compare" a.png b.png --within 255 | grep -q '^100.0000 %' || fail "everything is within 255"
 "$compare" a.png b.png --within 2 --at-least 99.9 >"$out" && fail "different pictures agree"
 grep -q 'differ, by up to' "$out" || fail "the difference is not told: $(cat "$out")"
+
+# --- frames of a picture that arrives: the last is the picture, also without -o
+refuse 'progress-png FILE.png, and a viewer' "$render" "$box" -o x.png --show
+for engine in fast native embree; do
+  accept "$render" "$box" --size 40x30 --engine $engine --progress-png frames.png -o whole.png -q
+  cmp -s frames.png whole.png || fail "--progress-png, $engine: the last frame is another picture"
+  rm frames.png
+done
+accept "$render" "$box" --size 40x30 --engine native --progress-png frames.png -q
+cmp -s frames.png whole.png || fail "--progress-png without -o: another picture"
+rm -f frames.png whole.png
 
 # --- interrupted: status 130 and no picture
 env --default-signal=INT "$render" "$box" -o interrupted.png $native --size 16384x16384 2>"$err" &

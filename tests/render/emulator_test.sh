@@ -140,9 +140,9 @@ for how in '' --no-specialise; do
 done
 "$bin/trax-compare" -q 8.png 8--no-specialise.png || fail "8 bits of precision: another picture"
 
-# Other methods: programs of their own, bit for bit the twin's unless the compiler may reorder.
+# -ffast-math is a program of its own, which the compiler may reorder.
 if [ -r $bunny ]; then
-  for method in '' '--triangle moller-trumbore' '--fast-math' '--triangle moller-trumbore --fast-math'; do
+  for method in '' --fast-math; do
     "$bin/trax-render" $bunny --view bunny --size 48x27 --cache methods $method -o "method$method.png" --compare --stats m.json \
       >.out 2>.err || fail "$method: $(cat .out .err)"
     grep -m1 '"cycles"' m.json
@@ -151,12 +151,7 @@ if [ -r $bunny ]; then
       *) grep -q '^twin        identical in every bit$' .out ;;
     esac || fail "$method: $(cat .out)"
   done >methods.cycles
-  [ "$(sort -u methods.cycles | wc -l)" -eq 4 ] || fail "methods without an effect on time: $(cat methods.cycles)"
-  [ "$(find methods -name '*.elf' | wc -l)" -eq 4 ] || fail "not one program for each method: $(ls methods)"
-  for method in watertight moller-trumbore; do # so large, since the two are so much alike
-    "$bin/trax-render" $bunny --view bunny --size 320x180 -o $method.png --engine native --triangle $method -q || fail "$method"
-  done
-  "$bin/trax-compare" -q watertight.png moller-trumbore.png && fail "--triangle makes no difference to the twin"
+  [ "$(sort -u methods.cycles | wc -l)" -eq 2 ] || fail "--fast-math has no effect on time: $(cat methods.cycles)"
 fi
 
 # Compiled once, by whichever of several processes comes first; an option of the picture makes another program.
@@ -203,10 +198,8 @@ note() {
 note 'bin/trax-clang' bare/bin/trax-render
 note '/dev/null/trax' env XDG_CACHE_HOME=/dev/null "$bin/trax-render"
 note 'neither XDG_CACHE_HOME nor HOME' env -u XDG_CACHE_HOME -u HOME "$bin/trax-render"
-for method in '--triangle moller-trumbore' --fast-math; do
-  bare/bin/trax-render "$source/box.obj" $view --size 16x9 -o y.png $method >.out 2>.err && fail "$method without a compiler"
-  grep -q "error: ${method%% *}: there is no program for it: .*bin/trax-clang" .err && [ ! -e y.png ] || fail "$method: $(cat .err)"
-done
+bare/bin/trax-render "$source/box.obj" $view --size 16x9 -o y.png --fast-math >.out 2>.err && fail "--fast-math without a compiler"
+grep -q "error: --fast-math: there is no program for it: .*bin/trax-clang" .err && [ ! -e y.png ] || fail "--fast-math: $(cat .err)"
 "$bin/trax-render" "$source/box.obj" $view --size 64x36 --no-specialise -o x.png >.out 2>.err || fail "--no-specialise"
 [ -s .err ] && fail "--no-specialise has a note: $(cat .err)"
 "$bin/trax-compare" -q x.png box.png || fail "--no-specialise: another picture"

@@ -1,8 +1,8 @@
-/* The reference in binary64: single triangles by hand, pictures against Embree's, and what the program records. */
+/* The exact picture: single triangles by hand, pictures against all triangles and Embree's; layers and their errors. */
 #include "meshes.h"
 
 #include "exact.h"
-#include "metrics.h"
+#include "layers.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -63,12 +63,20 @@ static struct trax_frame frame_of(const struct trax_scene *scene, const struct t
   return frame;
 }
 
-static struct trax_exact exact_of(const struct trax_frame *frame) {
-  struct trax_exact exact;
-  struct trax_render_run run = {0};
+static struct trax_picture exact_of(const struct trax_frame *frame) {
+  struct trax_picture exact;
+  struct trax_render_run run = {.exactly = true, .layers = true};
   trax_error error;
-  assert_int_equal(trax_render_exact(&exact, frame, true, &run, &error), TRAX_OK);
+  assert_int_equal(trax_render_embree(&exact, frame, &run, &error), TRAX_OK);
   return exact;
+}
+
+static void release(struct trax_picture *picture, struct trax_frame *frame, struct trax_scene *scene,
+                    struct trax_mesh *mesh) {
+  trax_picture_release(picture);
+  trax_frame_release(frame);
+  trax_scene_release(scene);
+  trax_mesh_release(mesh);
 }
 
 /* The nearest of all triangles, one by one. */
@@ -79,34 +87,42 @@ static void test_against_all_triangles(void **state) {
   mesh_soup(&mesh, 500, 7);
   build(&scene, &mesh, NULL);
   struct trax_view view = view_from(0.3f, 0.5f, 2.6f, -0.1f, -0.2f, -1, 45, 1.5f, 2, 2);
-  struct trax_frame frame = frame_of(&scene, &view, 48, 27, 2);
-  struct trax_exact exact = exact_of(&frame);
+  struct trax_frame frame = frame_of(&scene, &view, 48, 27, 1);
+  struct trax_picture exact = exact_of(&frame), finished = exact_of(&frame);
+  trax_layers_finish(&finished, &frame, 3);
   uint32_t hits = 0;
   size_t i = 0;
   for (uint32_t y = 0; y < 27; y++)
-    for (uint32_t x = 0; x < 48; x++)
-      for (uint32_t sample = 0; sample < 2; sample++, i++) {
-        const float column = (float)x + (sample ? 0x0.413FA9p0f : 0.5f),
-                    row = (float)y + (sample ? 0x0.11E10Dp0f : 0.5f);
-        float direction[3];
-        for (int axis = 0; axis < 3; axis++)
-          direction[axis] =
-              frame.params->corner[axis] + column * frame.params->step_x[axis] + row * frame.params->step_y[axis];
-        struct exact_hit nearest = {.triangle = TRAX_NO_TRIANGLE, .distance = INFINITY}, hit;
-        for (uint32_t triangle = 0; triangle < scene.triangle_count; triangle++)
-          if (exact_triangle(&scene.triangles[triangle], from(frame.params->eye), from(direction), &hit) &&
-              hit.distance < nearest.distance)
-            nearest = hit, nearest.triangle = triangle;
-        assert_int_equal(exact.seen[i].triangle, nearest.triangle);
-        hits += nearest.triangle != TRAX_NO_TRIANGLE;
-        if (nearest.triangle != TRAX_NO_TRIANGLE)
-          assert_true(exact.seen[i].distance == nearest.distance);
+    for (uint32_t x = 0; x < 48; x++, i++) {
+      float direction[3];
+      for (int axis = 0; axis < 3; axis++)
+        direction[axis] = frame.params->corner[axis] + ((float)x + 0.5f) * frame.params->step_x[axis] +
+                          ((float)y + 0.5f) * frame.params->step_y[axis];
+      struct exact_hit nearest = {.triangle = TRAX_NO_TRIANGLE, .distance = INFINITY}, hit;
+      for (uint32_t triangle = 0; triangle < scene.triangle_count; triangle++)
+        if (exact_triangle(&scene.triangles[triangle], from(frame.params->eye), from(direction), &hit) &&
+            hit.distance < nearest.distance)
+          nearest = hit, nearest.triangle = triangle;
+      const struct trax_layers *layers = &finished.layers[i];
+      assert_int_equal(exact.layers[i].triangle, nearest.triangle);
+      if (nearest.triangle == TRAX_NO_TRIANGLE) {
+        assert_true(layers->triangle == 0 && layers->depth == 0 && layers->normal[0] == 0);
+        continue;
       }
-  assert_in_range(hits, 300, 2 * 48 * 27 - 300);
-  trax_exact_release(&exact);
-  trax_frame_release(&frame);
-  trax_scene_release(&scene);
-  trax_mesh_release(&mesh);
+      hits++;
+      const struct trax_triangle *triangle = &scene.triangles[nearest.triangle];
+      const struct double3 way = from(direction), normal = from(layers->normal),
+                           e = minus(from(triangle->v1), from(triangle->v0)),
+                           f = minus(from(triangle->v2), from(triangle->v0));
+      const double distance = nearest.distance * sqrt(dot(way, way)) / 8;
+      assert_int_equal(layers->triangle, scene.source_ids[nearest.triangle] + 1);
+      assert_true(fabs(layers->depth - distance) < 1e-6 * distance);
+      assert_true(fabs(dot(normal, normal) - 1) < 1e-6 && dot(normal, way) < 0);
+      assert_true(fabs(dot(normal, e)) < 1e-6 * sqrt(dot(e, e)) && fabs(dot(normal, f)) < 1e-6 * sqrt(dot(f, f)));
+    }
+  assert_in_range(hits, 150, 48 * 27 - 150);
+  trax_picture_release(&finished);
+  release(&exact, &frame, &scene, &mesh);
 }
 
 static bool has_first_bits(const struct trax_triangle *triangle, const struct trax_triangle *other) {
@@ -135,7 +151,7 @@ static void test_one_plane(void **state) {
   build(&scene, &mesh, NULL);
   struct trax_view view = view_from(0.3f, 0.5f, 2.6f, -0.1f, -0.2f, -1, 45, 1.5f, 2, 2);
   struct trax_frame frame = frame_of(&scene, &view, 48, 27, 1);
-  struct trax_exact exact = exact_of(&frame);
+  struct trax_picture exact = exact_of(&frame);
   for (uint32_t y = 0, i = 0; y < 27; y++)
     for (uint32_t x = 0; x < 48; x++, i++) {
       float direction[3];
@@ -150,14 +166,11 @@ static void test_one_plane(void **state) {
           if (first == TRAX_NO_TRIANGLE || has_first_bits(&scene.triangles[triangle], &scene.triangles[first]))
             first = triangle;
         }
-      assert_int_equal(exact.seen[i].triangle, first);
+      assert_int_equal(exact.layers[i].triangle, first);
       covered += hits > 1;
     }
   assert_in_range(covered, 100, 48 * 27);
-  trax_exact_release(&exact);
-  trax_frame_release(&frame);
-  trax_scene_release(&scene);
-  trax_mesh_release(&mesh);
+  release(&exact, &frame, &scene, &mesh);
 }
 
 /* From the inside of a closed surface no ray gets out; in a convex one no light is blocked. */
@@ -169,15 +182,12 @@ static void test_no_gaps(void **state) {
   build(&scene, &mesh, NULL);
   struct trax_view view = view_from(0, 0, 0, 1, 0, 0, 90, 0, 0.5f, 0);
   struct trax_frame frame = frame_of(&scene, &view, 256, 256, 1);
-  struct trax_exact exact = exact_of(&frame);
+  struct trax_picture exact = exact_of(&frame);
   for (size_t i = 0; i < 256 * 256; i++) {
-    assert_int_not_equal(exact.seen[i].triangle, TRAX_NO_TRIANGLE);
-    assert_int_equal(exact.seen[i].shadow, TRAX_SHADOW_LIT);
+    assert_int_not_equal(exact.layers[i].triangle, TRAX_NO_TRIANGLE);
+    assert_int_equal(exact.layers[i].shadow, TRAX_SHADOW_LIT);
   }
-  trax_exact_release(&exact);
-  trax_frame_release(&frame);
-  trax_scene_release(&scene);
-  trax_mesh_release(&mesh);
+  release(&exact, &frame, &scene, &mesh);
 }
 
 /* Embree's hits in binary32 lead to the same picture but for a few rays. */
@@ -189,7 +199,7 @@ static void test_against_embree(void **state) {
   build(&scene, &mesh, NULL);
   struct trax_view view = view_from(0.3f, 0.5f, 2.6f, -0.1f, -0.2f, -1, 45, 1.5f, 2, 2);
   struct trax_frame frame = frame_of(&scene, &view, 160, 90, 3);
-  struct trax_exact exact = exact_of(&frame);
+  struct trax_picture exact = exact_of(&frame);
   struct trax_picture picture;
   struct trax_render_run run = {0};
   trax_error error;
@@ -197,13 +207,11 @@ static void test_against_embree(void **state) {
   unsigned different = 0;
   for (size_t i = 0; i < 160 * 90; i++)
     for (int channel = 0; channel < 3; channel++)
-      different += fabs(exact.channels[3 * i + (size_t)channel] - (picture.pixels[i] >> 8 * channel & 255)) > 0.501;
+      different += fabs(255 * sqrt((double)exact.radiance[3 * i + (size_t)channel]) -
+                        (picture.pixels[i] >> 8 * channel & 255)) > 0.501;
   assert_in_range(different, 0, 20);
   trax_picture_release(&picture);
-  trax_exact_release(&exact);
-  trax_frame_release(&frame);
-  trax_scene_release(&scene);
-  trax_mesh_release(&mesh);
+  release(&exact, &frame, &scene, &mesh);
 }
 
 /* Two triangles that face the eye, the second 1 % farther away and twice as large, and a third in the second's plane.
@@ -213,9 +221,7 @@ static void test_kinds_of_wrong_hits(void **state) {
   struct trax_mesh mesh = {0};
   struct trax_scene scene = {0};
   static const float corners[3][2] = {{-1, -1}, {1, -1}, {0, 1}};
-  static const struct {
-    float z, size;
-  } layers[3] = {{-1, 0.2f}, {-1.01f, 0.4f}, {-1.01f, 0.8f}};
+  static const struct { float z, size; } layers[3] = {{-1, 0.2f}, {-1.01f, 0.4f}, {-1.01f, 0.8f}};
   const uint32_t material = mesh_material(&mesh, 0.5f, 0.5f, 0.5f);
   for (int layer = 0; layer < 3; layer++) {
     uint32_t vertices[3];
@@ -227,57 +233,47 @@ static void test_kinds_of_wrong_hits(void **state) {
   build(&scene, &mesh, NULL);
   struct trax_view view = view_from(0, 0, 0, 0, 0, -1, 90, 0, 0, 0.5f);
   struct trax_frame frame = frame_of(&scene, &view, 32, 32, 1);
-  struct trax_exact exact = exact_of(&frame);
-  const uint32_t triangles = scene.header->sections[TRAX_SCENE_TRIANGLES].offset, bytes = sizeof(struct trax_triangle);
-  struct trax_sample_record *recorded = calloc(32 * 32, sizeof *recorded);
-  assert_non_null(recorded);
-  uint32_t place[3] = {0}; /* of the layers, in the file */
-  for (uint32_t i = 0; i < 3; i++)
-    place[scene.triangles[i].v0[2] == -1                                         ? 0
-          : scene.triangles[i].v1[0] == 0.4f || scene.triangles[i].v0[0] == 0.4f ? 1
-                                                                                 : 2] = triangles + i * bytes;
-  for (size_t i = 0; i < 32 * 32; i++)
-    if (exact.seen[i].triangle != TRAX_NO_TRIANGLE)
-      recorded[i] = (struct trax_sample_record){triangles + exact.seen[i].triangle * bytes, exact.seen[i].shadow};
-  struct trax_hit_errors errors;
-  trax_hit_errors(&errors, &exact, recorded, &frame);
-  assert_int_equal(errors.samples, 1024);
-  assert_int_equal(errors.missed + errors.grown + errors.other + errors.tied + errors.shadow + errors.wrong_pixels, 0);
+  struct trax_picture exact = exact_of(&frame), picture = exact_of(&frame);
+  trax_layers_finish(&exact, &frame, 0);
+  trax_layers_finish(&picture, &frame, 0);
+  struct trax_layers_difference errors;
+  trax_layers_compare(&errors, &picture, &exact);
+  assert_int_equal(errors.missed + errors.grown + errors.other + errors.tied + errors.shadow + errors.wrong, 0);
 
-  const size_t middle = 16 * 32 + 16, beside = 16 * 32 + 16 + 3, corner = 0; /* the nearest, the second, nothing */
-  assert_int_equal(triangles + exact.seen[middle].triangle * bytes, place[0]);
-  assert_int_equal(exact.seen[corner].triangle, TRAX_NO_TRIANGLE);
-  recorded[corner].triangle = place[2];
-  trax_hit_errors(&errors, &exact, recorded, &frame);
-  assert_true(errors.grown == 1 && errors.wrong_pixels == 1 && errors.missed + errors.other + errors.tied == 0);
-  recorded[corner].triangle = 0;
-  recorded[middle].triangle = 0;
-  trax_hit_errors(&errors, &exact, recorded, &frame);
-  assert_true(errors.missed == 1 && errors.wrong_pixels == 1 && errors.grown + errors.other + errors.tied == 0);
-  recorded[middle].triangle = place[1];
-  trax_hit_errors(&errors, &exact, recorded, &frame);
-  assert_true(errors.other == 1 && errors.wrong_pixels == 1 && errors.missed + errors.grown + errors.tied == 0);
-  recorded[middle].triangle = place[0];
-  const uint32_t right = triangles + exact.seen[beside].triangle * bytes;
-  assert_true(right == place[1] || right == place[2]); /* whichever comes first in the file */
-  recorded[beside].triangle = right == place[1] ? place[2] : place[1];
-  recorded[middle].shadow ^= TRAX_SHADOW_LIT ^ TRAX_SHADOW_BLOCKED;
-  trax_hit_errors(&errors, &exact, recorded, &frame);
-  assert_true(errors.tied == 1 && errors.shadow == 1 && errors.wrong_pixels == 0);
-  recorded[middle].triangle = triangles + 3 * bytes; /* no triangle of the scene */
-  trax_hit_errors(&errors, &exact, recorded, &frame);
-  assert_int_equal(errors.missed, 1);
-  free(recorded);
-  trax_exact_release(&exact);
-  trax_frame_release(&frame);
-  trax_scene_release(&scene);
-  trax_mesh_release(&mesh);
+  struct trax_layers *middle = &picture.layers[16 * 32 + 16], *beside = middle + 3, *corner = picture.layers;
+  const struct trax_layers right = *middle;
+  assert_true(right.triangle == 1 && beside->triangle > 1 && corner->triangle == 0);
+  assert_true(right.depth < beside->depth * 0.995f);
+  *corner = *beside;
+  trax_layers_compare(&errors, &picture, &exact);
+  assert_true(errors.grown == 1 && errors.wrong == 1 && errors.missed + errors.other + errors.tied == 0);
+  *corner = exact.layers[0];
+  *middle = exact.layers[0];
+  trax_layers_compare(&errors, &picture, &exact);
+  assert_true(errors.missed == 1 && errors.wrong == 1 && errors.grown + errors.other + errors.tied == 0);
+  *middle = *beside;
+  trax_layers_compare(&errors, &picture, &exact);
+  assert_true(errors.other == 1 && errors.wrong == 1 && errors.missed + errors.grown + errors.tied == 0);
+  *middle = right;
+  beside->triangle = 5 - beside->triangle; /* the other one of this plane */
+  beside->depth *= 1 + 0x1p-20f;
+  middle->shadow ^= TRAX_SHADOW_LIT ^ TRAX_SHADOW_BLOCKED;
+  trax_layers_compare(&errors, &picture, &exact);
+  assert_true(errors.tied == 1 && errors.shadow == 1 && errors.wrong == 0);
+  beside->depth *= 1 + 0x1p-18f;
+  trax_layers_compare(&errors, &picture, &exact);
+  assert_true(errors.tied == 0 && errors.other == 1);
+  trax_picture_release(&picture);
+  release(&exact, &frame, &scene, &mesh);
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_a_triangle), cmocka_unit_test(test_a_small_triangle),
-                                     cmocka_unit_test(test_against_all_triangles), cmocka_unit_test(test_one_plane),
-                                     cmocka_unit_test(test_no_gaps), cmocka_unit_test(test_against_embree),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_a_triangle),
+                                     cmocka_unit_test(test_a_small_triangle),
+                                     cmocka_unit_test(test_against_all_triangles),
+                                     cmocka_unit_test(test_one_plane),
+                                     cmocka_unit_test(test_no_gaps),
+                                     cmocka_unit_test(test_against_embree),
                                      cmocka_unit_test(test_kinds_of_wrong_hits)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

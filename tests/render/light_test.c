@@ -4,6 +4,8 @@
 static _Bool exact; /* which hits the lights below are for */
 #define TRAX_EXACT_HITS exact
 
+#include "../../raytracer/device/exact.h"
+
 #include "../../raytracer/device/path.h"
 
 #include <math.h>

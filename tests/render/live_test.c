@@ -1,4 +1,4 @@
-/* The frames of a picture that arrives: what is there, what is not there yet, and the last one. */
+/* The frames of a picture that arrives: pixels that are there, missing ones, and the last frame. */
 #include "live.h"
 
 #include "meshes.h"
@@ -21,7 +21,7 @@ static struct trax_picture read_frame(const char *path) {
 
 enum { WIDTH = 32, HEIGHT = 24 };
 
-/* What is not there yet: squares of 8 pixels. */
+/* Missing pixels are squares of 8 pixels. */
 static bool is_missing(const struct trax_picture *frame, size_t pixel) {
   return frame->pixels[pixel] == ((pixel % WIDTH / 8 + pixel / WIDTH / 8) % 2 ? 0xFF505050u : 0xFF404040u);
 }
@@ -45,7 +45,7 @@ static void test_frames(void **state) {
   assert_int_equal(live_create(&live, &options, &error), TRAX_OK);
   assert_int_equal(trax_frame_init(&frame, &scene, &view, &options.frame, &error), TRAX_OK);
 
-  live_begin(live, &frame, NULL);
+  live_begin(live, &frame);
   struct trax_picture shown = read_frame(options.progress_png);
   for (size_t i = 0; i < WIDTH * HEIGHT; i++)
     assert_true(is_missing(&shown, i));
@@ -62,7 +62,7 @@ static void test_frames(void **state) {
 
   for (size_t i = 0; i < WIDTH * HEIGHT; i++)
     image[i] = 0xFF000000u | (uint32_t)(7 * i);
-  struct trax_picture whole = {WIDTH, HEIGHT, image, NULL};
+  struct trax_picture whole = {.width = WIDTH, .height = HEIGHT, .pixels = image};
   assert_int_equal(live_end(live, &whole, &error), TRAX_OK);
   shown = read_frame(options.progress_png);
   assert_memory_equal(shown.pixels, image, sizeof image);
@@ -71,7 +71,7 @@ static void test_frames(void **state) {
 
   options.progress_png = test_path("none/frame.png"); /* a run ends before it says so */
   assert_int_equal(live_create(&live, &options, &error), TRAX_OK);
-  live_begin(live, &frame, NULL);
+  live_begin(live, &frame);
   assert_int_equal(live_end(live, &whole, &error), TRAX_ERROR);
   assert_non_null(strstr(error.message, "none/frame.png"));
   live_destroy(live);

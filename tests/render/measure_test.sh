@@ -1,5 +1,5 @@
 #!/bin/sh
-# trax-render --error and --hits from the command line: what they write, keep and refuse.
+# trax-render --layers and --hits from the command line: what they write, keep and refuse.
 # Usage: measure_test.sh BIN, the folder of the programs
 . "$(dirname "$0")/head.sh"
 
@@ -12,41 +12,48 @@ chip='--config 1x32'
 value() { sed -n "s/^  \"$2\": \([-+.e0-9]*\),\{0,1\}\$/\1/p" "$1"; }
 less() { awk -v a="$1" -v b="$2" 'BEGIN { exit !(a != "" && b != "" && a + 0 < b + 0) }'; }
 
-# Without a picture nothing is simulated in time; the converged picture is computed once.
-measure --error whole.json --converged kept || fail "--error: $(cat .err)"
-[ "$(ls kept | wc -l)" -eq 1 ] || fail "kept: $(ls kept)"
-touch -d 2020-01-01 kept/*
-measure --error coarse.json --converged kept --set special.precision_bits=8 || fail "8 bits: $(cat .err)"
-measure --error samples.json --converged kept --samples 16 || fail "16 samples: $(cat .err)"
-measure --error nodes.json --converged kept --nodes binary --splits=4 || fail "other nodes: $(cat .err)"
-[ "$(find kept -type f ! -newermt 2020-01-02 | wc -l)" -eq 1 ] && [ "$(ls kept | wc -l)" -eq 1 ] || fail "converged again: $(ls -l kept)"
-[ "$(value whole.json wrong_pixels)" = 0 ] || fail "wrong pixels: $(cat whole.json)"
+# Layers: the picture and what its rays met, of the program, and the exact one of the same rays.
+# compare A B: their figures, to ab.json
+judge() { "$bin/trax-compare" --json --at-least 0 "$@" >ab.json 2>.err || fail "trax-compare $*: $(cat .err)"; }
+measure --layers -o whole.exr || fail "--layers: $(cat .err)"
+measure --layers -o coarse.exr --set special.precision_bits=8 || fail "8 bits: $(cat .err)"
+measure -o whole.png || fail "$(cat .err)"
+machine=$chip
+chip=
+measure --layers -o native.exr --engine native || fail "native: $(cat .err)"
+measure --layers -o exact.exr --engine exact || fail "exact: $(cat .err)"
+measure --layers -o tree.exr --engine exact --nodes binary --splits=4 || fail "other tree: $(cat .err)"
+measure --layers -o embree.exr --engine embree || fail "embree: $(cat .err)"
+measure --layers -o converged.exr --engine exact --samples 256 || fail "converged: $(cat .err)"
+chip=$machine
+cmp -s whole.exr native.exr || fail "layers: the twin's differ from the program's"
+cmp -s exact.exr tree.exr || fail "layers: another tree, another exact picture"
+judge whole.png whole.exr
+[ "$(value ab.json largest)" = 0 ] || fail "the program that records renders another picture: $(cat ab.json)"
+judge whole.exr exact.exr
+[ "$(value ab.json wrong_pixels)$(value ab.json wrong_shadows)" = 00 ] || fail "wrong pixels: $(cat ab.json)"
 # The angle to a plain light is taken from the shadow ray's start, up to 3 x 2^-17 of a triangle's edges (2) beside the point; the light is 0.85 away.
 start=$(awk 'BEGIN { print 3 / 131072 * 2 / 0.85 * 255 }')
-less 0 "$(value whole.json numerical_rmse)" && less "$(value whole.json numerical_largest)" $start || fail "$(cat whole.json)"
-less "$(value whole.json numerical_rmse)" "$(value coarse.json numerical_rmse)" && less 0.01 "$(value coarse.json numerical_rmse)" ||
-  fail "8 bits are as exact as 24: $(cat coarse.json)"
-less "$(value samples.json total_rmse)" "$(awk -v x="$(value whole.json total_rmse)" 'BEGIN { print x / 2 }')" || fail "16 samples are as noisy as one"
-for file in coarse nodes; do
-  [ "$(value $file.json sampling_rmse)" = "$(value whole.json sampling_rmse)" ] || fail "$file: another exact picture"
-done
-measure --error alone.json || fail "without --converged: $(cat .err)"
-cmp -s whole.json alone.json || fail "--converged changes: $(diff whole.json alone.json)"
-# Two at once: one of them computes it.
-for run in 1 2; do
-  "$bin/trax-render" "$source/box.obj" --view "$source/box.view" --size 96x54 $chip --error twice$run.json --converged twice -q &
-done
-wait
-cmp -s twice1.json twice2.json && [ "$(ls twice | wc -l)" -eq 1 ] || fail "two at once: $(ls twice)"
-# With a picture, its figures as well as the others.
-measure --error both.json --converged kept --hits hits.json -o x.png --stats s.json || fail "with a picture: $(cat .err)"
-cmp -s whole.json both.json && [ -s x.png ] && [ -s s.json ] || fail "with a picture: $(ls)"
-grep -q '^error       both.json$' .out && grep -q '^hits        hits.json$' .out || fail "with a picture: $(cat .out)"
+whole=$(value ab.json floats_rmse)
+less 0 "$whole" && less "$(value ab.json floats_largest)" $start || fail "$(cat ab.json)"
+judge coarse.exr exact.exr
+less "$whole" "$(value ab.json floats_rmse)" && less 0.01 "$(value ab.json floats_rmse)" || fail "8 bits are as exact as 24: $(cat ab.json)"
+judge embree.exr exact.exr
+[ "$(value ab.json wrong_pixels)" = 0 ] || fail "Embree's layers: $(cat ab.json)"
+judge exact.exr converged.exr
+less 1 "$(value ab.json floats_rmse)" || fail "one sample is as good as 256: $(cat ab.json)"
+# Boxes that are too small hide triangles: rays miss, or meet what is behind.
+cp -r "$bin/../lib/trax/raytracer" narrow
+sed -i 's/run->box_margin, &run->grid/run->box_margin - 0.1f, \&run->grid/' narrow/main.c
+measure --layers -o narrow.exr --source narrow || fail "narrow boxes: $(cat .err)"
+judge narrow.exr exact.exr
+less 0 "$(value ab.json wrong_pixels)" && [ "$(value ab.json grown)" = 0 ] || fail "boxes that are too small: $(cat ab.json)"
+measure --hits hits.json -o x.png || fail "--hits: $(cat .err)"
 
 # Hits: what --compare prints.
 measure --compare -o x.png || fail "--compare: $(cat .out .err)"
 line="hits        $(value hits.json nearest) of $(value hits.json pixels) pixels hit the nearest triangle, $(value hits.json tied) another within the error bound, $(value hits.json beyond) beyond it"
-grep -q "^$line" .out && grep -q "^Embree      $(value hits.json embree) pixels" .out || fail "--hits: $(cat hits.json .out)"
+grep -q "^$line" .out && grep -q "^            $(value hits.json embree) pixels hit the triangle that Embree hits" .out || fail "--hits: $(cat hits.json .out)"
 [ "$(value hits.json pixels)" = 576 ] || fail "--hits: $(cat hits.json)"
 rm -f x.png
 # Any other output does without a picture, and is the same then.
@@ -64,8 +71,6 @@ for words in '--stats x.json' '--explore x.html' '--cost-picture x.png' '--cost-
 done
 rm -rf x.* with.*
 measure --compare && grep -q "^$line" .out || fail "--compare alone: $(cat .out .err)"
-measure --error x.json --stats s.json --converged kept && cmp -s whole.json x.json && [ -s s.json ] || fail "--error --stats: $(cat .err)"
-rm -f x.json
 chip=
 measure --hits again.json --engine native && cmp -s hits.json again.json && [ ! -e x.png ] || fail "--hits alone: $(cat .err)"
 measure --source . --engine native -o x.png && fail "--source --engine native"
@@ -85,31 +90,12 @@ for words in -q --sampled --mark-rays "--samples 2"; do
   refuse 'no picture given' $words
 done
 refuse '--frames needs -o' --frames 2 --progress-png x.png
-refuse 'compiled for the picture' --error x.json --engine native
-refuse 'compiled for the picture' --error x.json --no-specialise
-refuse 'one whole picture' --error x.json -o x.png --sampled
-refuse '--converged is for --error' --hits x.json --converged kept
-refuse 'watertight' --hits x.json --triangle moller-trumbore
-refuse '--prepare renders nothing' --error x.json --prepare here
-refuse 'only for .json' --error x.csv
-refuse 'nowhere/near' --error x.json --converged nowhere/near
-refuse 'Not a directory\|File exists' --error x.json --converged /dev/null
 refuse 'nowhere/x.json' --hits nowhere/x.json
-refuse 'no.such' --error x.json --set no.such=1
-sed 's/^light.*/lights = ( { type = "directional"; direction = [0.0, -1.0, -0.3]; } );/' "$source/box.view" >lights.view
-refuse 'this picture needs lights' --error x.json --view lights.view
-refuse 'this picture needs paths' --error x.json --paths 3
-refuse '--bench-accuracy has been removed; --error' --bench-accuracy -o x
+refuse '--error has been removed; --layers' --error x.json
+refuse '--layers needs -o FILE.exr' --layers -o x.png
+refuse '--layers is of a program that records' --layers -o x.exr --stats x.json
 refuse '--report has been removed; run twice' --report -o x.png
 refuse '--stack has been removed; .*experiments/stack' --stack 4 -o x.png
-
-# Interrupted while it converges: nothing is left.
-env --default-signal=INT "$bin/trax-render" "$source/box.obj" --size 320x180 --error x.json --converged stopped >.out 2>.err &
-process=$!
-for _ in $(seq 600); do [ -d stopped ] && break; sleep 0.05; done
-kill -INT $process
-wait $process
-[ $? -eq 130 ] && [ ! -e x.json ] && [ "$(ls stopped | wc -l)" -eq 0 ] || fail "interrupted: $(ls . stopped) $(cat .err)"
 
 # The program's source from elsewhere: the same program, wherever it lies; another one if it is changed.
 for copy in one two; do

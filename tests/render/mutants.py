@@ -12,7 +12,7 @@ import sys
 from mutation import ROOT, command, main
 
 TESTS = [("render-light-test", "tests/render/light_test.c", []),
-         ("render-shading-test", "raytracer/device/main.c", ["-Dmain=trax_twin_watertight", "-DTRAX_TRIANGLE=TRAX_WATERTIGHT"])]
+         ("render-shading-test", "raytracer/device/main.c", ["-Dmain=trax_twin", "-DTRAX_TWIN"])]
 
 # Name, file of raytracer/device, text, what it becomes.
 MUTANTS = [
@@ -36,7 +36,7 @@ MUTANTS = [
     ("layer-energy", "material.h", "filtered(at->diffuse, below)", "at->diffuse"),
     ("rectangle-sides", "light.h", "if (float_bits(cosine) <= 0)\n      return false;", ""),
     ("rectangle-cosine", "light.h", "falloff *= cosine;", ""),
-    ("falloff", "light.h", "return inverse * inverse;", "return inverse;"),
+    ("falloff", "aim.h", "return inverse * inverse;", "return inverse;"),
     ("emitter-search", "light.h", "cumulative <= pick", "cumulative > pick"),
     ("emitter-point", "light.h", "float side = root(place.x);", "float side = place.x;"),
     ("emitter-density", "light.h", "at_least(choices * cosine, 0x1p-40f)", "at_least(cosine, 0x1p-40f)"),

@@ -4,6 +4,8 @@
 static _Bool exact; /* which hits the functions below are to find */
 #define TRAX_EXACT_HITS exact
 
+#include "../../raytracer/device/exact.h"
+
 #include "../../raytracer/device/camera.h"
 #include "../../raytracer/device/shade.h"
 #include "../../raytracer/device/traverse.h"
@@ -201,10 +203,7 @@ static void test_shadow_rays_start_off_the_surface(void **state) {
     if (!hit_triangle(&ray.triangle, (const char *)&triangle, false, &hit))
       continue;
     struct surface surface;
-    if (exact)
-      find_surface_exactly(&surface, &hit, eye, towards);
-    else
-      find_surface(&surface, &hit, eye);
+    find_surface(&surface, &hit, eye, towards);
 
     /* Any way that leads away from the plane. */
     struct vector way = {2 * random_unit(&seed) - 1, 2 * random_unit(&seed) - 1, 2 * random_unit(&seed) - 1};

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""traces_test.py SOURCE BIN: --memory-trace and --ray-trace against the statistics and against each other's formats, by the readers of
+"""traces_test.py SOURCE BIN: --memory-trace and --ray-trace against the statistics and against each other's formats, by the scripts of
 docs/traces.md."""
 import collections
 import csv
@@ -11,12 +11,10 @@ import os
 import pathlib
 import re
 import signal
-import struct
 import subprocess
 import sys
 import tempfile
 import time
-import zlib
 
 SOURCE, BIN = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
 sys.path[:0] = [str(SOURCE / "tests" / folder) for folder in ("docs", "report", "")]
@@ -24,6 +22,7 @@ import checking  # noqa: E402
 import explore_page  # noqa: E402
 from blocks import read_blocks  # noqa: E402
 from checking import check  # noqa: E402
+from png_files import read_png  # noqa: E402
 
 PICTURE = ["--view", "forest", "--size", "24x16", "--quiet"]
 SIZE = ["forest.trax", *PICTURE]  # its tree is built once
@@ -41,8 +40,8 @@ def readers():
             check(text.count("\n") <= MOST_LINES, f"docs/traces.md, line {line}: {text.count(chr(10))} lines")
             pathlib.Path(name).write_text(text)
             modules.append(importlib.import_module(name.removesuffix(".py")))
-    check(len(modules) == 2, "docs/traces.md has", len(modules), "readers")
-    return modules
+    check(len(modules) == 3, "docs/traces.md has", len(modules), "scripts")
+    return modules[0], modules[2]
 
 
 def load(path):
@@ -139,21 +138,24 @@ def check_others(name, sim, keys, transfers):
                 for transfer in transfers for at in range(0, transfer.bytes, block)]
     ticks = (key("mtps"), 2 * key("clock_mhz")) if dram else (1, 1)
 
-    call(*sim, "--memory-trace", "t", "--memory-trace-format", "dramsim3")
-    lines = [re.fullmatch(r"0x([0-9A-F]+) (READ|WRITE) (\d+)", line) for line in pathlib.Path("t").read_text().splitlines()]
-    check(all(lines), name, "dramsim3")
+    pathlib.Path("machine.cfg").write_text(machine)
+
+    def convert(form, pattern, status=0):
+        done = subprocess.run([sys.executable, "memory_trace_for.py", form, "fast.bin", "machine.cfg"], capture_output=True, text=True)
+        lines = [re.fullmatch(pattern, line) for line in done.stdout.splitlines()]
+        check(done.returncode == status and all(lines), name, form, done.stderr)
+        return lines, done.stderr
+
+    lines, _ = convert("dramsim3", r"0x([0-9A-F]+) (READ|WRITE) (\d+)")
     check([(line[2] == "WRITE", int(line[1], 16), int(line[3])) for line in lines] ==
           [(write, address, -(-cycle * ticks[0] // ticks[1])) for write, address, cycle in expected], name, "dramsim3 differs")
-    call(*sim, "--memory-trace", "t", "--memory-trace-format", "ramulator2-loadstore")
-    lines = [re.fullmatch(r"(LD|ST) 0x([0-9a-f]+)", line) for line in pathlib.Path("t").read_text().splitlines()]
-    check(all(lines), name, "loadstore")
+    lines, _ = convert("loadstore", r"(LD|ST) 0x([0-9a-f]+)")
     check([(line[1] == "ST", int(line[2], 16)) for line in lines] == [entry[:2] for entry in expected], name, "loadstore differs")
-    done = call(*sim, "--memory-trace", "u", "--memory-trace-format", "ramulator2-readwrite", status=0 if dram else 1)
+    lines, refusal = convert("readwrite", r"(R|W) (\d+),(\d+),(\d+),(\d+),(\d+)", status=0 if dram else 1)
     if not dram:
-        check("memory.model = dram" in done.stderr and not pathlib.Path("u").exists(), name, done.stderr)
+        check("memory.model = dram" in refusal and not lines, name, refusal)
         return
-    lines = [re.fullmatch(r"(R|W) (\d+),(\d+),(\d+),(\d+),(\d+)", line) for line in pathlib.Path("u").read_text().splitlines()]
-    check(len(lines) == len(expected) and all(lines), name, "readwrite")
+    check(len(lines) == len(expected), name, "readwrite")
     fields = (("channel", key("channels")), ("rank", key("ranks")), ("bank", int(re.search(r"ranks = .*\n *banks = (\d+)", machine)[1])), ("row", 2**32), ("column", key("row_bytes") // block))
     mapping = re.search(r'mapping = "(.*)"', machine)[1].split(":")
     check([line[1] == "W" for line in lines] == [write for write, _, _ in expected], name, "reads and writes")
@@ -184,8 +186,9 @@ def memory(reader):
     check(pathlib.Path("render.csv").read_text() == pathlib.Path("sim.csv").read_text(), "trax-render's and trax-sim's traces differ")
     for name, keys in MACHINES.items():
         check_memory(reader, name, keys)
-    done = call("trax-sim", "kept/manifest.json", "--memory-trace-format", "csv", status=1)
-    check("without --memory-trace" in done.stderr, done.stderr)
+    for words in (["trax-sim", "kept/manifest.json"], ["trax-render", *SIZE]):
+        done = call(*words, "--memory-trace", "no.bin", "--memory-trace-format", "dramsim3", status=1)
+        check("memory_trace_for.py" in done.stderr and not pathlib.Path("no.bin").exists(), done.stderr)
     call("trax-sim", "kept/manifest.json", "--engine", "functional", "--memory-trace", "f.bin", status=1)
     check(not pathlib.Path("f.bin").exists(), "the functional engine left a trace")
 
@@ -198,7 +201,6 @@ PICTURES = {
     "paths": ["--paths", "3", "--samples", "2", "--one-sided"],
     "occlusion": ["--occlusion", "3"],
     "mirrors": [],  # of a scene of them
-    "moller-trumbore": ["--triangle", "moller-trumbore"],
 }
 
 
@@ -250,24 +252,8 @@ def check_way(rays):
 
 def shown_triangles(path):
     """The number of each pixel of a PNG."""
-    data, at, packed = pathlib.Path(path).read_bytes(), 8, b""
-    while at < len(data):
-        size, kind = struct.unpack_from(">I4s", data, at)
-        if kind == b"IHDR":
-            width, height = struct.unpack_from(">2I", data, at + 8)
-        if kind == b"IDAT":
-            packed += data[at + 8:at + 8 + size]
-        at += size + 12
-    raw, stride, rows = zlib.decompress(packed), 3 * width + 1, [bytes(3 * width)]
-    for y in range(height):
-        method, line, up = raw[y * stride], bytearray(raw[y * stride + 1:(y + 1) * stride]), rows[-1]
-        for i in range(3 * width):
-            left, above, corner = line[i - 3] if i >= 3 else 0, up[i], up[i - 3] if i >= 3 else 0
-            guess = left + above - corner
-            nearest = min((left, above, corner), key=lambda value: abs(guess - value))
-            line[i] = line[i] + (0, left, above, (left + above) // 2, nearest)[method] & 255
-        rows.append(bytes(line))
-    return {(x, y): int.from_bytes(rows[y + 1][3 * x:3 * x + 3], "little") for y in range(height) for x in range(width)}
+    width, height, rows = read_png(pathlib.Path(path).read_bytes())
+    return {(x, y): int.from_bytes(rows[y][3 * x:3 * x + 3], "little") for y in range(height) for x in range(width)}
 
 
 def rays(reader):
@@ -279,7 +265,7 @@ def rays(reader):
             primary = {(ray.x, ray.y): (ray.triangle + 1) % 2**32 for ray in traced if ray.kind == 0}
             check(primary == shown, "triangles of the rays from the eye are not those of --id-picture")
             check_way(traced)
-    for words, message in ((["--sampled"], "leaves out"), (["--engine", "embree"], "embree"), (["--fast-math"], "--fast-math"),
+    for words, message in ((["--sampled"], "leaves out"), (["--engine", "embree"], "Embree"), (["--fast-math"], "--fast-math"),
                            (["--frames", "2"], "--frames"), (["--prepare", "d"], "--prepare")):
         out = [] if "--prepare" in words else ["-o", "q.png"]
         done = call("trax-render", *SIZE, *words, *out, "--ray-trace", "no.bin", status=1)

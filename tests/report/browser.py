@@ -1,5 +1,6 @@
-"""Chromium without a window, over the DevTools protocol's pipe: requests on its file descriptor 3, answers on 4, JSON between zero bytes.
-https://chromedevtools.github.io/devtools-protocol/ And the tests of what every page must do in it."""
+"""Chromium without a window, over the DevTools protocol's pipe: requests on its file descriptor 3, answers on 4, JSON
+between zero bytes. https://chromedevtools.github.io/devtools-protocol/ And the tests of what every page must do in
+it."""
 
 import base64
 import json
@@ -14,12 +15,16 @@ import tempfile
 import time
 import zlib
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from png_files import chunks  # noqa: E402
 
 # A colour of the page as [red, green, blue], 0 to 255.
 COLOUR = "(c => c.match(/[\\d.]+/g).slice(0, 3).map(Number))(getComputedStyle({}).{})"
-# The colours of all texts and of what is behind them, each pair once. A canvas mixes the colours that lie one over the other.
+# The colours of all texts and of what is behind them, each pair once. A canvas mixes the colours that lie one over the
+# other.
 TEXT_COLOURS = """(() => {
-    const context = Object.assign(document.createElement("canvas"), {width: 1, height: 1}).getContext("2d", {willReadFrequently: true}), known = new Map();
+    const canvas = Object.assign(document.createElement("canvas"), {width: 1, height: 1});
+    const context = canvas.getContext("2d", {willReadFrequently: true}), known = new Map();
     const mixed = colours => {
         const key = colours.join();
         if (!known.has(key)) {
@@ -30,33 +35,32 @@ TEXT_COLOURS = """(() => {
         return known.get(key);
     };
     return [...new Set(Array.from(document.querySelectorAll("main *, header *"), e => {
-        if (!Array.from(e.childNodes).some(n => n.nodeType === 3 && n.textContent.trim()) || e.closest("title, style, script")) return null;
+        const texts = Array.from(e.childNodes).some(n => n.nodeType === 3 && n.textContent.trim());
+        if (!texts || e.closest("title, style, script")) return null;
         const behind = [];
         for (let back = e; back; back = back.parentElement) behind.unshift(getComputedStyle(back).backgroundColor);
-        return JSON.stringify([mixed([...behind, e.closest("svg") ? getComputedStyle(e).fill : getComputedStyle(e).color]), mixed(behind)]);
+        const style = getComputedStyle(e), own = e.closest("svg") ? style.fill : style.color;
+        return JSON.stringify([mixed([...behind, own]), mixed(behind)]);
     }))].filter(x => x).map(x => JSON.parse(x)); })()"""
 
 
 def luminance(colour):
     """WCAG 2.1, relative luminance."""
     parts = [part / 255 for part in colour]
-    linear = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts]
+    linear = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055)**2.4 for part in parts]
     return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
 
 
 def contrast(*colours):
     """Of two colours as a style has them."""
-    bright, dark = sorted((luminance([float(part) for part in re.findall(r"[\d.]+", colour)[:3]]) for colour in colours), reverse=True)
+    bright, dark = sorted(
+        (luminance([float(part) for part in re.findall(r"[\d.]+", colour)[:3]]) for colour in colours), reverse=True)
     return (bright + 0.05) / (dark + 0.05)
 
 
 def first_pixel(png):
     """[red, green, blue] of the first pixel of a PNG of 8 bits a channel: no filter changes it."""
-    packed, at = b"", 8
-    while at < len(png):
-        size = int.from_bytes(png[at:at + 4], "big")
-        packed += png[at + 8:at + 8 + size] if png[at + 4:at + 8] == b"IDAT" else b""
-        at += 12 + size
+    packed = b"".join(content for kind, content in chunks(png) if kind == b"IDAT")
     return list(zlib.decompressobj().decompress(packed)[1:4])
 
 
@@ -83,8 +87,8 @@ def take_keep():
 
 
 class Browser:
-    """One page. messages: what it wrote on its console, exceptions, and what the browser logged; requests: what it asked for."""
-
+    """One page. messages: what it wrote on its console, exceptions, and what the browser logged; requests: what it
+    asked for."""
     def __init__(self, program, width=1400, height=900):
         self.profile = tempfile.TemporaryDirectory(prefix="report-chromium-", ignore_cleanup_errors=True)
         to_read, self.to = os.pipe()
@@ -96,12 +100,16 @@ class Browser:
             os.dup2(read, 3)
             os.dup2(write, 4)
 
-        command = [program, "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--no-first-run", "--hide-scrollbars",
-                   "--disable-extensions", "--disable-background-networking", "--force-device-scale-factor=1", "--remote-debugging-pipe",
-                   f"--user-data-dir={self.profile.name}", f"--window-size={width},{height}", "about:blank"]
+        command = [
+            program, "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--no-first-run",
+            "--hide-scrollbars", "--disable-extensions", "--disable-background-networking",
+            "--force-device-scale-factor=1", "--remote-debugging-pipe", f"--user-data-dir={self.profile.name}",
+            f"--window-size={width},{height}", "about:blank"
+        ]
         environment = {**os.environ, "HOME": self.profile.name}
-        self.process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                                        preexec_fn=place, close_fds=False, env=environment, start_new_session=True)
+        self.process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                        stderr=subprocess.DEVNULL, preexec_fn=place, close_fds=False, env=environment,
+                                        start_new_session=True)
         os.close(to_read)
         os.close(to_write)
         self.buffer, self.number, self.session = b"", 0, None
@@ -128,7 +136,8 @@ class Browser:
         if method == "Runtime.consoleAPICalled":
             self.messages.append(f"console.{given['type']}: {given['args']}")
         elif method == "Runtime.exceptionThrown":
-            self.messages.append(f"exception: {given['exceptionDetails'].get('exception', {}).get('description') or given['exceptionDetails']['text']}")
+            details = given["exceptionDetails"]
+            self.messages.append(f"exception: {details.get('exception', {}).get('description') or details['text']}")
         elif method == "Log.entryAdded":
             self.messages.append(f"log: {given['entry']['text']} {given['entry'].get('url', '')}")
         elif method == "Network.requestWillBeSent":
@@ -191,8 +200,8 @@ class Browser:
 
 
 class PageTests:
-    """What every page must do: follow light and dark, fit a narrow window, print. The test's class has a browser, the paths of its pages, and what
-    stands below; its pictures and its PDF are left in the folder KEEP."""
+    """What every page must do: follow light and dark, fit a narrow window, print. The test's class has a browser, the
+    paths of its pages, and what stands below; its pictures and its PDF are left in the folder KEEP."""
 
     KEEP = None
     CLOSELY = None  # the page that is looked at closely
@@ -214,7 +223,10 @@ class PageTests:
 
     def picture(self, name, width=1400):
         if self.KEEP:
-            clip = {"x": 0, "y": 0, "width": width, "height": self.browser.run("document.documentElement.scrollHeight"), "scale": 1}
+            clip = {
+                "x": 0, "y": 0, "width": width, "height": self.browser.run("document.documentElement.scrollHeight"),
+                "scale": 1
+            }
             self.keep(name, self.browser.call("Page.captureScreenshot", captureBeyondViewport=True, clip=clip)["data"])
 
     def is_quiet(self):
@@ -228,7 +240,8 @@ class PageTests:
     def test_light_and_dark(self):
         seen = {}
         for scheme in ("light", "dark"):
-            self.browser.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
+            self.browser.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme",
+                                                                       "value": scheme}])
             self.load(self.CLOSELY)
             seen[scheme] = self.ground()
             self.assertEqual(luminance(seen[scheme]) > 0.5, scheme == "light")
@@ -247,15 +260,16 @@ class PageTests:
         self.browser.call("Emulation.setEmulatedMedia", features=[])
 
     def edge(self, place):
-        """The colours at the right edge of a table that scrolls, above its first row: at the beginning, and at its end."""
+        """The colours at the right edge of a table that scrolls, above its first row: at the beginning, and at its
+        end."""
         box = self.browser.run(f"""(e => {{ e.scrollIntoView({{block: "center"}}); const b = e.getBoundingClientRect();
             return [b.right - 3 + scrollX, b.y + scrollY + 2]; }})({place})""")
         seen = []
         for end in (0, 100000):
             self.browser.run(f"{place}.scrollLeft = {end}")
             clip = {"x": box[0], "y": box[1], "width": 2, "height": 2, "scale": 1}
-            png = base64.b64decode(self.browser.call("Page.captureScreenshot", captureBeyondViewport=True,
-                clip=clip)["data"])
+            png = base64.b64decode(
+                self.browser.call("Page.captureScreenshot", captureBeyondViewport=True, clip=clip)["data"])
             seen.append(first_pixel(png))
         return seen
 
@@ -289,11 +303,20 @@ class PageTests:
         pages = len(re.findall(rb"/Type\s*/Page\b", pdf))
         self.assertTrue(self.PAPER[0] <= pages <= self.PAPER[1], pages)
         # On paper it is light, and nothing is wider than it: 297 mm less the margins.
-        self.browser.call("Emulation.setEmulatedMedia", media="print", features=[{"name": "prefers-color-scheme", "value": "dark"}])
-        self.browser.call("Emulation.setDeviceMetricsOverride", width=round((297 - self.MARGIN) / 25.4 * 96), height=1000, deviceScaleFactor=1, mobile=False)
+        self.browser.call("Emulation.setEmulatedMedia", media="print",
+                          features=[{"name": "prefers-color-scheme", "value": "dark"}])
+        self.browser.call("Emulation.setDeviceMetricsOverride", width=round((297 - self.MARGIN) / 25.4 * 96),
+                          height=1000, deviceScaleFactor=1, mobile=False)
         self.assertGreater(luminance(self.ground()), 0.9)
-        wide = self.browser.run(f"Array.from(document.querySelectorAll('{self.WIDE}'), e => [e.id || e.tagName, e.getBoundingClientRect().right]).filter(([, right]) => right > innerWidth + 1)")
+        wide = self.browser.run(
+            f"Array.from(document.querySelectorAll('{self.WIDE}'), e => [e.id || e.tagName, "
+            f"e.getBoundingClientRect().right]).filter(([, right]) => right > innerWidth + 1)"
+        )
         self.assertEqual(wide, [])
-        self.assertEqual(self.browser.run("Array.from(document.querySelectorAll('nav'), e => getComputedStyle(e).display).filter(x => x !== 'none')"), [])
+        self.assertEqual(
+            self.browser.run(
+                "Array.from(document.querySelectorAll('nav'), e => getComputedStyle(e).display).filter(x => x !== "
+                "'none')"
+            ), [])
         self.browser.call("Emulation.clearDeviceMetricsOverride")
         self.browser.call("Emulation.setEmulatedMedia", media="", features=[])

@@ -8,7 +8,10 @@ import zlib
 
 def unpack(path):
     """The data of a page, and its picture's columns by name."""
-    packed = {name: zlib.decompress(base64.b64decode(text)) for name, text in re.findall(r'octet-stream" id="(\w+)">([^<]*)</script>', path.read_text())}
+    packed = {
+        name: zlib.decompress(base64.b64decode(text))
+        for name, text in re.findall(r'octet-stream" id="(\w+)">([^<]*)</script>', path.read_text())
+    }
     data, numbers, columns = json.loads(packed["data"]), iter(packed["pixels"]), {}
     if "picture" in data:
         for column in filter(None, data["picture"]["columns"]):

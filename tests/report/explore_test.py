@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""The page of --explore: explore_test.py BIN SOURCE [--keep DIR]. Whether its data are those of the other outputs, whether its bytes depend on the run
-alone, and whether a browser shows it without a word on its console. --keep leaves pages, pictures and the PDF in a folder, to be looked at."""
+"""The page of --explore: explore_test.py BIN SOURCE [--keep DIR]. Whether its data are those of the other outputs,
+whether its bytes depend on the run alone, and whether a browser shows it without a word on its console. --keep leaves
+pages, pictures and the PDF in a folder, to be looked at."""
 
 import collections
 import csv
@@ -28,13 +29,16 @@ HOSTILE = "<img src=x onerror=alert(1)> & </script>.obj".replace("/", "\u2044")
 
 
 def render(folder, *words, check=True, mesh=None):
-    command = [BIN / "trax-render", mesh or SOURCE / "tests/render/box.obj", "--view", SOURCE / "tests/render/box.view", "--size", f"{WIDTH}x{HEIGHT}",
-               *([] if "--program" in words else ["--cache", folder / "cache"]), "-q", *words]
+    command = [
+        BIN / "trax-render", mesh or SOURCE / "tests/render/box.obj", "--view", SOURCE / "tests/render/box.view",
+        "--size", f"{WIDTH}x{HEIGHT}", *([] if "--program" in words else ["--cache", folder / "cache"]), "-q", *words
+    ]
     return subprocess.run(command, cwd=folder, check=check, capture_output=not check, text=True)
 
 
 def simulate(folder, *words, check=True):
-    return subprocess.run([BIN / "trax-sim", "--quiet", *words], cwd=folder, check=check, capture_output=not check, text=True)
+    return subprocess.run([BIN / "trax-sim", "--quiet", *words], cwd=folder, check=check, capture_output=not check,
+                          text=True)
 
 
 class Scratch(unittest.TestCase):
@@ -50,9 +54,10 @@ def setUpModule():
     scratch = tempfile.TemporaryDirectory()
     unittest.addModuleCleanup(scratch.cleanup)
     folder = Scratch.folder = pathlib.Path(scratch.name)
-    render(folder, "--mark-rays", "-o", "p.png", "--keep", "run", "--explore", "p.html", "--stats", "p.json", "--cost-values", "p.csv")
-    simulate(folder, "run/manifest.json", "--explore", "q.html", "--stats", "q.json", "--heat", "heat.csv", "--ray-kinds", "rays.csv", "--profile-folded", "folded",
-             "--items", "items.csv", "--item-buffer", "image")
+    render(folder, "--mark-rays", "-o", "p.png", "--keep", "run", "--explore", "p.html", "--stats", "p.json",
+           "--cost-values", "p.csv")
+    simulate(folder, "run/manifest.json", "--explore", "q.html", "--stats", "q.json", "--heat", "heat.csv",
+             "--ray-kinds", "rays.csv", "--profile-folded", "folded", "--items", "items.csv", "--item-buffer", "image")
 
 
 class Data(Scratch):
@@ -64,28 +69,36 @@ class Data(Scratch):
                 del written[name]
             self.assertEqual(data["stats"], written)
             for cause, cycles in written["causes"].items():
-                self.assertEqual(sum(columns.get(f"causes.{cause}", [])) + data["picture"]["elsewhere"][cause], cycles, cause)
+                self.assertEqual(
+                    sum(columns.get(f"causes.{cause}", [])) + data["picture"]["elsewhere"][cause], cycles, cause)
             for kind, rays in written["rays_by_kind"].items():
                 self.assertEqual(sum(columns.get(f"rays.{kind}", [])), rays, kind)
             self.assertEqual(columns["rays.primary"], [1] * WIDTH * HEIGHT)
             series = list(csv.DictReader(io.StringIO(data["series"])))
             lengths = [int(row["end"]) - int(row["begin"]) for row in series if row["tm"] == "all"]
-            self.assertTrue(16 < len(lengths) < 256 and len(set(lengths[:-1])) == 1 and lengths[-1] <= lengths[0], lengths)
+            self.assertTrue(16 < len(lengths) < 256 and len(set(lengths[:-1])) == 1 and lengths[-1] <= lengths[0],
+                            lengths)
             for cause, cycles in written["causes"].items():
                 self.assertEqual(sum(int(row[cause]) for row in series if row["tm"] == "all"), cycles, cause)
                 for tm in written["tms"]:
-                    self.assertEqual(sum(int(row[cause]) for row in series if row["tm"] == str(tm["tm"])), tm["causes"][cause], cause)
-            self.assertEqual(sum(int(row["memory.bytes"]) for row in series if row["tm"] == "all"), written["memory"]["bytes"])
+                    self.assertEqual(sum(int(row[cause]) for row in series if row["tm"] == str(tm["tm"])),
+                                     tm["causes"][cause], cause)
+            self.assertEqual(sum(int(row["memory.bytes"]) for row in series if row["tm"] == "all"),
+                             written["memory"]["bytes"])
             instructions = list(filter(None, data["instructions"]))
-            self.assertEqual([sum(one[5][i] for one in instructions) for i in range(len(written["causes"]))], list(written["causes"].values()))
-            self.assertTrue(any(path.endswith("traverse.h") and "visit_node" in text for path, text in data["sources"].items()))
+            self.assertEqual([sum(one[5][i] for one in instructions) for i in range(len(written["causes"]))],
+                             list(written["causes"].values()))
+            self.assertTrue(
+                any(path.endswith("traverse.h") and "visit_node" in text for path, text in data["sources"].items()))
         self.assertEqual(data["heat"], self.text("heat.csv"))
         self.assertEqual(data["ray_kinds"], self.text("rays.csv"))
         self.assertEqual(data["folded"], self.text("folded"))
 
     def test_pixels(self):
         data, columns = unpack(self.folder / "p.html")
-        cycles = [sum(values) for values in zip(*(values for name, values in columns.items() if name.startswith("causes.")))]
+        cycles = [
+            sum(values) for values in zip(*(values for name, values in columns.items() if name.startswith("causes.")))
+        ]
         self.assertEqual(cycles, [int(row["cycles"]) for row in csv.DictReader(io.StringIO(self.text("p.csv")))])
         image = (self.folder / "run/image.raw").read_bytes()
         for channel, name in enumerate(("red", "green", "blue")):
@@ -99,20 +112,25 @@ class Data(Scratch):
         for row in csv.DictReader(io.StringIO(self.text("items.csv"))):
             if row["kind"] == "item":
                 place = int(row["place"])
-                self.assertEqual([others["causes.issued"][place], others[".thread"][place] - 1, others[".begin"][place]],
-                                 [int(row[name]) for name in ("instructions", "thread", "begin")])
+                self.assertEqual(
+                    [others["causes.issued"][place], others[".thread"][place] - 1, others[".begin"][place]],
+                    [int(row[name]) for name in ("instructions", "thread", "begin")])
         # A visit of a node loads a plane at least, at most two boxes and two references; a triangle has 10 words.
         parts = {row["object"]: int(row["loads"]) for row in csv.DictReader(io.StringIO(data["parts"]))}
         nodes, triangles = sum(columns["counts.nodes"]), sum(columns["counts.triangles"])
         self.assertTrue(nodes > WIDTH * HEIGHT and 2 * nodes <= parts["scene: nodes"] <= 14 * nodes, (nodes, parts))
-        self.assertTrue(triangles > WIDTH * HEIGHT / 2 and triangles <= parts["scene: triangles"] <= 10 * triangles + 10 * sum(columns["rays.primary"]), (triangles, parts))
+        self.assertTrue(
+            triangles > WIDTH * HEIGHT / 2 and
+            triangles <= parts["scene: triangles"] <= 10 * triangles + 10 * sum(columns["rays.primary"]),
+            (triangles, parts))
 
     def test_bytes(self):
         page = (self.folder / "p.html").read_bytes()
         self.assertNotIn(b"http:", page.replace(b"http://www.w3.org/2000/svg", b""))  # the name of SVG
         self.assertNotIn(b"https:", page)
         packed = re.search(rb'id="pixels">([^<]*)<', page)[1]
-        self.assertLess(len(packed), 8e6 * WIDTH * HEIGHT / (640 * 360))  # of 10 MB; the rest hardly grows with the picture
+        self.assertLess(len(packed),
+                        8e6 * WIDTH * HEIGHT / (640 * 360))  # of 10 MB; the rest hardly grows with the picture
         self.assertLess(len(page) - len(packed), 600000)
         for words in (["--threads", "1"], ["--threads", "3"], ["--engine", "reference"]):
             render(self.folder, "--mark-rays", "-o", "other.png", "--explore", "other.html", *words)
@@ -129,7 +147,8 @@ class Data(Scratch):
 
     def test_another_program(self):
         """Its visits are not known, its work is that of no kind of ray."""
-        render(self.folder, "-o", "general.png", "--explore", "general.html", "--program", BIN / "../lib/trax/trax-raytracer.elf")
+        render(self.folder, "-o", "general.png", "--explore", "general.html", "--program",
+               BIN / "../lib/trax/trax-raytracer.elf")
         _, columns = unpack(self.folder / "general.html")
         self.assertEqual([name for name in columns if name.startswith("counts.")], [])
         self.assertEqual(columns["rays.primary"], [1] * WIDTH * HEIGHT)
@@ -137,34 +156,50 @@ class Data(Scratch):
     def test_refused(self):
         (self.folder / "closed").mkdir(exist_ok=True)
         (self.folder / "kept.html").write_text("kept")
-        for words, message in ((["--explore", "none/x.html"], "none/x.html"), (["--explore", "closed"], "closed"), (["--explore", "p.png", "-o", "p.png"], "written twice"),
-                               (["--explore", str(SOURCE / "tests/render/box.obj")], "is an input and the output of --explore"), (["--explore", "kept.html", "--engine", "native"], "need the emulator"),
-                               (["--explore", "kept.html", "--sampled"], "nothing to compare, explain"), (["--explore", "kept.html", "--frames", "2"], "pictures only")):
+        for words, message in ((["--explore", "none/x.html"], "none/x.html"), (["--explore", "closed"], "closed"),
+                               (["--explore", "p.png", "-o",
+                                 "p.png"], "written twice"), (["--explore",
+                                                               str(SOURCE / "tests/render/box.obj")],
+                                                              "is an input and the output of --explore"),
+                               (["--explore", "kept.html", "--engine",
+                                 "native"], "need the emulator"), (["--explore", "kept.html",
+                                                                    "--sampled"], "nothing to compare, explain"),
+                               (["--explore", "kept.html", "--frames", "2"], "pictures only")):
             ended = render(self.folder, *(words if "-o" in words else ["-o", "new.png", *words]), check=False)
             self.assertEqual(ended.returncode, 1, words)
             self.assertRegex(ended.stderr, r"^trax-render: error: .*(" + message + ")")
-        for words, message in ((["--explore", "none/x.html"], "none/x.html"), (["--explore", "run/manifest.json"], "manifest.json"), (["--explore", "kept.html", "--engine", "functional"], "a run is explained by"),
+        for words, message in ((["--explore", "none/x.html"], "none/x.html"), (["--explore",
+                                                                                "run/manifest.json"], "manifest.json"),
+                               (["--explore", "kept.html", "--engine", "functional"], "a run is explained by"),
                                (["--explore", "kept.html", "--resume", "q.json"], "cannot be explained without")):
             ended = simulate(self.folder, *words, "run/manifest.json", check=False)
             self.assertEqual(ended.returncode, 1, words)
             self.assertRegex(ended.stderr, r"^trax-sim: error: .*" + message)
         # A page that cannot be written to its end is an error, and the file that was there stays.
         ended = simulate(self.folder, "--explore", "/dev/full", "run/manifest.json", check=False)
-        self.assertEqual((ended.returncode, ended.stderr.startswith("trax-sim: error: /dev/full: ")), (1, True), ended.stderr)
-        limited = subprocess.run(["bash", "-c", f"ulimit -f 60; exec {BIN}/trax-sim --quiet --explore kept.html run/manifest.json --dump image=/dev/null"], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual((ended.returncode, ended.stderr.startswith("trax-sim: error: /dev/full: ")), (1, True),
+                         ended.stderr)
+        limited = subprocess.run([
+            "bash", "-c",
+            f"ulimit -f 60; exec {BIN}/trax-sim --quiet --explore kept.html run/manifest.json --dump image=/dev/null"
+        ], cwd=self.folder, capture_output=True, text=True)
         self.assertEqual(limited.returncode, 1, limited.stderr)
         self.assertRegex(limited.stderr, "^trax-sim: error: kept.html: ")
-        self.assertEqual((self.text("kept.html"), sorted(one.name for one in self.folder.glob("kept*"))), ("kept", ["kept.html"]))
+        self.assertEqual((self.text("kept.html"), sorted(one.name for one in self.folder.glob("kept*"))),
+                         ("kept", ["kept.html"]))
         manifest = json.loads(self.text("run/manifest.json"))
         manifest["picture"]["width"] += 1
         (self.folder / "run/wrong.json").write_text(json.dumps(manifest))
         ended = simulate(self.folder, "--explore", "kept.html", "run/wrong.json", check=False)
         self.assertEqual(ended.returncode, 1)
-        self.assertRegex(ended.stderr, "^trax-sim: error: the manifest's picture of 49x27 pixels of 4 bytes is not the buffer image of 5184 bytes")
+        self.assertRegex(
+            ended.stderr,
+            "^trax-sim: error: the manifest's picture of 49x27 pixels of 4 bytes is not the buffer image of 5184 bytes")
         self.assertEqual(self.text("kept.html"), "kept")
 
     def test_unfinished(self):
-        ended = simulate(self.folder, "--explore", "part.html", "--stats", "part.json", "--max-cycles", "20000", "run/manifest.json", check=False)
+        ended = simulate(self.folder, "--explore", "part.html", "--stats", "part.json", "--max-cycles", "20000",
+                         "run/manifest.json", check=False)
         self.assertEqual(ended.returncode, 124)
         data, columns = unpack(self.folder / "part.html")
         self.assertEqual((data["stats"]["status"], data["stats"]["cycles"]), ("limit", 20000))
@@ -184,9 +219,11 @@ class Page(PageTests, Scratch):
         shutil.copy(SOURCE / "tests/render/box.obj", cls.folder / HOSTILE)
         shutil.copy(SOURCE / "tests/render/box.mtl", cls.folder)
         render(cls.folder, "-o", "h.png", "--explore", "hostile.html", "--stats", "hostile.json", mesh=HOSTILE)
-        simulate(cls.folder, "--explore", "part.html", "--stats", "part.json", "--max-cycles", "20000", "run/manifest.json", check=False)
-        render(cls.folder, "-o", "g.png", "--explore", "general.html", "--stats", "general.json", "--program", BIN / "../lib/trax/trax-raytracer.elf", "--config", "1x32",
-               "--set", "memory.model=dram", "--set", "dram.preset=lpddr3-1600")
+        simulate(cls.folder, "--explore", "part.html", "--stats", "part.json", "--max-cycles", "20000",
+                 "run/manifest.json", check=False)
+        render(cls.folder, "-o", "g.png", "--explore", "general.html", "--stats", "general.json", "--program",
+               BIN / "../lib/trax/trax-raytracer.elf", "--config", "1x32", "--set", "memory.model=dram", "--set",
+               "dram.preset=lpddr3-1600")
         (cls.folder / "idle.c").write_text("int main(void) {}\n")
         subprocess.run([BIN / "clang", "--target=trax", "-O2", "idle.c", "-o", "idle"], cwd=cls.folder, check=True)
         simulate(cls.folder, "idle", "--explore", "idle.html", "--stats", "idle.json", "--config", "1x32")
@@ -207,17 +244,24 @@ class Page(PageTests, Scratch):
 
     def key(self, name):
         for kind in ("keyDown", "keyUp"):
-            self.browser.call("Input.dispatchKeyEvent", type=kind, key=name, code=name, windowsVirtualKeyCode={"Enter": 13, "ArrowRight": 39, "ArrowDown": 40}.get(name, 0))
+            self.browser.call("Input.dispatchKeyEvent", type=kind, key=name, code=name,
+                              windowsVirtualKeyCode={"Enter": 13, "ArrowRight": 39, "ArrowDown": 40}.get(name, 0))
 
     def middle(self, expression):
-        return self.browser.run(f"(e => {{ e.scrollIntoView({{block: 'center'}}); const b = e.getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]; }})({expression})")
+        return self.browser.run(
+            f"(e => {{ e.scrollIntoView({{block: 'center'}}); const b = e.getBoundingClientRect(); return [b.x + "
+            f"b.width / 2, b.y + b.height / 2]; }})({expression})"
+        )
 
     def test_figures(self):
         """Every figure of --stats stands on the page, with its value."""
         for name, page in self.pages.items():
             self.load(name)
             stats = json.loads(self.text(f"{page.stem}.json"))
-            shown = self.browser.run("Array.from(document.querySelectorAll('[data-figure]'), e => [e.dataset.figure, Number(e.dataset.value), e.textContent])")
+            shown = self.browser.run(
+                "Array.from(document.querySelectorAll('[data-figure]'), e => [e.dataset.figure, "
+                "Number(e.dataset.value), e.textContent])"
+            )
 
             def flat(level, prefix=""):
                 for key, value in level.items():
@@ -226,17 +270,27 @@ class Page(PageTests, Scratch):
                     elif isinstance(value, (int, float)) and not isinstance(value, bool):
                         yield prefix + key, value
 
-            expected = {key: value for key, value in flat({key: value for key, value in stats.items() if key not in ("configuration", "identity", "exit_status", *OF_HOST)})}
+            expected = {
+                key: value for key, value in flat({
+                    key: value for key, value in stats.items()
+                    if key not in ("configuration", "identity", "exit_status", *OF_HOST)
+                })
+            }
             self.assertGreater(len(expected), 150)
             self.assertEqual({key: value for key, value, _ in shown}, expected, name)
             for key, value, text in shown:
                 if isinstance(value, int) and key.startswith("causes."):
                     self.assertEqual(text, f"{value:,}")
-            sections = self.browser.run("Array.from(document.querySelectorAll('main > section'), e => [e.id, e.getBoundingClientRect().height])")
-            self.assertEqual([one for one, height in sections if height > 60],
-                             ["causes", "time", "picture", "source", "calls", "hardware", "objects", "rays", "statistics"], name)
-            self.assertEqual(self.browser.run("document.querySelectorAll('#time svg polygon').length"), sum(1 for cycles in stats["causes"].values() if cycles))
-            self.assertEqual(stats["partial"], "did not finish" in self.browser.run("document.getElementById('brief').textContent"))
+            sections = self.browser.run(
+                "Array.from(document.querySelectorAll('main > section'), e => [e.id, e.getBoundingClientRect().height])"
+            )
+            self.assertEqual(
+                [one for one, height in sections if height > 60],
+                ["causes", "time", "picture", "source", "calls", "hardware", "objects", "rays", "statistics"], name)
+            self.assertEqual(self.browser.run("document.querySelectorAll('#time svg polygon').length"),
+                             sum(1 for cycles in stats["causes"].values() if cycles))
+            self.assertEqual(stats["partial"], "did not finish"
+                             in self.browser.run("document.getElementById('brief').textContent"))
             self.is_quiet()
         self.assertIn("DRAM", self.browser.run("document.getElementById('memory-table').textContent"))
 
@@ -244,12 +298,14 @@ class Page(PageTests, Scratch):
         """In a window of 1400 pixels no table is cut."""
         for name in self.pages:
             self.load(name)
-            cut = self.browser.run("""Array.from(document.querySelectorAll(".scroll")).filter(e => e.scrollWidth > e.clientWidth + 1)
+            cut = self.browser.run(
+                """Array.from(document.querySelectorAll(".scroll")).filter(e => e.scrollWidth > e.clientWidth + 1)
                 .map(e => e.firstChild.id)""")
             self.assertEqual(cut, [], name)
 
     def test_colours_of_causes(self):
-        """A cause has one colour, whatever other causes a run has, and no other has it. A bar's labels can be read on all."""
+        """A cause has one colour, whatever other causes a run has, and no other has it. A bar's labels can be read on
+        all."""
         known, every = {}, list(json.loads(self.text("p.json"))["causes"])
         for name in self.pages:
             self.load(name)
@@ -259,14 +315,16 @@ class Page(PageTests, Scratch):
                 known.setdefault(cause, set()).add(colour)
         self.assertGreater(len(known), 10)
         self.assertEqual({cause: colours for cause, colours in known.items() if len(colours) > 1}, {})
-        both = [self.browser.run(f"causesOf({{causes: {json.dumps(causes)}}}, []).map(one => [one.name, one.colour])")
-                for causes in ({cause: 1 for cause in (*every, "compare_conflict")},
-                    {"fp_mul_conflict": 1, "compare_conflict": 1})]
+        both = [
+            self.browser.run(f"causesOf({{causes: {json.dumps(causes)}}}, []).map(one => [one.name, one.colour])")
+            for causes in ({cause: 1
+                            for cause in (*every, "compare_conflict")}, {"fp_mul_conflict": 1, "compare_conflict": 1})
+        ]
         self.assertEqual([pair for pair in both[1] if pair not in both[0]], [])
         self.assertEqual(len({colour for _, colour in both[0]}), len(every) + 1)
         for scheme in ("light", "dark"):
-            self.browser.call("Emulation.setEmulatedMedia",
-                features=[{"name": "prefers-color-scheme", "value": scheme}])
+            self.browser.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme",
+                                                                       "value": scheme}])
             for cause in (*every, "compare_conflict"):
                 self.browser.run(f"""document.getElementById("causes-bar").replaceChildren(
                     stack(causesOf({{causes: {{{cause}: 1}}}}, []), {{{cause}: 1}}, 1, "large", true))""")
@@ -285,7 +343,8 @@ class Page(PageTests, Scratch):
             known = [any(int(row[f"dcache.{what}"]) for what in ("hits", "misses", "merged")) for row in mine]
             stretches = sum(a and not b for a, b in zip(known, [False, *known]))
             curves = self.browser.run("""Array.from(Array.from(document.querySelectorAll("#time-lines figure"))
-                .find(f => f.textContent.includes("Loads that hit")).querySelectorAll(".curve"), c => c.points.length)""")
+                .find(f => f.textContent.includes("Loads that hit")).querySelectorAll(".curve"),
+                c => c.points.length)""")
             self.assertEqual((len(curves), sum(curves)), (stretches, 2 * sum(known)), tm)
         self.assertFalse(all(known))  # TM 3 has intervals without loads
         self.load("idle")
@@ -301,32 +360,48 @@ class Page(PageTests, Scratch):
                 row => Array.from(row.cells, cell => cell.textContent))""")
             self.assertEqual({len(row) for row in table}, {heads}, name)
         stats = json.loads(self.text("general.json"))
-        self.assertEqual(table[1:], [*([kind, f"{rays:,}"] for kind, rays in stats["rays_by_kind"].items() if rays),
-            ["all", f"{stats['rays']:,}"]])
+        self.assertEqual(table[1:], [
+            *([kind, f"{rays:,}"]
+              for kind, rays in stats["rays_by_kind"].items() if rays), ["all", f"{stats['rays']:,}"]
+        ])
 
     def test_story(self):
         self.load("whole")
         _, columns = unpack(self.folder / "p.html")
         causes = {name[len("causes."):]: values for name, values in columns.items() if name.startswith("causes.")}
-        box = self.browser.run("(e => { e.scrollIntoView({block: 'center'}); const b = e.getBoundingClientRect(); return [b.x, b.y, b.width, b.height]; })(document.getElementById('picture-cost'))")
+        box = self.browser.run(
+            "(e => { e.scrollIntoView({block: 'center'}); const b = e.getBoundingClientRect(); return [b.x, b.y, "
+            "b.width, b.height]; })(document.getElementById('picture-cost'))"
+        )
         x, y = 17, 20
         at = [box[0] + (x + 0.5) * box[2] / WIDTH, box[1] + (y + 0.5) * box[3] / HEIGHT]
 
         def check(x, y):
             place = y * WIDTH + x
-            cycles, story = sum(values[place] for values in causes.values()), self.browser.run("document.getElementById('story').innerText")
+            cycles, story = sum(
+                values[place]
+                for values in causes.values()), self.browser.run("document.getElementById('story').innerText")
             thread, begin = columns[".thread"][place] - 1, columns[".begin"][place]
             self.assertIn(f"Pixel ({x}, {y}): {cycles:,} cycles", story)
-            self.assertIn(f"Thread {thread} (TM {thread // 32}, TP {thread % 32}), cycles {begin:,} to {begin + cycles:,}.", story)
+            self.assertIn(
+                f"Thread {thread} (TM {thread // 32}, TP {thread % 32}), cycles {begin:,} to {begin + cycles:,}.",
+                story)
             shadows = columns["rays.shadow"][place]
-            self.assertIn(f"{1 + shadows} rays (1 primary{', 1 shadow' if shadows else ''}), {columns['counts.nodes'][place]:,} nodes, {columns['counts.triangles'][place]:,} triangles, "
-                          f"{causes['issued'][place]:,} instructions", story)
-            rows = dict(self.browser.run("Array.from(document.querySelectorAll('#story-table tbody tr'), row => [row.cells[0].textContent, row.cells[1].textContent])"))
+            self.assertIn(
+                f"{1 + shadows} rays (1 primary{', 1 shadow' if shadows else ''}), {columns['counts.nodes'][place]:,} "
+                f"nodes, {columns['counts.triangles'][place]:,} triangles, "
+                f"{causes['issued'][place]:,} instructions", story)
+            rows = dict(
+                self.browser.run(
+                    "Array.from(document.querySelectorAll('#story-table tbody tr'), row => [row.cells[0].textContent, "
+                    "row.cells[1].textContent])"
+                ))
             self.assertEqual(rows, {cause: f"{values[place]:,}" for cause, values in causes.items() if values[place]})
             return cycles
 
         self.browser.call("Input.dispatchMouseEvent", type="mouseMoved", x=at[0], y=at[1])
-        self.assertRegex(self.browser.run("document.getElementById('tip').textContent"), rf"^\({x}, {y}\)\ncycles {sum(values[y * WIDTH + x] for values in causes.values()):,}$")
+        self.assertRegex(self.browser.run("document.getElementById('tip').textContent"),
+                         rf"^\({x}, {y}\)\ncycles {sum(values[y * WIDTH + x] for values in causes.values()):,}$")
         self.browser.press(*at)
         check(x, y)
         # The same with the keyboard, on the other picture.
@@ -335,8 +410,12 @@ class Page(PageTests, Scratch):
             self.key(key)
         check(x + 1, y + 1)
         # What is shown by colour is the chosen cost.
-        self.browser.run("(s => { s.value = Array.from(s.options).find(o => o.text === 'nodes').value; s.dispatchEvent(new Event('change')); })(document.getElementById('picture-what'))")
-        self.assertRegex(self.browser.run("document.getElementById('picture-scale').textContent"), rf"most {max(columns['counts.nodes']):,};")
+        self.browser.run(
+            "(s => { s.value = Array.from(s.options).find(o => o.text === 'nodes').value; s.dispatchEvent(new "
+            "Event('change')); })(document.getElementById('picture-what'))"
+        )
+        self.assertRegex(self.browser.run("document.getElementById('picture-scale').textContent"),
+                         rf"most {max(columns['counts.nodes']):,};")
         self.is_quiet()
 
     def test_source(self):
@@ -349,36 +428,64 @@ class Page(PageTests, Scratch):
         hottest, cycles = max(lines.items(), key=lambda line: (line[1], line[0]))
         self.assertIn(pathlib.Path(hottest).name, self.browser.run("document.getElementById('brief').textContent"))
         self.browser.run("document.querySelector('#lines-table tbody button').click()")
-        row = self.browser.run("(row => [row.dataset.line, row.cells[1].textContent, row.cells[5].textContent])(document.querySelector('#listing tr[aria-expanded=true]'))")
+        row = self.browser.run(
+            "(row => [row.dataset.line, row.cells[1].textContent, "
+            "row.cells[5].textContent])(document.querySelector('#listing tr[aria-expanded=true]'))"
+        )
         path, number = hottest.rsplit(":", 1)
-        self.assertEqual(row, [number, f"{100 * cycles / total:.1f} %", pathlib.Path(path).read_text().splitlines()[int(number) - 1]])
+        self.assertEqual(
+            row,
+            [number, f"{100 * cycles / total:.1f} %",
+             pathlib.Path(path).read_text().splitlines()[int(number) - 1]])
         mine = [one for one in filter(None, data["instructions"]) if data["names"][one[4][0][1]] == hottest]
-        below = self.browser.run("Array.from(document.querySelectorAll('#listing tr.instruction'), row => [row.cells[0].textContent, row.cells[3].textContent, row.cells[5].textContent])")
-        self.assertEqual([(pc, issued) for pc, issued, _ in below], [(f"{one[0]:08x}", f"{one[5][0]:,}") for one in mine])
+        below = self.browser.run(
+            "Array.from(document.querySelectorAll('#listing tr.instruction'), row => [row.cells[0].textContent, "
+            "row.cells[3].textContent, row.cells[5].textContent])"
+        )
+        self.assertEqual([(pc, issued) for pc, issued, _ in below],
+                         [(f"{one[0]:08x}", f"{one[5][0]:,}") for one in mine])
         for (_, _, text), one in zip(below, mine):
             self.assertTrue(text.startswith(one[1]), text)
         tree = self.browser.run("document.getElementById('calls-tree').innerText")
         for name in ("_start", "main", "trace_ray"):
             self.assertIn(name, tree)
-        self.browser.run("(i => { i.value = 'queue peak'; i.value = 'cache dropped'; i.dispatchEvent(new Event('input')); })(document.getElementById('statistics-filter'))")
-        self.assertEqual(self.browser.run("Array.from(document.querySelectorAll('#statistics-table tbody tr:not([hidden])'), row => row.cells[0].textContent)"), ["dcache.dropped"])
+        self.browser.run(
+            "(i => { i.value = 'queue peak'; i.value = 'cache dropped'; i.dispatchEvent(new Event('input')); "
+            "})(document.getElementById('statistics-filter'))"
+        )
+        self.assertEqual(
+            self.browser.run(
+                "Array.from(document.querySelectorAll('#statistics-table tbody tr:not([hidden])'), row => "
+                "row.cells[0].textContent)"
+            ), ["dcache.dropped"])
         self.is_quiet()
 
     def test_without_lines(self):
         """Instructions without a line are listed, by address; a name with quotation marks and commas is one cell."""
-        (self.folder / "plain.c").write_text('volatile unsigned named[9] __asm__("a\\"b,c");\nint main(void) { for (unsigned i = 0; i < 9; i++) named[i] = i; }\n')
+        (self.folder / "plain.c").write_text(
+            'volatile unsigned named[9] __asm__("a\\"b,c");\nint main(void) { for (unsigned i = 0; i < 9; i++) '
+            'named[i] = i; }\n'
+        )
         subprocess.run([BIN / "clang", "--target=trax", "-O1", "plain.c", "-o", "plain"], cwd=self.folder, check=True)
         simulate(self.folder, "--explore", "plain.html", "--heat", "plain.csv", "plain")
         data, _ = unpack(self.folder / "plain.html")
-        self.assertEqual([row["object"] for row in csv.DictReader(io.StringIO(self.text("plain.csv"))) if row["stores"] == "9"], ['a"b,c'])
+        self.assertEqual(
+            [row["object"] for row in csv.DictReader(io.StringIO(self.text("plain.csv"))) if row["stores"] == "9"],
+            ['a"b,c'])
         unknown = [one for one in filter(None, data["instructions"]) if not data["names"][one[4][0][1]]]
         self.assertTrue(unknown)
         self.pages = {**self.pages, "plain": self.folder / "plain.html"}
         self.load("plain")
-        self.assertIn('a"b,c', self.browser.run("Array.from(document.querySelectorAll('#objects tbody th'), cell => cell.textContent)"))
-        self.browser.run("(s => { s.value = Array.from(s.options).find(o => o.text.startsWith('(no line is known)')).value; s.dispatchEvent(new Event('change')); })(document.getElementById('source-file'))")
+        self.assertIn(
+            'a"b,c',
+            self.browser.run("Array.from(document.querySelectorAll('#objects tbody th'), cell => cell.textContent)"))
+        self.browser.run(
+            "(s => { s.value = Array.from(s.options).find(o => o.text.startsWith('(no line is known)')).value; "
+            "s.dispatchEvent(new Event('change')); })(document.getElementById('source-file'))"
+        )
         self.browser.run("document.querySelector('#listing tbody tr').click()")
-        below = self.browser.run("Array.from(document.querySelectorAll('#listing tr.instruction'), row => row.cells[0].textContent)")
+        below = self.browser.run(
+            "Array.from(document.querySelectorAll('#listing tr.instruction'), row => row.cells[0].textContent)")
         self.assertEqual(below, [f"{one[0]:08x}" if one[0] is not None else "" for one in unknown])
         self.is_quiet()
 

@@ -287,6 +287,26 @@ static void test_missing_part(void **state) {
   trax_mesh_release(&mesh);
 }
 
+/* Slivers across the scene call for splits, but not one sliver many times over: the tree has it once. */
+static void test_duplicates_do_not_call_for_splits(void **state) {
+  (void)state;
+  for (int apart = 0; apart <= 1; apart++) {
+    struct trax_mesh mesh = {0};
+    struct trax_scene scene;
+    struct trax_build_options choice = {0};
+    mesh_soup(&mesh, 40, 0.01f, 1);
+    for (int i = 0; i < 12; i++) {
+      const float shift = apart ? 0.01f * (float)i : 0;
+      mesh_triangle(&mesh, (float[]){-1, -1, -1}, (float[]){1, 1, 1}, (float[]){1, 1, 0.9f - shift}, 0);
+    }
+    assert_true(trax_splits_choose("auto", &choice));
+    build_good(&scene, &mesh, &choice);
+    assert_true((scene.triangle_count > mesh.triangle_count) == apart);
+    trax_scene_release(&scene);
+    trax_mesh_release(&mesh);
+  }
+}
+
 /* Quantised where the grid is fine enough. */
 static void test_choice(void **state) {
   (void)state;
@@ -314,7 +334,8 @@ static void test_choice(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_boxes),        cmocka_unit_test(test_changed_nodes), cmocka_unit_test(test_splits),
+      cmocka_unit_test(test_boxes),        cmocka_unit_test(test_changed_nodes),
+      cmocka_unit_test(test_splits),       cmocka_unit_test(test_duplicates_do_not_call_for_splits),
       cmocka_unit_test(test_missing_part), cmocka_unit_test(test_choice),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -402,31 +402,69 @@ static void height_field(struct trax_mesh *mesh) {
     }
 }
 
+static void soup(struct trax_mesh *mesh) {
+  mesh_soup(mesh, 4000, 0.1f, 5);
+}
+
+/* Its clearing is small: the foci of reinsert.c decide about its tree. */
+static void forest(struct trax_mesh *mesh) {
+  struct trax_import_report report;
+  import_good(mesh, "generate:forest", &report);
+}
+
+/* Five walls of a room with two blocks in it, which are turned. */
+static void room(struct trax_mesh *mesh) {
+  static const unsigned char faces[6][4] = {{0, 2, 6, 4}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                            {2, 3, 7, 6}, {0, 1, 3, 2}, {4, 5, 7, 6}};
+  static const struct {
+    float middle[3], half[3], x, z; /* x, z: the direction of its first side */
+    int faces;
+  } boxes[] = {{{0, 1, 0}, {1, 1, 1}, 1, 0, 5},
+               {{-0.35f, 0.6f, -0.3f}, {0.3f, 0.6f, 0.3f}, 0.96f, 0.28f, 6},
+               {{0.3f, 0.3f, 0.35f}, {0.3f, 0.3f, 0.3f}, 0.8f, -0.6f, 6}};
+  for (size_t b = 0; b < sizeof boxes / sizeof *boxes; b++)
+    for (int f = 0; f < boxes[b].faces; f++) {
+      float corners[4][3];
+      for (int c = 0; c < 4; c++) {
+        float side[3];
+        for (int axis = 0; axis < 3; axis++)
+          side[axis] = faces[f][c] >> axis & 1 ? boxes[b].half[axis] : -boxes[b].half[axis];
+        corners[c][0] = boxes[b].middle[0] + boxes[b].x * side[0] - boxes[b].z * side[2];
+        corners[c][1] = boxes[b].middle[1] + side[1];
+        corners[c][2] = boxes[b].middle[2] + boxes[b].z * side[0] + boxes[b].x * side[2];
+      }
+      mesh_triangle(mesh, corners[0], corners[1], corners[2], 0);
+      mesh_triangle(mesh, corners[0], corners[2], corners[3], 0);
+    }
+}
+
 /* The trees that are built are as good as they were: nodes and triangles that a ray visits, by the surface areas. */
 static void test_quality(void **state) {
   (void)state;
   const struct {
-    bool soup;
+    void (*make)(struct trax_mesh *mesh);
     struct trax_build_options options;
     const char *visited;
   } trees[] = {
-      {true, {0}, "45.304275 2.4249715"},
-      {true, {.passes = 2}, "44.635755 2.4249715"},
-      {true, {.passes = 2, .splits = 1.5f}, "44.615152 2.4274679"},
-      {false, {.passes = 2}, "20.159606 7.3179161"},
-      {false, {.passes = 2, .splits = 1.5f}, "20.159915 7.3173019"},
-      {false, {.passes = 2, .nodes = TRAX_NODES_QUANTISED}, "20.165534 7.3249526"},
-      {false, {.passes = 2, .cache_lines = 64}, "20.159606 7.3179161"},
+      {soup, {0}, "45.304275 2.4249715"},
+      {soup, {.passes = 2}, "44.635755 2.4249715"},
+      {soup, {.passes = 2, .splits = 1.5f}, "44.615152 2.4274679"},
+      {height_field, {.passes = 2}, "20.159606 7.3179161"},
+      {height_field, {.passes = 2, .splits = 1.5f}, "20.159915 7.3173019"},
+      {height_field, {.passes = 2, .nodes = TRAX_NODES_QUANTISED}, "20.165534 7.3249526"},
+      {height_field, {.passes = 2, .cache_lines = 64}, "20.159606 7.3179161"},
+      {height_field, {.passes = 2, .choose_splits = true}, "20.159606 7.3179161"},
+      {forest, {.passes = 2, .choose_splits = true}, "15.674391 3.4155276"},
+      {room, {.passes = 2}, "7.9730454 4.8135575"},
+      {soup, {.passes = 2, .choose_splits = true}, "44.635755 2.4249715"},
+      {room, {.passes = 2, .traversal_cost = 4}, "5.6233228 8.7004268"},
   };
   for (size_t i = 0; i < sizeof trees / sizeof *trees; i++) {
     struct trax_mesh mesh = {0};
     struct trax_scene scene;
     struct trax_scene_stats stats;
     char visited[64];
-    if (trees[i].soup)
-      mesh_soup(&mesh, 4000, 0.1f, 5);
-    else
-      height_field(&mesh);
+    trees[i].make(&mesh);
     build_good(&scene, &mesh, &trees[i].options);
     trax_scene_measure(&stats, &scene);
     snprintf(visited, sizeof visited, "%.8g %.8g", stats.sah_nodes, stats.sah_triangles);

@@ -1,4 +1,5 @@
-"""What the paper asserts of its choices, and what the sweeps say: judges of claims.py that return (holds, what was found); None: not known."""
+"""What the paper asserts of its choices, and what the sweeps say: judges of claims.py that return (holds, what was
+found); None: not known."""
 
 from .results import mean, ratio
 
@@ -7,19 +8,25 @@ _NOT_KNOWN = None, NOT_MEASURED
 
 
 def swept(results, sweep, program, chip, settings, figure):
-    """The mean over the scenes of a figure in a sweep's runs with these settings, or None. Large pictures go before small ones, exact runs before estimates."""
+    """The mean over the scenes of a figure in a sweep's runs with these settings, or None. Large pictures go before
+    small ones, exact runs before estimates."""
     values = []
     for scene in results.papers:
-        runs = [run for run in results.of_sweep(sweep) if (run.program, run.scene, run.config) == (program, scene, chip) and run.done and
-                set(run.set) <= set(settings) and all(run.setting(key) == value for key, value in settings.items())]
+        runs = [
+            run for run in results.of_sweep(sweep)
+            if (run.program, run.scene,
+                run.config) == (program, scene, chip) and run.done and set(run.set) <= set(settings) and all(
+                    run.setting(key) == value for key, value in settings.items())
+        ]
         best = max(runs, key=lambda run: (run.size or (0, 0), run.mode == "exact"), default=None)
         values.append(best.get(figure) if best else None)
     return mean(values)
 
 
 def _fpu(results, paper, program):
-    rays, per_area = ([swept(results, "fpu-sharing", program, "4x32", {"fpu.tps_per_cluster": tps}, figure) for tps in (1, 4, 8, 16)]
-                      for figure in ("mrps", "values.mrps_per_mm2"))
+    rays, per_area = ([
+        swept(results, "fpu-sharing", program, "4x32", {"fpu.tps_per_cluster": tps}, figure) for tps in (1, 4, 8, 16)
+    ] for figure in ("mrps", "values.mrps_per_mm2"))
     kept = ratio(rays[2], rays[0])
     if kept is None or None in per_area:
         return _NOT_KNOWN
@@ -29,7 +36,9 @@ def _fpu(results, paper, program):
 
 
 def _special(results, paper, program):
-    one, two = (swept(results, "special-unit", program, "1x32", {"chip.tps_per_tm": 64, "special.pipelined": True, "special.units_per_tm": units}, "mrps") for units in (1, 2))
+    one, two = (swept(results, "special-unit", program, "1x32",
+                      {"chip.tps_per_tm": 64, "special.pipelined": True, "special.units_per_tm": units}, "mrps")
+                for units in (1, 2))
     kept = ratio(one, two)
     return _NOT_KNOWN if kept is None else (kept >= 0.95, f"{100 * kept:.1f} % of the rays of two units")
 
@@ -41,7 +50,8 @@ def _rarely(results, paper, program):
         shares.append(ratio(run.get("instructions_by_unit.special"), run.get("instructions")) if run else None)
     share = mean(shares)
     busy = results.mean_of_papers("special.utilisation", program, "4x32")
-    return _NOT_KNOWN if share is None or busy is None else (share <= 0.02, f"{100 * share:.2f} % of the instructions; the unit is busy in {100 * busy:.0f} % of the cycles")
+    return _NOT_KNOWN if share is None or busy is None else (
+        share <= 0.02, f"{100 * share:.2f} % of the instructions; the unit is busy in {100 * busy:.0f} % of the cycles")
 
 
 def _icache(results, paper, program):
@@ -54,19 +64,23 @@ def _icache(results, paper, program):
 
 
 def _dcache_banks(results, paper, program):
-    two, eight = (swept(results, "dcache-banks", program, "4x32", {"dcache.tps_per_bank": tps}, "mrps") for tps in (2, 8))
+    two, eight = (swept(results, "dcache-banks", program, "4x32", {"dcache.tps_per_bank": tps}, "mrps")
+                  for tps in (2, 8))
     kept = ratio(eight, two)
     return _NOT_KNOWN if kept is None else (kept >= 0.95, f"{100 * kept:.1f} % of the rays of a bank for each 2 TPs")
 
 
 def _dcache_bytes(results, paper, program):
-    now, twice = (swept(results, "dcache-bytes", program, "8x32", {"dcache.bytes": size}, "values.bytes_per_ray") for size in (16384, 32768))
+    now, twice = (swept(results, "dcache-bytes", program, "8x32", {"dcache.bytes": size}, "values.bytes_per_ray")
+                  for size in (16384, 32768))
     kept = ratio(twice, now)
-    return _NOT_KNOWN if kept is None else (kept < 1, f"32 kB for 16: {100 * (1 - kept):.0f} % fewer bytes a ray on 8x32")
+    return _NOT_KNOWN if kept is None else (kept < 1,
+                                            f"32 kB for 16: {100 * (1 - kept):.0f} % fewer bytes a ray on 8x32")
 
 
 def _lockstep(results, paper, program):
-    used, bound = (swept(results, "lockstep", program, "4x32", {}, f"values.simd_{name}.32") for name in ("utilisation", "bound"))
+    used, bound = (swept(results, "lockstep", program, "4x32", {}, f"values.simd_{name}.32")
+                   for name in ("utilisation", "bound"))
     if used is None or bound is None:
         return _NOT_KNOWN
     return 0.61 <= used <= 0.86, (f"{100 * used:.0f} % of the lanes of warps of 32; at most {100 * bound:.0f} % "
@@ -79,7 +93,8 @@ def _peak(results, paper, program):
         run = next((run for scene in results.papers if (run := results.cell(program, scene, chip)) and run.done), None)
         if run is None:
             return _NOT_KNOWN
-        keys = ("chip.tps_per_tm", "fpu.tps_per_cluster", "fpu.adders_per_cluster", "fpu.multipliers_per_cluster", "special.units_per_tm")
+        keys = ("chip.tps_per_tm", "fpu.tps_per_cluster", "fpu.adders_per_cluster", "fpu.multipliers_per_cluster",
+                "special.units_per_tm")
         tps, cluster, adders, multipliers, special = values = [run.setting(key) for key in keys]
         if None in values or not cluster:
             return _NOT_KNOWN
@@ -88,12 +103,20 @@ def _peak(results, paper, program):
 
 
 ASSERTIONS = [
-    ("A TM's operations per cycle", "the same: adders, multipliers and FPDIV/iSQRT of a TM of 32, 48 and 64 TPs", "9, 13 and 17", _peak),
+    ("A TM's operations per cycle", "the same: adders, multipliers and FPDIV/iSQRT of a TM of 32, 48 and 64 TPs",
+     "9, 13 and 17", _peak),
     ("Eight TPs share an FPU", "on 4x32 at least 90 % of the rays of an FPU for each TP", "found sufficient", _fpu),
-    ("FPDIV/iSQRT are rarely used", "at most 2 % of the instructions, mean of the scenes on 4x32", "described, no figures", _rarely),
-    ("One FPDIV/iSQRT unit serves up to 64 TPs", "on a TM of 64 TPs at least 95 % of the rays of two units", "described, no figures", _special),
-    ("16 banks for the instructions of 16 TPs", "on 4x32 at least 95 % of the rays of 32 banks", "no large negative impact", _icache),
-    ("A bank of the data cache for each 8 TPs", "on 4x32 at least 95 % of the rays of a bank for each 2 TPs", "the appropriate choice", _dcache_banks),
-    ("A larger data cache takes pressure off the memory", "fewer bytes a ray on 8x32 with twice the cache", "likely", _dcache_bytes),
-    ("Lanes in use in lockstep", "between the figures that the paper quotes for a ray tracer on a GTX 280: warps of 32 on 4x32", "61 to 86 %", _lockstep),
+    ("FPDIV/iSQRT are rarely used", "at most 2 % of the instructions, mean of the scenes on 4x32",
+     "described, no figures", _rarely),
+    ("One FPDIV/iSQRT unit serves up to 64 TPs", "on a TM of 64 TPs at least 95 % of the rays of two units",
+     "described, no figures", _special),
+    ("16 banks for the instructions of 16 TPs", "on 4x32 at least 95 % of the rays of 32 banks",
+     "no large negative impact", _icache),
+    ("A bank of the data cache for each 8 TPs", "on 4x32 at least 95 % of the rays of a bank for each 2 TPs",
+     "the appropriate choice", _dcache_banks),
+    ("A larger data cache takes pressure off the memory", "fewer bytes a ray on 8x32 with twice the cache", "likely",
+     _dcache_bytes),
+    ("Lanes in use in lockstep",
+     "between the figures that the paper quotes for a ray tracer on a GTX 280: warps of 32 on 4x32", "61 to 86 %",
+     _lockstep),
 ]

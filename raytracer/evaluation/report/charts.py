@@ -57,34 +57,42 @@ def shares(run):
         counts = [run.get("causes." + cause) for cause in causes]
         known = [count for count in counts if count is not None]
         share = ratio(sum(known), total) if known else None
-        detail = ", ".join(f"{cause} {100 * count / total:.1f} %" for cause, count in zip(causes, counts) if count and total)
+        detail = ", ".join(f"{cause} {100 * count / total:.1f} %" for cause, count in zip(causes, counts)
+                           if count and total)
         parts.append((style, share, f"{run.config}: {label} {100 * share:.1f} % ({detail})" if share else ""))
     return parts if any(share is not None for _, share, _ in parts) else None
 
 
 def _threads_axis(paper):
     counts = sorted({paper.threads(chip) for chip in paper.chips})
-    return [(count, str(count)) for count in counts if count in (32, 64, 128, 256, 512)] or [(count, str(count)) for count in counts]
+    chosen = [count for count in counts if count in (32, 64, 128, 256, 512)] or counts
+    return [(count, str(count)) for count in chosen]
 
 
 def _scaling(results, paper, scene):
     series = []
     column = results.stands_for.get(scene)
     if paper.speedup(column, "8x64"):
-        points = [(paper.threads(chip), paper.speedup(column, chip), f"paper, {chip}: {paper.speedup(column, chip):.2f} times, "
+        points = [(paper.threads(chip), paper.speedup(column,
+                                                      chip), f"paper, {chip}: {paper.speedup(column, chip):.2f} times, "
                    f"{paper.mrps(column, chip):.2f} MRPS") for chip in paper.chips]
-        series.append(Series("paper" if results.columns[column] == scene else f"paper, {column}", PAPER[0], points, PAPER[1], line=False))
+        series.append(
+            Series("paper" if results.columns[column] == scene else f"paper, {column}", PAPER[0], points, PAPER[1],
+                   line=False))
     for index, program in enumerate(results.programs()):
         style, mark = style_of(index)
         points = []
         for chip in paper.chips:
             value, mrps = speedup(results, program, scene, chip), results.figure("mrps", program, scene, chip)
-            points.append((paper.threads(chip), value, f"{program}, {chip}: {value:.2f} times, {mrps:.2f} MRPS" if value else ""))
+            points.append(
+                (paper.threads(chip), value, f"{program}, {chip}: {value:.2f} times, {mrps:.2f} MRPS" if value else ""))
         series.append(Series(program, style, points, mark, line=False))
     top = max((point[0] for one in series for point in one.known()), default=512)
-    series.append(Series("in proportion", 7, [(32, 1.0, "1x32: 1"), (top, top / 32, f"in proportion: {top / 32:g} times")] if len(series) and
-                         any(one.known() for one in series[:-1] or series) else [], "dot", dashed=True))
-    return Lines("scaling-" + scene, f"Speed-up from 1x32: {scene}", "threads", "speed-up (times)", series, x_ticks=_threads_axis(paper))
+    if any(one.known() for one in series[:-1] or series):
+        points = [(32, 1.0, "1x32: 1"), (top, top / 32, f"in proportion: {top / 32:g} times")]
+        series.append(Series("in proportion", 7, points, "dot", dashed=True))
+    return Lines("scaling-" + scene, f"Speed-up from 1x32: {scene}", "threads", "speed-up (times)", series,
+                 x_ticks=_threads_axis(paper))
 
 
 def _memory(results, paper, program):
@@ -93,10 +101,12 @@ def _memory(results, paper, program):
         points = []
         for chip in paper.chips:
             used = results.figure("memory.utilisation", program, scene, chip)
-            points.append((paper.threads(chip), None if used is None else 100 * used, f"{scene}, {chip}: {100 * used:.0f} % of 8 GB/s" if used is not None else ""))
+            points.append((paper.threads(chip), None if used is None else 100 * used,
+                           f"{scene}, {chip}: {100 * used:.0f} % of 8 GB/s" if used is not None else ""))
         style, mark = STYLES[index % len(STYLES)]
         series.append(Series(scene, style, points, mark, line=False))
-    return Lines("memory-" + program, f"Off-chip bandwidth in use: {program}", "threads", "of 8 GB/s (%)", series, x_ticks=_threads_axis(paper))
+    return Lines("memory-" + program, f"Off-chip bandwidth in use: {program}", "threads", "of 8 GB/s (%)", series,
+                 x_ticks=_threads_axis(paper))
 
 
 def _stalls(results, paper, program, scene):
@@ -104,8 +114,8 @@ def _stalls(results, paper, program, scene):
     for chip in paper.chips:
         run = results.cell(program, scene, chip)
         bars.append((chip, (shares(run) if run else None) or []))
-    return Bars(f"stalls-{program}-{scene}", f"Where thread-cycles went: {scene}, {program}", "share of all thread-cycles", bars,
-                [(style, label) for style, label, _ in CAUSES])
+    return Bars(f"stalls-{program}-{scene}", f"Where thread-cycles went: {scene}, {program}",
+                "share of all thread-cycles", bars, [(style, label) for style, label, _ in CAUSES])
 
 
 def _error_time(results, paper):
@@ -114,73 +124,112 @@ def _error_time(results, paper):
         style, mark = style_of(index)
         points = []
         for run in results.runs:
-            published = results.published(paper, run.scene, run.config) if run.program == program and not run.set and not run.workload else None
+            published = results.published(
+                paper, run.scene, run.config) if run.program == program and not run.set and not run.workload else None
             value = ratio(run.get("mrps"), published)
             if value is None or not run.host_seconds:
                 continue
-            points.append((run.host_seconds, 100 * (value - 1), f"{run.name()}: {100 * (value - 1):+.0f} % in {run.host_seconds:.1f} s"))
+            points.append((run.host_seconds, 100 * (value - 1),
+                           f"{run.name()}: {100 * (value - 1):+.0f} % in {run.host_seconds:.1f} s"))
         series.append(Series(program, style, points, mark, line=False))
     ticks = log_ticks(point[0] for one in series for point in one.known())
-    return Lines("error-time", "Deviation from Table 2 against the host's time", "time of the host for a cell (s)", "deviation from the paper (%)", series, log_x=True,
-                 from_zero=False, x_ticks=ticks)
+    return Lines("error-time", "Deviation from Table 2 against the host's time", "time of the host for a cell (s)",
+                 "deviation from the paper (%)", series, log_x=True, from_zero=False, x_ticks=ticks)
 
 
 def _label(scene, program, rest):
     return ", ".join(part for part in (scene, program, *rest) if part)
 
 
+class SweepFigure:
+    """A sweep's x and y: a series for each scene, program and other difference, or for each kind of ray with means of
+    the scenes. x may be an axis of tables, "threads" or a statistic."""
+    def __init__(self, results, paper, sweep):
+        self.results, self.sweep = results, sweep
+        runs = results.of_sweep(sweep.get("name"))
+        kinds = sweep.get("y") in (None, "mrps") and any(run.kinds() for run in runs)
+        self.value = Value({"name": "kind.mrps" if kinds else sweep.get("y") or "mrps", "per": sweep.get("y_per")})
+        self.kinds = self.value.name.startswith("kind.")
+        self.runs = list(by_kind(runs)) if self.kinds else runs
+        self.axes = Axes(results, paper, self.runs, {**sweep, "x": None})
+        self.key, self.counted = self.x_axis()
+        left = {self.key, "scene", "chip" if self.key == "threads" else "", "variant" if self.counted else ""}
+        self.others = [axis for axis in self.axes.varying if axis not in left]
+        self.named = [text for text in self.axes.order.get(self.key, []) if isinstance(text, str) and text]
+        self.groups = self.means(self.points()) if self.kinds else self.points()
+
+    def x_axis(self):
+        """(key, whether it is a statistic). y is no function of a statistic, so variants are marks of one series then.
+        If x has one value, the axis is one in which runs differ, the variants first."""
+        key, varying = str(self.sweep.get("x") or "threads"), self.axes.varying
+        if key != "threads" and key not in self.axes.order and any(
+                run.configured(key) is None and run.get(key) is not None for run in self.runs):
+            return key, True
+        if len({run.setting(key) for run in self.runs if run.done}) < 2:
+            key = next((axis for axis in ("variant", *reversed(varying)) if axis in varying), key)
+        return key, False
+
+    def x(self, run):
+        if self.axes.value(run, self.key) in self.named:
+            return self.named.index(self.axes.value(run, self.key))
+        return run.get(self.key) if self.counted else run.setting(self.key)
+
+    def group(self, run):
+        """(scene, program, other differences) of a series."""
+        known = ("chip", "workload", "variant", "kind", "size", "mode")
+        parts = [(axis, part) for axis, part in zip(self.others, self.axes.place(run, self.others)) if part != ""]
+        label = tuple(str(part) if axis in known else f"{axis}={part}" for axis, part in parts if axis != "program")
+        scene = "" if self.kinds or self.key == "scene" else run.scene
+        return scene, run.program if "program" in self.others else "", label
+
+    def points(self):
+        groups = {}
+        for run in self.runs:
+            x, y = self.x(run), self.value.of(run)
+            if x is not None and y is not None:
+                groups.setdefault(self.group(run), []).append((x, y, f"{run.name()}: {y:.4g}"))
+        return groups
+
+    @staticmethod
+    def means(groups):
+        """One point for each x, the mean of the scenes."""
+        found = {}
+        for group, points in groups.items():
+            rates = {x: mean(point[1] for point in points if point[0] == x) for x in {point[0] for point in points}}
+            found[group] = [(x, y, f"{_label(*group)}: {y:.4g}, mean of the scenes") for x, y in rates.items()]
+        return found
+
+    def series(self):
+        several = len({group[0] for group in self.groups}) > 1 or len({group[1:] for group in self.groups}) == 1
+        several = several and not self.kinds and self.key != "scene"
+        first = self.results.programs()[:1]
+        for (group, points), (colour, mark) in zip(self.groups.items(), _styles(self.results, self.groups, several)):
+            scene, program, rest = group
+            label = _label(scene if several else "", program, rest) or self.value.title
+            dashed = first != [] and "program" in self.axes.varying and program not in first
+            yield Series(label, colour, sorted(points), mark, not self.named and not self.counted, dashed)
+
+    def lines(self, identity):
+        values = sorted({point[0] for points in self.groups.values() for point in points})
+        if len(values) < 2:
+            return None
+        ticks = list(enumerate(self.named)) or ([(one, f"{one:g}") for one in values] if len(values) <= 9 else None)
+        doubling = not self.named and len(values) > 2 and values[0] > 0 and values[-1] / values[0] >= 8
+        heights = [point[1] for points in self.groups.values() for point in points if point[1] > 0]
+        unit = self.value.name + (f" / {self.value.per}" if self.value.per else "")
+        return Lines(identity, f"{unit} against {self.key}", self.key, unit, list(self.series()), log_x=doubling,
+                     base=2, x_ticks=ticks, log_y=bool(heights) and max(heights) / min(heights) >= 1000)
+
+
 def sweep_figure(results, paper, sweep, identity):
-    """What a sweep's x and y say, a series for each scene (of rays by kind: for each kind, means of the scenes),
-    program and what else differs. None if its runs differ in nothing. x may be what a table's rows may be, "threads" or
-    a statistic; if it has one value, what differs is the axis, the variants first."""
-    runs, key = results.of_sweep(sweep.get("name")), str(sweep.get("x") or "threads")
-    kinds = sweep.get("y") in (None, "mrps") and any(run.kinds() for run in runs)
-    value = Value({"name": "kind.mrps" if kinds else sweep.get("y") or "mrps", "per": sweep.get("y_per")})
-    kinds = value.name.startswith("kind.")
-    if kinds:
-        runs = list(by_kind(runs))
-    axes = Axes(results, paper, runs, {**sweep, "x": None})
-    # Of a statistic y is no function: there are no lines then, and variants are marks of one series.
-    counted = key != "threads" and key not in axes.order and any(run.configured(key) is None and run.get(key) is not None for run in runs)
-    if not counted and len({run.setting(key) for run in runs if run.done}) < 2:
-        key = next((axis for axis in ("variant", *reversed(axes.varying)) if axis in axes.varying), key)
-    others = [axis for axis in axes.varying if axis not in (key, "scene") and not (key == "threads" and axis == "chip") and not (counted and axis == "variant")]
-    named = [text for text in axes.order.get(key, []) if isinstance(text, str) and text]
-    groups = {}
-    for run in runs:
-        x, y = named.index(axes.value(run, key)) if named and axes.value(run, key) in named else run.get(key) if counted else run.setting(key), value.of(run)
-        if x is not None and y is not None:
-            known = ("chip", "workload", "variant", "kind", "size", "mode")
-            label = tuple(str(part) if axis in known else f"{axis}={part}"
-                          for axis, part in zip(others, axes.place(run, others)) if part != "" and axis != "program")
-            group = "" if kinds or key == "scene" else run.scene, run.program if "program" in others else "", label
-            groups.setdefault(group, []).append((x, y, f"{run.name()}: {y:.4g}"))
-    if kinds:
-        groups = {group: [(x, y, f"{_label(*group)}: {y:.4g}, mean of the scenes")
-                          for x in {point[0] for point in points}
-                          for y in [mean(point[1] for point in points if point[0] == x)]]
-                  for group, points in groups.items()}
-    values = sorted({point[0] for points in groups.values() for point in points})
-    if len(values) < 2:
-        return None
-    several = len({group[0] for group in groups}) > 1 or len({group[1:] for group in groups}) == 1
-    several = several and not kinds and key != "scene"
-    first = results.programs()[:1]
-    series = []
-    for ((scene, program, rest), points), (colour, mark) in zip(groups.items(), _styles(results, groups, several)):
-        label = _label(scene if several else "", program, rest) or value.title
-        series.append(Series(label, colour, sorted(points), mark, line=not named and not counted,
-                             dashed=first != [] and "program" in axes.varying and program not in first))
-    ticks = [(place, text) for place, text in enumerate(named)] or ([(one, f"{one:g}") for one in values] if len(values) <= 9 else None)
-    doubling = not named and len(values) > 2 and values[0] > 0 and values[-1] / values[0] >= 8
-    heights = [point[1] for points in groups.values() for point in points if point[1] > 0]
-    unit = value.name + (f" / {value.per}" if value.per else "")
-    return Lines(identity, f"{unit} against {key}", key, unit, series, log_x=doubling, base=2, x_ticks=ticks, log_y=bool(heights) and max(heights) / min(heights) >= 1000)
+    """The figure of a sweep; None if its runs differ in nothing."""
+    return SweepFigure(results, paper, sweep).lines(identity)
 
 
 def _joined(columns, rows):
-    """Intervals of a time series joined so that each decade of cycles has at most 40: more cannot be told apart, and made the page four times as large.
-    A share of the joined interval is the mean by the intervals' cycles; of the fetches refused, by the fetches."""
+    """Intervals of a time series joined so that each decade of cycles has at most 40: more cannot be told apart, and
+    made the page four times as large. A share of the joined interval is the mean by the intervals' cycles; of the
+    fetches refused, by the fetches."""
     groups, begin = {}, 0
     for row in rows:
         groups.setdefault(math.floor(40 * math.log10(max(1, row[0]))), []).append((row, row[0] - begin))
@@ -189,25 +238,35 @@ def _joined(columns, rows):
     for group in groups.values():
         joined = [group[-1][0][0]]
         for place, column in enumerate(columns[1:], 1):
-            weights = [(row[place], cycles * (sum(number(row[other]) or 0 for other in fetches) if column == "fetch_refused" and len(fetches) == 2 else 1))
+            weights = [(row[place],
+                        cycles * (sum(number(row[other]) or 0
+                                      for other in fetches) if column == "fetch_refused" and len(fetches) == 2 else 1))
                        for row, cycles in group if number(row[place]) is not None]
-            joined.append(ratio(math.fsum(value * weight for value, weight in weights), math.fsum(weight for _, weight in weights)))
+            joined.append(
+                ratio(math.fsum(value * weight for value, weight in weights),
+                      math.fsum(weight for _, weight in weights)))
         yield joined
 
 
 def _over_time(record, identity):
     columns = record.get("columns") if isinstance(record.get("columns"), list) else []
-    rows = [row for row in record.get("rows") or [] if isinstance(row, list) and len(row) == len(columns) and number(row[0]) is not None]
+    rows = [
+        row for row in record.get("rows") or []
+        if isinstance(row, list) and len(row) == len(columns) and number(row[0]) is not None
+    ]
     rows = list(_joined(columns, rows))
     series, used = [], set()
     for place, column in enumerate(columns[1:], 1):
-        points = [(row[0], None if row[place] is None else 100 * row[place], f"to cycle {row[0]:,}: {column} {100 * row[place]:.1f} %" if row[place] is not None else "") for row in rows]
+        points = [(row[0], None if row[place] is None else 100 * row[place],
+                   f"to cycle {row[0]:,}: {column} {100 * row[place]:.1f} %" if row[place] is not None else "")
+                  for row in rows]
         style = next((style for style, _, causes in CAUSES if column in causes), 0)
         style = 4 if style in used else style  # the second of a group
         series.append(Series(str(column), style, points))
         used.add(style)
     title = ": ".join(str(part) for part in (record.get("name"), record.get("title")) if part)
-    ticks = [(10.0 ** power, f"{10 ** power:,}") for power in range(1, 10) if rows and rows[0][0] / 10 < 10 ** power < 10 * rows[-1][0]]
+    ticks = [(10.0**power, f"{10 ** power:,}") for power in range(1, 10)
+             if rows and rows[0][0] / 10 < 10**power < 10 * rows[-1][0]]
     return Lines(identity, title or "series", "cycle", "share of thread-cycles (%)", series, log_x=True, x_ticks=ticks)
 
 
@@ -215,18 +274,24 @@ def _lockstep(results):
     """The values simd_utilisation.WIDTH, a line for each run that has them."""
     found = []
     for run in results.runs:
-        widths = sorted(int(name.split(".")[1]) for name in run.values if name.startswith("simd_utilisation.") and name.split(".")[1].isdecimal())
+        widths = sorted(
+            int(name.split(".")[1]) for name in run.values
+            if name.startswith("simd_utilisation.") and name.split(".")[1].isdecimal())
         points = []
         for width in widths:
             share = run.get(f"values.simd_utilisation.{width}")
-            points.append((width, None if share is None else 100 * share, f"{run.name()}: {100 * share:.0f} % of {width} lanes" if share is not None else ""))
+            points.append((width, None if share is None else 100 * share,
+                           f"{run.name()}: {100 * share:.0f} % of {width} lanes" if share is not None else ""))
         if points:
             found.append(((run.scene, run.program, ()), points))
     styles = _styles(results, [group for group, _ in found], True)
-    series = [Series(_label(*group), colour, points, mark, dashed=group[1] not in results.programs()[:1])
-              for (group, points), (colour, mark) in zip(found, styles)]
+    series = [
+        Series(_label(*group), colour, points, mark, dashed=group[1] not in results.programs()[:1])
+        for (group, points), (colour, mark) in zip(found, styles)
+    ]
     ticks = [(width, str(width)) for width in sorted({point[0] for one in series for point in one.points})]
-    return Lines("lockstep", "Lanes in use, if so many threads went in lockstep", "threads in lockstep", "lanes in use (%)", series, log_x=True, base=2, x_ticks=ticks)
+    return Lines("lockstep", "Lanes in use, if so many threads went in lockstep", "threads in lockstep",
+                 "lanes in use (%)", series, log_x=True, base=2, x_ticks=ticks)
 
 
 def all_figures(results, paper):

@@ -1,4 +1,5 @@
-"""What the paper says, and whether what was measured says the same: a row for each claim, with the rule by which it is judged."""
+"""What the paper says, and whether what was measured says the same: a row for each claim, with the rule by which it is
+judged."""
 
 import copy
 from dataclasses import dataclass
@@ -25,7 +26,10 @@ def _judged(holds, found):
 
 def table2_deviations(results, paper, program):
     """Of every cell of Table 2 that was measured."""
-    found = [deviation(results.figure("mrps", program, scene, chip), paper.mrps(column, chip)) for column, scene in results.columns.items() for chip in paper.chips]
+    found = [
+        deviation(results.figure("mrps", program, scene, chip), paper.mrps(column, chip))
+        for column, scene in results.columns.items() for chip in paper.chips
+    ]
     return [value for value in found if value is not None]
 
 
@@ -65,7 +69,8 @@ def _within(results, paper, program):
 
 def _gflops(results, paper, program):
     ours = {row["name"]: row.get("rt_gflops") for row in paper.table1 if row["name"] in paper.chips}
-    return _near([deviation(results.mean_of_papers("gflops", program, chip), wanted) for chip, wanted in ours.items()], len(ours), "chips")
+    return _near([deviation(results.mean_of_papers("gflops", program, chip), wanted) for chip, wanted in ours.items()],
+                 len(ours), "chips")
 
 
 def _area(results, paper, program):
@@ -73,8 +78,12 @@ def _area(results, paper, program):
         return next((run for scene in results.papers if (run := results.cell(program, scene, chip)) and run.done), None)
 
     rows = [(measured(row["name"]), row.get("area_mm2")) for row in paper.table1 if row["name"] in paper.chips]
-    verdict, found = _near([deviation(run.get("area_mm2") if run else None, wanted) for run, wanted in rows], len(rows), "chips")
-    units = [value for run, wanted in rows if (value := deviation(run.get("values.area_units") if run else None, wanted)) is not None]
+    verdict, found = _near([deviation(run.get("area_mm2") if run else None, wanted) for run, wanted in rows], len(rows),
+                           "chips")
+    units = [
+        value for run, wanted in rows
+        if (value := deviation(run.get("values.area_units") if run else None, wanted)) is not None
+    ]
     return verdict, found + (f"; of the sum of units without wires, {100 * median(units):+.0f} %" if units else "")
 
 
@@ -82,20 +91,29 @@ def _table3(results, paper, program):
     found = []
     for chip, row in paper.table3.items():
         for bandwidth in (8.0, 16.0):
-            found.append(deviation(results.figure("mrps", program, results.columns["dragon"], chip, bandwidth), row[f"dragon_{bandwidth:g}gbs_mrps"]))
-            found.append(deviation(results.mean_of_papers("mrps", program, chip, bandwidth), row[f"average_{bandwidth:g}gbs_mrps"]))
+            found.append(
+                deviation(results.figure("mrps", program, results.columns["dragon"], chip, bandwidth),
+                          row[f"dragon_{bandwidth:g}gbs_mrps"]))
+            found.append(
+                deviation(results.mean_of_papers("mrps", program, chip, bandwidth),
+                          row[f"average_{bandwidth:g}gbs_mrps"]))
     return _near(found, len(found), "figures")
 
 
 def _bytes(results, paper, program, scene, chip, bandwidth=8.0):
     """Why rates differ where bandwidth binds: what a ray moves, and what it can have moved at the paper's rate."""
     run = results.cell(program, scene, chip, bandwidth)
-    moved, used = (ratio(run.get("memory.bytes"), run.get("rays")), run.get("memory.utilisation")) if run else (None, None)
-    published = results.published(paper, scene, chip) if bandwidth == 8.0 else (paper.table3.get(chip) or {}).get(f"dragon_{bandwidth:g}gbs_mrps")
+    moved = ratio(run.get("memory.bytes"), run.get("rays")) if run else None
+    used = run.get("memory.utilisation") if run else None
+    if bandwidth == 8.0:
+        published = results.published(paper, scene, chip)
+    else:
+        published = (paper.table3.get(chip) or {}).get(f"dragon_{bandwidth:g}gbs_mrps")
     limit = ratio(1e3 * bandwidth, published)
     if None in (moved, used, limit):
         return ""
-    return f"a ray moves {moved:,.0f} bytes, of {bandwidth:g} GB/s {100 * used:.0f} % are in use; the paper's moved at most {limit:,.0f}"
+    return (f"a ray moves {moved:,.0f} bytes, of {bandwidth:g} GB/s {100 * used:.0f} % are in use; "
+            f"the paper's moved at most {limit:,.0f}")
 
 
 def _scaling(results, paper, program):
@@ -120,9 +138,11 @@ def _scaling(results, paper, program):
     found = f"{near} of {known} speed-ups within 10 %; {', '.join(by_scene)}"
     if near < known:
         scene, chip, off = worst
-        one, many = (deviation(results.figure("mrps", program, scene, name), results.published(paper, scene, name)) for name in ("1x32", chip))
+        one, many = (deviation(results.figure("mrps", program, scene, name), results.published(paper, scene, name))
+                     for name in ("1x32", chip))
         reason = _bytes(results, paper, program, scene, chip)
-        found += f"; furthest off: {scene} on {chip}, {100 * off:+.0f} %, of rays {100 * one:+.0f} % on 1x32 and {100 * many:+.0f} % there" + (f": {reason}" if reason else "")
+        found += f"; furthest off: {scene} on {chip}, {100 * off:+.0f} %, of rays {100 * one:+.0f} % on 1x32 "
+        found += f"and {100 * many:+.0f} % there" + (f": {reason}" if reason else "")
     if known < wanted:
         found += f"; {wanted - known} of {wanted} not measured"
     return _judged(near == wanted if known == wanted else (False if near < known else None), found)
@@ -132,7 +152,8 @@ def _largest_gain(results, paper, program, scene):
     """(chip, gain) of the chip above 128 threads with the most rays over 4x32, and whether all were measured."""
     at = results.figure("mrps", program, scene, "4x32")
     chips = [chip for chip in paper.chips if paper.threads(chip) > 128]
-    known = [(ratio(value, at), chip) for chip in chips if (value := results.figure("mrps", program, scene, chip)) is not None and at]
+    known = [(ratio(value, at), chip) for chip in chips
+             if (value := results.figure("mrps", program, scene, chip)) is not None and at]
     gain, chip = max(known, default=(None, None))
     return chip, gain, len(known) == len(chips)
 
@@ -140,7 +161,8 @@ def _largest_gain(results, paper, program, scene):
 def _views(results):
     """The dragon, and the scene that is another view of it, or None."""
     dragon = results.columns["dragon"]
-    return dragon, next((scene for scene, column in results.stands_for.items() if column == "dragon" and scene != dragon), None)
+    return dragon, next(
+        (scene for scene, column in results.stands_for.items() if column == "dragon" and scene != dragon), None)
 
 
 def _saturation(results, paper, program):
@@ -160,7 +182,8 @@ def _saturation(results, paper, program):
 
 def _bandwidth(results, paper, program):
     def gain(scene):
-        return ratio(results.figure("mrps", program, scene, "8x32", 16.0), results.figure("mrps", program, scene, "8x32"))
+        return ratio(results.figure("mrps", program, scene, "8x32", 16.0),
+                     results.figure("mrps", program, scene, "8x32"))
 
     dragon, other_view = _views(results)
     value, other = gain(dragon), gain(other_view)
@@ -174,7 +197,8 @@ def _bandwidth(results, paper, program):
 
 
 def _mrtp(results, paper, program):
-    gain = ratio(results.figure("mrps", program, results.columns["dragon"], "4x32"), number(paper.published.get("mrtp_mrps_scaled", 0.515)))
+    gain = ratio(results.figure("mrps", program, results.columns["dragon"], "4x32"),
+                 number(paper.published.get("mrtp_mrps_scaled", 0.515)))
     published = ratio(paper.mrps("dragon", "4x32"), number(paper.published.get("mrtp_mrps_scaled", 0.515)))
     return (UNKNOWN, NOT_MEASURED) if gain is None else _judged(abs(gain / published - 1) <= 0.10, f"{gain:.1f} times")
 
@@ -206,7 +230,8 @@ def _staggering(results, paper, program):
     for series in results.series:
         run = results.by_key.get(series.get("run"))
         columns, rows = series.get("columns"), series.get("rows")
-        if not run or run.program != program or not isinstance(columns, list) or "fetch_refused" not in columns or not isinstance(rows, list):
+        if not run or run.program != program or not isinstance(
+                columns, list) or "fetch_refused" not in columns or not isinstance(rows, list):
             continue
         place = columns.index("fetch_refused")
         shares = [number(row[place]) for row in rows if isinstance(row, list) and len(row) > place]
@@ -227,12 +252,17 @@ _CLAIMS = [
     ("Table 1: GFLOPS in ray tracing", "each of the 15 chips within 10 %, mean of the scenes", "2.5 to 23.1", _gflops),
     ("Table 2: rays per second", "each of the 60 cells within 10 %", "1.41 to 32.5 MRPS", _within),
     ("Table 3: 8 and 16 GB/s", "each of the 12 figures within 10 %", "5.69 to 18.5 MRPS", _table3),
-    ("Speed-up from 1x32", "within 10 % of the paper's, for conference, crytek and the fourth scene, on each chip", "up to 13.1 times", _scaling),
-    ("The dragon stops scaling at 128 threads at 8 GB/s", "no larger chip has 1.1 times the rays of 4x32", "6.18 MRPS at 4x32, 5.68 to 6.07 above", _saturation),
+    ("Speed-up from 1x32", "within 10 % of the paper's, for conference, crytek and the fourth scene, on each chip",
+     "up to 13.1 times", _scaling),
+    ("The dragon stops scaling at 128 threads at 8 GB/s", "no larger chip has 1.1 times the rays of 4x32",
+     "6.18 MRPS at 4x32, 5.68 to 6.07 above", _saturation),
     ("The dragon gains from 16 GB/s", "at least 1.6 times on 8x32", "almost 2 times; 1.77 by Table 3", _bandwidth),
-    ("Against MRTP, scaled to 65 nm and 500 MHz", "within 10 %: dragon on 4x32", "12 times by the paper's figures; it says 13", _mrtp),
-    ("Frames per second at 1280x720", "within 10 %: dragon on 4x32, the scene that gives the paper's figure", "3.4", _frames),
-    ("Adds and multiplications a ray", "within 10 %: mean of the scenes on 4x32", "about 1,300 (Table 1 over Table 2)", _flops),
+    ("Against MRTP, scaled to 65 nm and 500 MHz", "within 10 %: dragon on 4x32",
+     "12 times by the paper's figures; it says 13", _mrtp),
+    ("Frames per second at 1280x720", "within 10 %: dragon on 4x32, the scene that gives the paper's figure", "3.4",
+     _frames),
+    ("Adds and multiplications a ray", "within 10 %: mean of the scenes on 4x32", "about 1,300 (Table 1 over Table 2)",
+     _flops),
     ("Power of 4x32", "within 25 %: the paper calls its own a rough estimate", "4 W", _power),
     ("Threads stagger: instruction-bank conflicts are frequent at first",
      "a conflict refuses a greater share of the fetches in the first interval than in the later ones (median)",
@@ -264,5 +294,7 @@ def _verdict(judge, results, paper, program):
 
 
 def claims(results, paper, programs):
-    return [Claim(title, rule, published, {program: _verdict(judge, results, paper, program) for program in programs})
-            for title, rule, published, judge in _CLAIMS]
+    return [
+        Claim(title, rule, published, {program: _verdict(judge, results, paper, program) for program in programs})
+        for title, rule, published, judge in _CLAIMS
+    ]

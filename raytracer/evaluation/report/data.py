@@ -1,12 +1,12 @@
-"""The file of results beside pages of docs: what their blocks need and nothing else, a run in a line. Sweeps that come with trax stand in it by their names
-alone; their files say how they are shown."""
+"""The file of results beside pages of docs: what their blocks need and nothing else, a run in a line. Sweeps that come
+with trax stand in it by their names alone; their files say how they are shown."""
 
 import json
 import pathlib
 
-from trax_eval.util import read_json
+from trax_eval.util import Problem, read_json
 
-from .results import HERE, Results, ResultsError
+from .results import HERE, Results
 
 SWEEPS = HERE.parent / "sweeps"
 DIGITS = 6  # of what is no whole number
@@ -18,11 +18,18 @@ def _rounded(value):
 
 
 def _kept(run, names, source):
-    """Of a run's record what says which run it is, and the figures of these names, flat: stats.mrps, values.area_units."""
+    """Of a run's record what says which run it is, and the figures of these names, flat: stats.mrps,
+    values.area_units."""
     record = run.record
-    kept = {name: record[name] for name in ("program", "scene", "workload", "variant", "config", "set", "size", "mode", "status") if record.get(name)}
-    if any((point["config"], point["set"], point.get("variant", run.variant)) != (run.config, run.set, run.variant) for point in run.points):
-        kept["points"] = [{name: point.get(name, "") for name in ("experiment", "variant", "config", "set")} for point in run.points]
+    kept = {
+        name: record[name]
+        for name in ("program", "scene", "workload", "variant", "config", "set", "size", "mode", "status")
+        if record.get(name)
+    }
+    if any((point["config"], point["set"], point.get("variant", run.variant)) != (run.config, run.set, run.variant)
+           for point in run.points):
+        kept["points"] = [{name: point.get(name, "") for name in ("experiment", "variant", "config", "set")}
+                          for point in run.points]
     for name in sorted(names):
         first, _, rest = name.partition(".")
         part, path = (first, [rest]) if first in ("values", "host") else ("stats", name.split("."))
@@ -53,7 +60,7 @@ def read_data(path):
                 runs.append(run)
         return {**{name: value for name, value in document.items() if name != "tables"}, "runs": runs}
     except (AttributeError, KeyError, TypeError, ValueError) as error:
-        raise ResultsError(f"{path}: is no file that trax-eval docs wrote: {error!r}") from None
+        raise Problem(f"{path}: is no file that trax-eval docs wrote: {error!r}") from None
 
 
 def without(document, is_dropped):
@@ -74,13 +81,17 @@ def own(sweep):
 
 
 def described(sweep):
-    """An entry of the file's sweeps; of one that stands there by its name alone, what its own file says of tables and plots."""
+    """An entry of the file's sweeps; of one that stands there by its name alone, what its own file says of tables and
+    plots."""
     if set(sweep) != {"name"}:
         return sweep
     value = read_json(SWEEPS / f"{pathlib.Path(str(sweep['name'])).name}.json")
     groups = value.get("set")
     variants = [group["name"] for group in groups if "name" in group] if isinstance(groups, list) else []
-    return {"name": sweep["name"], "title": sweep["name"], "x": "threads", "y": "mrps", "variants": variants, **{key: value[key] for key in DESCRIBED if key in value}}
+    return {
+        "name": sweep["name"], "title": sweep["name"], "x": "threads", "y": "mrps", "variants": variants,
+        **{key: value[key] for key in DESCRIBED if key in value}
+    }
 
 
 def results_of(document):
@@ -88,7 +99,8 @@ def results_of(document):
 
 
 def merged(old, new):
-    """One document with the sweeps of both. The new one's runs take the place of those of the same sweep, program, workload, size and mode."""
+    """One document with the sweeps of both. The new one's runs take the place of those of the same sweep, program,
+    workload, size and mode."""
     def place(name, run):
         return name, run.get("program"), run.get("workload") or "", str(run.get("size")), run.get("mode")
 
@@ -107,10 +119,13 @@ def merged(old, new):
 
 
 def compact(document, results, needed, sweeps):
-    """The file's text. needed: by the place of a run the names of the figures that are shown of it; sweeps: names of those that are shown."""
-    runs, measured = [], {(run.program, run.workload, run.experiments[0]) for run in results.runs if run.index in needed and run.experiments}
+    """The file's text. needed: by the place of a run the names of the figures that are shown of it; sweeps: names of
+    those that are shown."""
+    runs, measured = [], {(run.program, run.workload, run.experiments[0]) for run in results.runs
+                          if run.index in needed and run.experiments}
     for run in results.runs:
-        if sweeps & set(run.experiments) and (run.index in needed or not run.done and (run.program, run.workload, run.experiments[0]) in measured):
+        if sweeps & set(run.experiments) and (run.index in needed or not run.done and
+                                              (run.program, run.workload, run.experiments[0]) in measured):
             kept = _kept(run, needed.get(run.index, set()), run.record.get("source", 0))
             if "points" in kept:
                 kept["points"] = [point for point in kept["points"] if point["experiment"] in sweeps]
@@ -122,9 +137,12 @@ def compact(document, results, needed, sweeps):
         kept["source"] = sources.index(source)
         grouped.setdefault(tuple(experiments), []).append(kept)
     names = {kind: set(results.named(kind)) for kind in ("programs", "scenes", "workloads")}
-    lists = {"sources": sources,
-             **{kind: [entry for entry in document.get(kind) or [] if entry.get("name") in names[kind]] for kind in names},
-             "sweeps": [{key: value for key, value in sweep.items() if key != "file" and value not in (None, "", [])} for sweep in document["sweeps"] if sweep["name"] in sweeps]}
+    lists = {
+        "sources": sources, **{
+            kind: [entry for entry in document.get(kind) or [] if entry.get("name") in names[kind]] for kind in names
+        }, "sweeps": [{key: value for key, value in sweep.items() if key != "file" and value not in (None, "", [])}
+                      for sweep in document["sweeps"] if sweep["name"] in sweeps]
+    }
 
     def text(value):
         return json.dumps(value, ensure_ascii=False, separators=(",", ":"))
@@ -136,8 +154,7 @@ def compact(document, results, needed, sweeps):
     groups = []
     for experiments, rows in grouped.items():
         columns = list(dict.fromkeys(name for kept in rows for name in kept))
-        groups.append(f'{{"experiments":{text(experiments)},\n"names":{text(columns)},\n"runs":{listed(text([kept.get(name) for name in columns]) for kept in rows)}}}')
+        listed_rows = listed(text([kept.get(name) for name in columns]) for kept in rows)
+        groups.append(f'{{"experiments":{text(experiments)},\n"names":{text(columns)},\n"runs":{listed_rows}}}')
     parts.append(f'"tables": {listed(groups)}')
     return '{"format": "trax-eval-results", "version": 2,\n' + ",\n".join(parts) + "}\n"
-
-

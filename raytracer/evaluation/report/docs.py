@@ -3,11 +3,13 @@
     trax-eval docs [--anew] [RESULTS.json...] PAGE.md...
     trax-eval docs --check PAGE.md...
 
-What stands in a page between `<!-- trax-eval NAME: begin -->` and `<!-- trax-eval NAME: end -->` is the table of that name, or with `plot NAME` the plot, an SVG
-file beside the page. Names are those of the report's tables and of sweeps; a sweep's plot has the sweep's name. The figures are those of PAGE.json (another file if
-the page has `<!-- trax-eval data: FILE -->`), which holds what the tables need and nothing else. Runs of RESULTS.json take the
-place of those of the same sweep, program, workload, size and mode in that file; with --anew of the same sweep and program. Pages that share a file are given together;
-a folder stands for its pages that have blocks. --check writes nothing, and ends with status 1 if a block or a plot is not what the file gives."""
+What stands in a page between `<!-- trax-eval NAME: begin -->` and `<!-- trax-eval NAME: end -->` is the table of that
+name, or with `plot NAME` the plot, an SVG file beside the page. Names are those of the report's tables and of sweeps; a
+sweep's plot has the sweep's name. The figures are those of PAGE.json (another file if the page has `<!-- trax-eval
+data: FILE -->`), which holds what the tables need and nothing else. Runs of RESULTS.json take the place of those of the
+same sweep, program, workload, size and mode in that file; with --anew of the same sweep and program. Pages that share a
+file are given together; a folder stands for its pages that have blocks. --check writes nothing, and ends with status 1
+if a block or a plot is not what the file gives."""
 
 import argparse
 import itertools
@@ -23,9 +25,8 @@ from .charts import all_figures, sweep_figure
 from .claims import UNKNOWN, claims
 from .data import compact, merged, read_data, results_of, without
 from .paper import Paper
-from .picture import is_same, standalone
-from .plots import PlotError
-from .results import HERE, ResultsError, read_results
+from .picture import standalone
+from .results import HERE, read_results
 
 MARK = re.compile(r"<!-- trax-eval ((?:plot )?[\w.+-]+): begin -->\n(.*?)<!-- trax-eval \1: end -->", re.DOTALL)
 ANY = re.compile(r"<!-- trax-eval ([^:>]*): (begin|end) -->")
@@ -40,23 +41,22 @@ class Page:
             with open(self.path, "rb") as file:
                 self.text = file.read(LIMIT).decode("utf-8")
         except (OSError, UnicodeDecodeError) as error:
-            raise ResultsError(f"{path}: cannot be read: {error}") from None
+            raise Problem(f"{path}: cannot be read: {error}") from None
         if len(self.text.encode()) >= LIMIT:
-            raise ResultsError(f"{path}: {LIMIT} bytes or more")
+            raise Problem(f"{path}: {LIMIT} bytes or more")
         found = DATA.search(self.text)
         self.data = self.path.parent / found[1] if found else self.path.with_suffix(".json")
         self.names = [match[1] for match in MARK.finditer(self.text)]
         marks = [match[1] for match in ANY.finditer(self.text)]
         for name in marks:
             if self.names.count(name) != 1 or marks.count(name) != 2:
-                raise ResultsError(f"{path}: the block \"{name}\" is to begin and end once")
+                raise Problem(f"{path}: the block \"{name}\" is to begin and end once")
         if not self.names:
-            raise ResultsError(f"{path}: has no block (<!-- trax-eval NAME: begin --> and end)")
+            raise Problem(f"{path}: has no block (<!-- trax-eval NAME: begin --> and end)")
 
 
 class Builder:
     """Tables and plots by name. Each is made with what it asked its runs for, by the runs' places."""
-
     def __init__(self, results, paper):
         self.results, self.paper, self.known = results, paper, {}
         for sweep in results.sweeps:
@@ -65,21 +65,29 @@ class Builder:
             self.add(makers, sweep, dict(self.results.asked))
             if made := estimates.of_sweep(results, sweep):
                 self.add([made], sweep, {})
-        self.add([self.claims, lambda: tables.described(results, paper),
-                  lambda: tables.hardware(results, paper), lambda: rays.gain_table(results), lambda: rays.kinds_table(results)], None, {})
+        self.add([
+            self.claims, lambda: tables.described(results, paper), lambda: tables.hardware(results, paper),
+            lambda: rays.gain_table(results), lambda: rays.kinds_table(results)
+        ], None, {})
 
     def claims(self):
         """Of programs that are no sweep's variants, the claims of which something is known."""
-        programs = [name for name in self.results.programs() if any(run.program == name and not run.variant for run in self.results.runs)]
+        programs = [
+            name for name in self.results.programs()
+            if any(run.program == name and not run.variant for run in self.results.runs)
+        ]
         judged = claims(self.results, self.paper, programs)
-        return tables.claims_table([claim for claim in judged if any(claim.verdicts[name][0] != UNKNOWN for name in programs)], programs)
+        return tables.claims_table(
+            [claim for claim in judged if any(claim.verdicts[name][0] != UNKNOWN for name in programs)], programs)
 
     def add(self, makers, sweep, before):
         """before: what was asked for to know which tables there are; each needs it of its own runs."""
         for make in makers:
             self.results.asked.clear()
             table = make()
-            self.known[table.identity] = table, sweep, {index: names | before.get(index, set()) for index, names in self.results.asked.items()}
+            self.known[table.identity] = table, sweep, {
+                index: names | before.get(index, set()) for index, names in self.results.asked.items()
+            }
 
     def plot(self, name):
         for sweep in self.results.sweeps:
@@ -93,18 +101,20 @@ class Builder:
             if figure.identity == name and not figure.empty():
                 return figure, None, dict(self.results.asked)
             self.results.asked.clear()
-        raise ResultsError(f"there is no plot \"{name}\"")
+        raise Problem(f"there is no plot \"{name}\"")
 
     def found(self, name):
         if name.startswith("plot "):
             return self.plot(name.removeprefix("plot "))
         if name not in self.known:
-            raise ResultsError(f"there is no table \"{name}\"; there are {', '.join(self.known)}")
+            raise Problem(f"there is no table \"{name}\"; there are {', '.join(self.known)}")
         return self.known[name]
 
     def sweeps_of(self, sweep, asked):
         """Names of the sweeps that the runs come from: as few as have them all."""
-        left, names = [set(self.results.runs[index].experiments) for index in asked if self.results.runs[index].experiments], []
+        left, names = [
+            set(self.results.runs[index].experiments) for index in asked if self.results.runs[index].experiments
+        ], []
         while left and not sweep:
             names.append(max(sorted(set().union(*left)), key=lambda name: sum(name in some for some in left)))
             left = [some for some in left if names[-1] not in some]
@@ -115,9 +125,11 @@ class Builder:
         runs = [run for run in self.results.runs if run.index in asked and run.done]
         sources = self.results.document.get("sources") or [{}]
         sizes = sorted({run.size for run in runs if run.size}, reverse=True)
-        made = sorted({(str(source.get("trax") or "of an unknown version"), str(source.get("created") or "")[:10]) for run in runs for source in [sources[run.record.get("source", 0)]]})
-        return (f"`trax-eval {' '.join(self.sweeps_of(sweep, asked))} SCENES`" + (f" at {', '.join('{}x{}'.format(*size) for size in sizes)}" if sizes else "")
-                + "; measured with " + ", ".join(f"trax {version}" + (f" ({day})" if day else "") for version, day in made))
+        made = sorted({(str(source.get("trax") or "of an unknown version"), str(source.get("created") or "")[:10])
+                       for run in runs for source in [sources[run.record.get("source", 0)]]})
+        return (f"`trax-eval {' '.join(self.sweeps_of(sweep, asked))} SCENES`" +
+                (f" at {', '.join('{}x{}'.format(*size) for size in sizes)}" if sizes else "") + "; measured with " +
+                ", ".join(f"trax {version}" + (f" ({day})" if day else "") for version, day in made))
 
     def block(self, page, name, files):
         """The block's text; a plot's bytes go into files."""
@@ -147,7 +159,8 @@ def renew(data, sources, pages, paper, anew):
     document = read_data(data) if data.exists() else {}
     added = [read_results(name).document for name in sources]
     if anew:
-        places = {(name, run.get("program")) for new in added for run in new.get("runs") or [] for name in run.get("experiments") or []}
+        places = {(name, run.get("program")) for new in added for run in new.get("runs") or []
+                  for name in run.get("experiments") or []}
         document = without(document, lambda name, run: (name, run.get("program")) in places)
     for new in added:
         document = merged(document, new)
@@ -160,7 +173,8 @@ def pages_of(names):
     pages = []
     for name in names:
         folder = pathlib.Path(name)
-        pages += [Page(path) for path in sorted(folder.glob("*.md")) if MARK.search(path.read_text(encoding="utf-8"))] if folder.is_dir() else [Page(name)]
+        pages += [Page(path) for path in sorted(folder.glob("*.md"))
+                  if MARK.search(path.read_text(encoding="utf-8"))] if folder.is_dir() else [Page(name)]
     return pages
 
 
@@ -175,14 +189,17 @@ def write_pages(pages, paper, check):
         def replaced(match):
             text = builder.block(page, match[1], files)
             if check and text != match[2]:
-                stale.append(f"{page.path}: the block \"{match[1]}\" is not what {page.data} gives; trax-eval docs {page.path} writes it")
+                stale.append(
+                    f"{page.path}: the block \"{match[1]}\" is not what {page.data} gives; trax-eval docs {page.path} "
+                    f"writes it"
+                )
             return f"<!-- trax-eval {match[1]}: begin -->\n{text}<!-- trax-eval {match[1]}: end -->"
 
         text = MARK.sub(replaced, page.text)
         for path, figure in files.items():
             if not check:
                 write_file(path, figure)
-            elif not path.exists() or not is_same(figure, path.read_text(encoding="utf-8")):
+            elif not path.exists() or figure != path.read_text(encoding="utf-8"):
                 stale.append(f"{path}: is not what {page.data} gives; trax-eval docs {page.path} writes it")
         if not check and text != page.text:
             write_file(page.path, text)
@@ -190,10 +207,13 @@ def write_pages(pages, paper, check):
 
 
 def new_parser():
-    parser = argparse.ArgumentParser(prog="trax-eval docs", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(prog="trax-eval docs", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("files", nargs="+", metavar="RESULTS.json or PAGE.md")
-    parser.add_argument("--check", action="store_true", help="write nothing; status 1 if a block is not what the file gives")
-    parser.add_argument("--anew", action="store_true", help="earlier runs of the sweeps and programs of RESULTS.json are dropped, whatever their size")
+    parser.add_argument("--check", action="store_true",
+                        help="write nothing; status 1 if a block is not what the file gives")
+    parser.add_argument("--anew", action="store_true",
+                        help="earlier runs of the sweeps and programs of RESULTS.json are dropped, whatever their size")
     return parser
 
 
@@ -201,17 +221,19 @@ def main(arguments=None):
     options = new_parser().parse_args(arguments)
     try:
         sources, paper = [name for name in options.files if name.endswith(".json")], Paper(HERE.parent / "paper")
-        wrong = [name for name in options.files if not name.endswith((".json", ".md")) and not pathlib.Path(name).is_dir()]
+        wrong = [
+            name for name in options.files if not name.endswith((".json", ".md")) and not pathlib.Path(name).is_dir()
+        ]
         if wrong:
-            raise ResultsError(f"{wrong[0]}: expected RESULTS.json, PAGE.md or a folder of pages")
+            raise Problem(f"{wrong[0]}: expected RESULTS.json, PAGE.md or a folder of pages")
         pages = pages_of(name for name in options.files if not name.endswith(".json"))
         if not pages or options.check and sources:
-            raise ResultsError("no page was named" if not pages else "--check takes pages only")
+            raise Problem("no page was named" if not pages else "--check takes pages only")
         check_files(sources, [page.path for page in pages])
         for data in dict.fromkeys(page.data for page in pages) if sources else ():
             renew(data, sources, [page for page in pages if page.data == data], paper, options.anew)
         stale = write_pages(pages, paper, options.check)
-    except (Problem, ResultsError, PlotError) as error:
+    except Problem as error:
         complain("trax-eval docs", error)
         return 1
     for text in stale:

@@ -2,8 +2,8 @@
 
     trax-eval report RESULTS.json -o REPORT.html
 
-The page holds all that it shows, pictures and figures included, and asks no network for anything; only its links lead to the runs'
-files. The same results give the same bytes."""
+The page holds all that it shows, pictures and figures included, and asks no network for anything; only its links lead
+to the runs' files. The same results give the same bytes."""
 
 import argparse
 import base64
@@ -20,27 +20,36 @@ from .charts import all_figures
 from .claims import AGREES, DIFFERS, claims, median, table2_deviations
 from .markup import Html, el, join, table
 from .paper import Paper
-from .plots import PlotError, draw, marks
-from .results import ResultsError, number, read_results
+from .plots import draw, shapes
+from .results import number, read_results
 from .table import seconds
 
 HERE = pathlib.Path(__file__).resolve().parent
-SHORT = {"tables": "Tables", "rays": "Rays by kind", "stalls": "Time", "units": "Hardware", "error": "Error and run time"}  # in the page's head
+SHORT = {
+    "tables": "Tables", "rays": "Rays by kind", "stalls": "Time", "units": "Hardware", "error": "Error and run time"
+}  # in the page's head
 
 
 def summary(results, paper, judged):
     """In plain words: what was measured, and what agrees."""
     done, failed = [run for run in results.runs if run.done], [run for run in results.runs if run.status == "failed"]
-    sentences = [f"{len(done)} of {len(results.runs)} runs {'is' if len(done) == 1 else 'are'} there" +
-                 (f", {len(failed)} failed." if failed else ".")]
-    cells = {run.size for program in results.programs() for scene in results.papers for chip in paper.chips if (run := results.cell(program, scene, chip)) and run.done and run.size}
+    sentences = [
+        f"{len(done)} of {len(results.runs)} runs {'is' if len(done) == 1 else 'are'} there" +
+        (f", {len(failed)} failed." if failed else ".")
+    ]
+    cells = {
+        run.size for program in results.programs() for scene in results.papers for chip in paper.chips
+        if (run := results.cell(program, scene, chip)) and run.done and run.size
+    }
     others = {run.size for run in done if run.size} - cells
 
     def named(sizes):
         return ", ".join(f"{width}x{height}" for width, height in sorted(sizes, reverse=True))
 
     if cells:
-        sentences.append(f"The pictures of the paper's tables have {named(cells)} pixels" + (f", those of other sweeps {named(others)}" if others else "") + "; the paper's have 1280x720.")
+        sentences.append(f"The pictures of the paper's tables have {named(cells)} pixels" +
+                         (f", those of other sweeps {named(others)}" if others else "") +
+                         "; the paper's have 1280x720.")
         if min(cells) < (1280, 720):
             sentences.append("In a smaller picture neighbouring rays share less, so each moves more bytes, "
                              "and large chips run out of bandwidth sooner. "
@@ -51,15 +60,23 @@ def summary(results, paper, judged):
     items = [el("p", " ".join(sentences))]
     for program in results.programs():
         deviations = table2_deviations(results, paper, program)
-        said, not_said = (sum(claim.verdicts[program][0] == verdict for claim in judged) for verdict in (AGREES, DIFFERS))
-        text = [el("b", f"{program}: {title}" if (title := results.title("programs", program)) != program else f"Program “{program}”"), ": "]
+        said, not_said = (sum(claim.verdicts[program][0] == verdict for claim in judged)
+                          for verdict in (AGREES, DIFFERS))
+        text = [
+            el(
+                "b", f"{program}: {title}" if
+                (title := results.title("programs", program)) != program else f"Program “{program}”"), ": "
+        ]
         if deviations:
             middle, single = median(deviations), len(deviations) == 1
             cells = "the one measured cell" if single else f"the {len(deviations)} measured cells"
             text.append(f"Against {cells} of Table 2 it has {100 * abs(middle):.0f} % "
                         f"{'more' if middle >= 0 else 'fewer'} rays per second{'' if single else ' (median)'}. ")
         text.append(tables.own_machine(results, program))
-        text.append(f"Agrees with the paper in {said} of {len(judged)} claims, differs in {not_said}; not known: {len(judged) - said - not_said}.")
+        text.append(
+            f"Agrees with the paper in {said} of {len(judged)} claims, differs in {not_said}; not known: "
+            f"{len(judged) - said - not_said}."
+        )
         items.append(el("p", *text))
     return join(items)
 
@@ -85,8 +102,11 @@ def pictures(results, base):
         if not data.startswith(b"\x89PNG\r\n\x1a\n"):
             shown.append(el("figure", caption, el("p", f"{run.picture}: is not a PNG file", class_="missing")))
             continue
-        shown.append(el("figure", caption, el("img", src="data:image/png;base64," + base64.b64encode(data).decode(), alt=f"{scene} rendered by {program}",
-                                              width=run.size[0], height=run.size[1])))
+        shown.append(
+            el(
+                "figure", caption,
+                el("img", src="data:image/png;base64," + base64.b64encode(data).decode(),
+                   alt=f"{scene} rendered by {program}", width=run.size[0], height=run.size[1])))
     return el("div", *shown, class_="pictures") if shown else el("p", "No run has a picture.", class_="missing")
 
 
@@ -94,6 +114,7 @@ def linker(base, folder):
     """Links to the runs' files, from where the page is to be."""
     def link(path):
         return urllib.parse.quote(os.path.relpath(base / path, folder).replace(os.sep, "/")) if path else ""
+
     return link
 
 
@@ -113,7 +134,9 @@ def configurations(results):
         configuration = run.stats.get("configuration")
         if not isinstance(configuration, dict):
             continue
-        items = tuple((key, repr(value) if number(value) is None else f"{value:g}" if isinstance(value, float) else str(value)) for key, value in flat(configuration))
+        items = tuple(
+            (key, repr(value) if number(value) is None else f"{value:g}" if isinstance(value, float) else str(value))
+            for key, value in flat(configuration))
         if items not in numbers:
             numbers[items] = len(numbers) + 1
             listed.append((numbers[items], dict(items), run.config))
@@ -126,66 +149,113 @@ def configurations(results):
         other = [f"{key} = {value}" for key, value in items.items() if first.get(key) != value]
         summary = "every key" if place == 1 else "C1 but for " + ", ".join(other)
         body = el("dl", *(join([el("dt", key), el("dd", value)]) for key, value in items.items()), class_="keys")
-        blocks.append(el("details", el("summary", el("b", f"C{place}"), f" ({chip}): {summary}"), body, id=f"configuration-{place}"))
+        blocks.append(
+            el("details", el("summary", el("b", f"C{place}"), f" ({chip}): {summary}"), body,
+               id=f"configuration-{place}"))
     return join(blocks), of_run
 
 
-def page(results, paper, base, folder, gnuplot="gnuplot"):
+def page(results, paper, base, folder):
     programs = results.programs()
     judged = claims(results, paper, programs)
-    drawn = draw([*all_figures(results, paper), *rays.figures(results, paper)], gnuplot)
+    drawn = {figure.identity: draw(figure) for figure in (*all_figures(results, paper), *rays.figures(results, paper))}
     listed, of_run = configurations(results)
 
     def figures(prefix):
         return el("div", *(shown for identity, shown in drawn.items() if identity.startswith(prefix)), class_="figures")
 
     sampled = estimates.every(results)
-    sections = [("summary", "Summary", [summary(results, paper, judged), table(tables.claims_table(judged, programs)) if programs else None]),
-                ("tables", "The paper's tables", map(table, [tables.table1(results, paper), *(tables.table2(results, paper, program) for program in programs), tables.table3(results, paper)])),
-                ("scaling", "Scaling", [el("p", "Speed-up over the same program on 1x32. Where chips have as many threads, each is a mark of its own."), figures("scaling-"),
-                                        el("details", el("summary", "As tables"), *(table(make(results, paper, program)) for make in (tables.speedups, tables.table1_scenes) for program in programs))]),
-                ("stalls", "Where the time goes", [el("p", "Every thread is charged every cycle to one cause (docs/timing.md)."), figures("stalls-")]),
-                ("units", "Hardware and bandwidth", [figures("memory-"), table(tables.hardware(results, paper)), table(tables.described(results, paper))]),
-                ("error", "Error and run time", [figures("error-"), table(sampled) if sampled else None])]
+    sections = [
+        ("summary", "Summary",
+         [summary(results, paper, judged),
+          table(tables.claims_table(judged, programs)) if programs else None]),
+        ("tables", "The paper's tables",
+         map(table, [
+             tables.table1(results, paper), *(tables.table2(results, paper, program) for program in programs),
+             tables.table3(results, paper)
+         ])),
+        ("scaling", "Scaling", [
+            el("p",
+               "Speed-up over the same program on 1x32. Where chips have as many threads, each is a mark of its own."),
+            figures("scaling-"),
+            el(
+                "details", el("summary", "As tables"),
+                *(table(make(results, paper, program)) for make in (tables.speedups, tables.table1_scenes)
+                  for program in programs))
+        ]),
+        ("stalls", "Where the time goes",
+         [el("p", "Every thread is charged every cycle to one cause (docs/timing.md)."),
+          figures("stalls-")]),
+        ("units", "Hardware and bandwidth",
+         [figures("memory-"),
+          table(tables.hardware(results, paper)),
+          table(tables.described(results, paper))]),
+        ("error", "Error and run time", [figures("error-"), table(sampled) if sampled else None])
+    ]
     if rays.groups(results):
-        sections.insert(2, ("rays", "What MIMD gains as rays lose coherence", [el("p", rays.EXPLAINED), figures("rays-"), table(rays.gain_table(results)),
-                                                                           el("details", el("summary", "Every kind of ray on every machine"), table(rays.kinds_table(results)))]))
+        sections.insert(2, ("rays", "What MIMD gains as rays lose coherence", [
+            el("p", rays.EXPLAINED),
+            figures("rays-"),
+            table(rays.gain_table(results)),
+            el("details", el("summary", "Every kind of ray on every machine"), table(rays.kinds_table(results)))
+        ]))
     if results.series:
-        text = "Shares of the thread-cycles of each interval; fetch_refused: of the instructions that threads asked their cache for, those that a conflict refused."
+        text = ("Shares of the thread-cycles of each interval. fetch_refused is the share of instruction fetches that "
+                "a bank conflict refused.")
         sections.append(("time", "Over time", [el("p", text), figures("series-")]))
     shown = []
     for index, sweep in enumerate(results.sweeps):
         if sweep.get("name") in ("table1", "table2", "table3"):
             continue  # they are above
-        parts = [el("h3", str(sweep.get("title") or sweep.get("name") or f"sweep {index}")), el("p", str(sweep["claim"])) if sweep.get("claim") else None,
-                 drawn.get("lockstep" if sweep.get("name") == "lockstep" else f"sweep-{index}"), el("details", el("summary", "As a table"), *(table(made, f"sweep-{index}-") for made in tables.of_sweep(results, paper, sweep)))]
+        parts = [
+            el("h3", str(sweep.get("title") or sweep.get("name") or f"sweep {index}")),
+            el("p", str(sweep["claim"])) if sweep.get("claim") else None,
+            drawn.get("lockstep" if sweep.get("name") == "lockstep" else f"sweep-{index}"),
+            el("details", el("summary", "As a table"),
+               *(table(made, f"sweep-{index}-") for made in tables.of_sweep(results, paper, sweep)))
+        ]
         shown.append(el("section", *(part for part in parts if part is not None), class_="sweep"))
     if shown:
         sections.append(("sweeps", "Sweeps", [el("div", *shown, class_="sweeps")]))
-    sections += [("pictures", "Pictures", [pictures(results, base)]), ("all-runs", "Runs", [table(tables.run_table(results, paper, linker(base, folder), of_run))]),
+    sections += [("pictures", "Pictures", [pictures(results, base)]),
+                 ("all-runs", "Runs", [table(tables.run_table(results, paper, linker(base, folder), of_run))]),
                  ("configurations", "Configurations", [listed])]
 
-    about = [el("code", results.text("command") or "trax-eval"), f"trax {results.text('trax')}" if results.text("trax") else None, results.text("created") or None]
+    about = [
+        el("code",
+           results.text("command") or "trax-eval"), f"trax {results.text('trax')}" if results.text("trax") else None,
+        results.text("created") or None
+    ]
     host = results.document.get("host")
     if isinstance(host, dict):
-        about.append(", ".join(f"{key}: {value}" for key, value in host.items() if isinstance(value, (str, int, float))))
+        about.append(", ".join(f"{key}: {value}" for key, value in host.items()
+                               if isinstance(value, (str, int, float))))
     style, script = ((HERE / name).read_text(encoding="utf-8") for name in ("page.css", "page.js"))
-    head = el("head", el("meta", charset="utf-8"), el("meta", name="viewport", content="width=device-width, initial-scale=1"),
-              el("meta", name="color-scheme", content="light dark"), el("title", "Evaluation of trax"), el("style", Html(style)))
-    body = el("body", marks(), el("header", el("h1", "A mobile accelerator for ray tracing: our figures beside the paper's"),
-                                  el("p", join([part for part in about if part], " · "), class_="about"),
-                                  el("nav", *(el("a", SHORT.get(identity, title), href="#" + identity) for identity, title, _ in sections),
-                                     el("button", "Light or dark", type="button", id="theme"))),
-              el("main", *(el("section", el("h2", title), join(content), id=identity) for identity, title, content in sections)), el("script", Html(script)))
+    head = el("head", el("meta", charset="utf-8"),
+              el("meta", name="viewport", content="width=device-width, initial-scale=1"),
+              el("meta", name="color-scheme", content="light dark"), el("title", "Evaluation of trax"),
+              el("style", Html(style)))
+    body = el(
+        "body", el("svg", shapes(), width="0", height="0", aria_hidden="true", class_="shapes"),
+        el(
+            "header", el("h1", "A mobile accelerator for ray tracing: our figures beside the paper's"),
+            el("p", join([part for part in about if part], " · "), class_="about"),
+            el("nav", *(el("a", SHORT.get(identity, title), href="#" + identity) for identity, title, _ in sections),
+               el("button", "Light or dark", type="button", id="theme"))),
+        el("main",
+           *(el("section", el("h2", title), join(content), id=identity) for identity, title, content in sections)),
+        el("script", Html(script)))
     return "<!DOCTYPE html>\n" + el("html", head, body, lang="en") + "\n"
 
 
 def new_parser():
     parser = argparse.ArgumentParser(prog="trax-eval report", description="Makes one HTML page of a file of results.")
     parser.add_argument("results", type=pathlib.Path, metavar="RESULTS.json")
-    parser.add_argument("-o", "--output", metavar="FILE.html", help="the page (default: report.html beside the results)")
-    parser.add_argument("--paper", type=pathlib.Path, default=HERE.parent / "paper", metavar="DIR", help="the paper's tables (default: those that come with trax)")
-    parser.add_argument("--gnuplot", default="gnuplot", metavar="PROGRAM", help="what draws the figures")
+    parser.add_argument("-o", "--output", metavar="FILE.html",
+                        help="the page (default: report.html beside the results)")
+    parser.add_argument("--paper", type=pathlib.Path, default=HERE.parent / "paper", metavar="DIR",
+                        help="the paper's tables (default: those that come with trax)")
+    parser.add_argument("--gnuplot", help=argparse.SUPPRESS)
     return parser
 
 
@@ -195,15 +265,18 @@ def main(arguments=None):
     output = pathlib.Path(options.output or "report.html")
     try:
         if options.output == "" or not options.results.name:
-            raise Problem("--output: the value is empty" if options.results.name else "the name of the results is empty")
+            raise Problem(
+                "--output: the value is empty" if options.results.name else "the name of the results is empty")
+        if options.gnuplot is not None:
+            raise Problem("--gnuplot is no longer an option: trax-eval draws the figures itself")
         if not options.output:
             output = options.results.with_name("report.html")
         check_files([options.results], [output])
         results, paper = read_results(options.results), Paper(options.paper)
         folder = output.absolute().parent
-        text = page(results, paper, options.results.absolute().parent, folder, options.gnuplot)
+        text = page(results, paper, options.results.absolute().parent, folder)
         write_output(output, text.encode("utf-8", errors="backslashreplace"), foreign=True)
-    except (Problem, ResultsError, PlotError, IsInput) as error:
+    except (Problem, IsInput) as error:
         complain("trax-eval report", error)
         return 1
     except OSError as error:

@@ -36,7 +36,8 @@ def _cell(cell, numeric):
     def figures(text):
         return text.replace("-", "−") if numeric else text
 
-    shown = el("span", "–", class_="missing", title=cell.title or "not measured") if cell.shown is None else figures(cell.shown)
+    shown = el("span", "–", class_="missing", title=cell.title or "not measured") if cell.shown is None else figures(
+        cell.shown)
     if cell.link and cell.shown is not None:
         shown = el("a", shown, href=cell.link, title=cell.title or None)
     elif cell.identity:
@@ -45,18 +46,30 @@ def _cell(cell, numeric):
         shown = el("code", shown)
     parts = [shown or None, *(el("a", text, href=address) for text, address in cell.links)]
     style = " ".join(part for part in ("n" if numeric else "", "" if cell.identity else cell.style) if part)
-    return el("td", join(parts, " "), el("small", figures(cell.below)) if cell.below else None, class_=style or None,
-              data_value=None if cell.value is None else repr(float(cell.value) if not isinstance(cell.value, str) else cell.value))
+    return el(
+        "td", join(parts, " "),
+        el("small", figures(cell.below)) if cell.below else None, class_=style or None, data_value=None
+        if cell.value is None else repr(float(cell.value) if not isinstance(cell.value, str) else cell.value))
 
 
-SHADES = "Below a figure: its deviation from the paper's. Green: within 10 %; blue: above, deep blue by more than half; orange: below, deep orange by more than half."
+SHADES = ("Below a figure: its deviation from the paper's. Green: within 10 %; blue: above, deep blue by more than "
+          "half; orange: below, deep orange by more than half.")
 
 
 def table(made, prefix=""):
     """A sortable table of a Table; prefix: of its id."""
-    columns = [el("th", el("button", label, type="button"), scope="col", class_=kind, aria_sort="none") if kind else el("th", label, scope="col") for label, kind in made.columns]
-    parts = [el("caption", made.title), el("thead", el("tr", *columns)), el("tbody", *(el("tr", *(_cell(cell, kind == "n") for cell, (_, kind) in zip(row, made.columns))) for row in made.rows))]
-    shown = el("div", el("table", *parts, id=prefix + made.identity), class_="scroll", tabindex="0", role="region", aria_label=made.title)
+    columns = [
+        el("th", el("button", label, type="button"), scope="col", class_=kind, aria_sort="none") if kind else el(
+            "th", label, scope="col") for label, kind in made.columns
+    ]
+    parts = [
+        el("caption", made.title),
+        el("thead", el("tr", *columns)),
+        el("tbody",
+           *(el("tr", *(_cell(cell, kind == "n") for cell, (_, kind) in zip(row, made.columns))) for row in made.rows))
+    ]
+    shown = el("div", el("table", *parts, id=prefix + made.identity), class_="scroll", tabindex="0", role="region",
+               aria_label=made.title)
     shaded = any(cell.style.startswith(("near", "high", "low")) for row in made.rows for cell in row)
     note = " ".join(text for text in (made.note, SHADES if shaded else "") if text)
     notes = [el("li", el("b", what), f": {text}") for what, text in made.notes]

@@ -3,12 +3,13 @@
 import csv
 import pathlib
 
-from .results import ResultsError, ratio
+from trax_eval.util import Problem
+
+from .results import ratio
 
 
 class Published(float):
     """A figure with the digits that the paper prints."""
-
     def __new__(cls, text):
         made = super().__new__(cls, text)
         made.text = text.strip()
@@ -17,7 +18,6 @@ class Published(float):
 
 class Paper:
     """The tables of the paper, by chip; the numbers are those of its text."""
-
     def __init__(self, directory):
         directory = pathlib.Path(directory)
         self.table1 = self._rows(directory / "table1.csv", "area_mm2")
@@ -35,9 +35,9 @@ class Paper:
             with open(path, encoding="utf-8", newline="") as file:
                 rows = list(csv.DictReader(file))
         except (OSError, UnicodeDecodeError) as error:
-            raise ResultsError(f"{path}: cannot be read: {error}") from None
+            raise Problem(f"{path}: cannot be read: {error}") from None
         if not rows or needed not in rows[0] or "name" not in rows[0]:
-            raise ResultsError(f"{path}: has no column \"{needed}\"")
+            raise Problem(f"{path}: has no column \"{needed}\"")
         for line, row in enumerate(rows, 2):
             for key, value in row.items():
                 if key in ("name", "unit", "place", "what", "where"):
@@ -45,7 +45,7 @@ class Paper:
                 try:
                     row[key] = Published(value) if value and value.strip() else None
                 except (TypeError, ValueError):
-                    raise ResultsError(f"{path}:{line}: {key}: \"{value}\" is no number") from None
+                    raise Problem(f"{path}:{line}: {key}: \"{value}\" is no number") from None
         return rows
 
     def threads(self, chip):

@@ -1,42 +1,31 @@
 """A figure as a file of SVG that stands alone, for pages of docs."""
 
-import hashlib
-import os
 import re
-import tempfile
-import xml.etree.ElementTree
 
 from .markup import el
-from .plots import MARKS, WIDTH, elements_of, marks, run_gnuplot, version_of
+from .plots import WIDTH, mark, shapes
 
-# The page's colours (page.css) that figures use, for a picture that stands alone; it follows the reader's light or dark.
-_COLOURS = {0: ("#1c1c1a", "#ecece6"), 1: ("#0072b2", "#56b4e9"), 2: ("#c85200", "#f08a4b"), 3: ("#007f5f", "#4cc9a0"), 4: ("#a3568a", "#d79ac2"), 5: ("#8a6d00", "#e0c040"),
-            6: ("#3d7f9f", "#8fc7de"), 7: ("#a8a8a0", "#6b6b65"), 10: ("#2a9d74",) * 2, 11: ("#7cc0ea",) * 2, 12: ("#0072b2", "#2a8fd0"), 13: ("#c85200", "#d5642a"), 14: ("#e69f00",) * 2,
-            15: ("#e8d44d",) * 2, 16: ("#b877a0", "#c58ab0"), 17: ("#8a7a6a", "#9a8a7a"), 18: ("#d4d4ce", "#4a4a46")}
-
-
-def origin(figure, program):
-    """The figure's first line: what drew it, and a sum of what it shows."""
-    shown = hashlib.sha256("\n".join([*figure.script(), *map(str, figure.marks())]).encode()).hexdigest()[:16]
-    return f"<!-- {version_of(program)}: {shown} -->"
-
-
-def is_same(drawn, there):
-    """Whether the figure that is there shows the same; its bytes count if the same version of gnuplot drew it."""
-    (drawn_by, shown), (there_by, there_shown) = (text.partition("\n")[0].partition(": ")[::2] for text in (drawn, there))
-    return drawn == there or (drawn_by != there_by and there_by.startswith("<!-- gnuplot ") and shown == there_shown)
+# The page's colours (page.css) that figures use, for a picture that stands alone; it follows the reader's light or
+# dark.
+_COLOURS = {
+    0: ("#1c1c1a", "#ecece6"), 1: ("#0072b2", "#56b4e9"), 2: ("#c85200", "#f08a4b"), 3: ("#007f5f", "#4cc9a0"),
+    4: ("#a3568a", "#d79ac2"), 5: ("#8a6d00", "#e0c040"), 6: ("#3d7f9f", "#8fc7de"), 7: ("#a8a8a0", "#6b6b65"),
+    10: ("#2a9d74", ) * 2, 11: ("#7cc0ea", ) * 2, 12: ("#0072b2", "#2a8fd0"), 13: ("#c85200", "#d5642a"),
+    14: ("#e69f00", ) * 2, 15: ("#e8d44d", ) * 2, 16: ("#b877a0", "#c58ab0"), 17: ("#8a7a6a", "#9a8a7a"),
+    18: ("#d4d4ce", "#4a4a46")
+}
 
 
-def standalone(figure, program="gnuplot"):
+def standalone(figure):
     """A file of SVG: the figure as in the page, with its key below and no titles of marks."""
-    with tempfile.TemporaryDirectory() as folder:
-        run_gnuplot([figure], folder, program)
-        elements = elements_of(xml.etree.ElementTree.parse(os.path.join(folder, "0.svg")).getroot(), figure.tips())
-    elements = [re.sub(r"<title>.*?</title>| tabindex=\"0\"", "", element) for element in elements if not element.startswith("<circle")]
+    elements = [
+        re.sub(r"<title>.*?</title>| tabindex=\"0\"", "", element) for element in figure.elements()
+        if not element.startswith("<circle")
+    ]
     across = 3 if all(len(label) <= 20 for *_, label in figure.marks()) else 2
-    for place, (style, mark, label) in enumerate(figure.marks()):
+    for place, (style, kind, label) in enumerate(figure.marks()):
         where = f"translate({14 + 450 // across * (place % across)},{figure.height + 12 + 18 * (place // across)})"
-        elements.append(el("g", el("use", href=f"#mark{MARKS[mark][0] - 1}", transform="scale(4.5)", class_=f"s{style}", stroke_width="0.4"), el("text", label, x="10", y="4"), transform=where))
+        elements.append(el("g", mark(style, kind, 0, 0), el("text", label, x="10", y="4"), transform=where))
     height = figure.height + 12 + 18 * -(-len(figure.marks()) // across)
 
     def rules(place):
@@ -45,8 +34,12 @@ def standalone(figure, program="gnuplot"):
         ink, line, ground = (("#5f5f59", "#d9d9d3", "#ffffff"), ("#a3a39b", "#3a3a37", "#171716"))[place]
         return f"svg{{background:{ground}}}text{{fill:{ink}}}.axis{{stroke:{ink}}}.grid{{stroke:{line}}}{colours}"
 
-    style = ("text{font:12px sans-serif}path{fill:none;stroke-width:2}g path{fill:currentColor;stroke:none}path.axis{stroke-width:1}path.grid{stroke-width:.6}path[class^=s]{stroke:currentColor}polygon{fill:currentColor}"
-             + rules(0) + "@media (prefers-color-scheme:dark){" + rules(1) + "}")
-    shapes = marks().split("<defs>")[1].split("</defs>")[0]
-    return (f'{origin(figure, program)}\n<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {height}" width="{WIDTH}" height="{height}">\n<style>{style}</style>\n<defs>{shapes}</defs>\n'
-            + "\n".join("".join(elements[place:place + 12]) for place in range(0, len(elements), 12)) + "\n</svg>\n")
+    style = (
+        "text{font:12px sans-serif}path{fill:none;stroke-width:2}g "
+        "path{fill:currentColor;stroke:none}path.axis{stroke-width:1}path.grid{stroke-width:.6}"
+        "path[class^=s]{stroke:currentColor}polygon{fill:currentColor}"
+        + rules(0) + "@media (prefers-color-scheme:dark){" + rules(1) + "}")
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {height}" width="{WIDTH}" '
+        f'height="{height}">\n<style>{style}</style>\n{shapes()}\n'
+        + "\n".join("".join(elements[place:place + 12]) for place in range(0, len(elements), 12)) + "\n</svg>\n")

@@ -1,20 +1,16 @@
-"""What trax-eval measured (results.json), as the report asks for it. Nothing here is invented: a figure that a file does not have, or that is
-no finite number, is None, and arithmetic on None gives None."""
+"""What trax-eval measured (results.json), as the report asks for it. Nothing here is invented: a figure that a file
+does not have, or that is no finite number, is None, and arithmetic on None gives None."""
 
 import copy
-import json
 import math
 import pathlib
 
+from trax_eval.util import Problem, read_json
+
 HERE = pathlib.Path(__file__).resolve().parent
 FORMAT = "trax-eval-results"
-FILE_LIMIT = 1 << 28  # bytes; those of all experiments are a hundredth
 KINDS = ("primary", "shadow", "occlusion", "diffuse", "glossy", "mirror", "glass", "other")  # of rays, in this order
 COLUMNS = ("conference", "crytek", "dragon", "fairy")  # of the paper's Table 2
-
-
-class ResultsError(Exception):
-    """A file that cannot be used; the message says where and why."""
 
 
 def number(value):
@@ -42,26 +38,26 @@ def mean(values):
     values = list(values)
     if not values or None in values:
         return None
-    return values[0] if len(values) == 1 else math.fsum(values) / len(values)  # a count stays a whole number; sum rounds otherwise from Python 3.12 on
+    return values[0] if len(values) == 1 else math.fsum(values) / len(
+        values)  # a count stays a whole number; sum rounds otherwise from Python 3.12 on
 
 
 class Run:
-    """One job. get("memory.bytes") looks in its statistics, get("values.x") in what an experiment computed. asked: by the index of a run the names of
-    what it was asked for, which docs.py keeps."""
-
+    """One job. get("memory.bytes") looks in its statistics, get("values.x") in what an experiment computed. asked: by
+    the index of a run the names of what it was asked for, which docs.py keeps."""
     def __init__(self, record, index, asked):
         self.index, self.record, self.asked = index, record, asked
 
         def text(key, default=""):
             value = record.get(key, default)
             if value is not None and not isinstance(value, str):
-                raise ResultsError(f"runs[{index}].{key} is {type(value).__name__}, not a string")
+                raise Problem(f"runs[{index}].{key} is {type(value).__name__}, not a string")
             return value or default
 
         def table(key):
             value = record.get(key)
             if value is not None and not isinstance(value, dict):
-                raise ResultsError(f"runs[{index}].{key} is {type(value).__name__}, not an object")
+                raise Problem(f"runs[{index}].{key} is {type(value).__name__}, not an object")
             return value or {}
 
         self.key, self.scene, self.view = text("key"), text("scene"), text("view")
@@ -70,20 +66,25 @@ class Run:
         self.variant = text("variant")
         self.status, self.error, self.command = text("status", "missing"), text("error"), text("command")
         self.json, self.csv, self.picture = text("json"), text("csv"), text("picture")
-        self.set, self.stats, self.values, self.machine = table("set"), table("stats"), table("values"), table("machine")
+        self.set, self.stats, self.values, self.machine = table("set"), table("stats"), table("values"), table(
+            "machine")
         self.host_seconds = number(record.get("host_seconds"))
         size = record.get("size")
-        self.size = tuple(size) if isinstance(size, list) and len(size) == 2 and all(isinstance(n, int) and n > 0 for n in size) else None
+        self.size = tuple(size) if isinstance(size, list) and len(size) == 2 and all(
+            isinstance(n, int) and n > 0 for n in size) else None
         experiments = record.get("experiments") or []
         if not isinstance(experiments, list):
-            raise ResultsError(f"runs[{index}].experiments is not a list")
+            raise Problem(f"runs[{index}].experiments is not a list")
         self.experiments = [name for name in experiments if isinstance(name, str)]
-        self.points = record.get("points") or [{"experiment": name, "config": self.config, "set": self.set, "variant": self.variant} for name in self.experiments]
+        self.points = record.get("points") or [{
+            "experiment": name, "config": self.config, "set": self.set, "variant": self.variant
+        } for name in self.experiments]
         if not isinstance(self.points, list):
-            raise ResultsError(f"runs[{index}].points is not a list")
+            raise Problem(f"runs[{index}].points is not a list")
         for place, point in enumerate(self.points):
-            if not isinstance(point, dict) or not isinstance(point.get("config"), str) or not isinstance(point.get("set"), dict):
-                raise ResultsError(f"runs[{index}].points[{place}] has no config and set")
+            if not isinstance(point, dict) or not isinstance(point.get("config"), str) or not isinstance(
+                    point.get("set"), dict):
+                raise Problem(f"runs[{index}].points[{place}] has no config and set")
 
     @property
     def done(self):
@@ -117,7 +118,8 @@ class Run:
 
     def kinds(self):
         """Of rays, of which the run has any."""
-        found = [name.split(".")[1] for name in self.values if name.startswith("rays.") and name.endswith(".count")] if self.done else []
+        found = [name.split(".")[1] for name in self.values
+                 if name.startswith("rays.") and name.endswith(".count")] if self.done else []
         found.sort(key=lambda kind: (KINDS.index(kind) if kind in KINDS else len(KINDS), kind))
         return [kind for kind in found if self.get(f"values.rays.{kind}.count")]
 
@@ -171,45 +173,59 @@ class Run:
 
     def name(self):
         changed = "".join(f", {key} = {value}" for key, value in sorted(self.set.items()))
-        return ", ".join(part for part in (self.scene, self.config + changed, self.program, self.workload, self.variant, self.mode) if part)
+        return ", ".join(part for part in (self.scene, self.config + changed, self.program, self.workload, self.variant,
+                                           self.mode) if part)
 
 
 def upgrade(document):
     """Version 1 had no titles; what of the paper its scenes stand for was known here."""
-    papers = {"conference": "conference", "crytek-sponza": "crytek", "dragon": "dragon", "forest": "fairy", "dragon-close": "dragon"}
+    papers = {
+        "conference": "conference", "crytek-sponza": "crytek", "dragon": "dragon", "forest": "fairy",
+        "dragon-close": "dragon"
+    }
     runs = [run for run in document.get("runs") or [] if isinstance(run, dict)]
 
     def named(key, order=()):
-        return sorted({run[key] for run in runs if isinstance(run.get(key), str)}, key=lambda name: (order.index(name) if name in order else len(order), name))
+        return sorted({run[key] for run in runs if isinstance(run.get(key), str)}, key=lambda name:
+                      (order.index(name) if name in order else len(order), name))
 
-    return {**document, "version": 2, "programs": [{"name": name} for name in named("program")],
-            "scenes": [{"name": name, "paper": papers.get(name)} for name in named("scene", list(papers))]}
+    return {
+        **document, "version": 2, "programs": [{"name": name} for name in named("program")],
+        "scenes": [{"name": name, "paper": papers.get(name)} for name in named("scene", list(papers))]
+    }
 
 
 class Results:
     def __init__(self, document, runs=None):
         if not isinstance(document, dict) or document.get("format") != FORMAT:
-            raise ResultsError(f"is not a file of results: \"format\" is not \"{FORMAT}\"")
+            raise Problem(f"is not a file of results: \"format\" is not \"{FORMAT}\"")
         if document.get("version") not in (1, 2):
-            raise ResultsError(f"\"version\" is {document.get('version')!r}; this report reads versions 1 and 2")
+            raise Problem(f"\"version\" is {document.get('version')!r}; this report reads versions 1 and 2")
         for key in ("runs", "sweeps", "series", "programs", "scenes", "workloads"):
             if not isinstance(document.get(key), (list, type(None))):
-                raise ResultsError(f"\"{key}\" is not a list")
+                raise Problem(f"\"{key}\" is not a list")
             for index, entry in enumerate(document.get(key) or []):
                 if not isinstance(entry, dict):
-                    raise ResultsError(f"{key}[{index}] is not an object")
+                    raise Problem(f"{key}[{index}] is not an object")
         self.document = document = upgrade(document) if document["version"] == 1 else document
         self.asked = {}
-        self.runs = [Run(record, index, self.asked) for index, record in enumerate(document.get("runs") or [])] if runs is None else runs
+        self.runs = [Run(record, index, self.asked)
+                     for index, record in enumerate(document.get("runs") or [])] if runs is None else runs
         self.sweeps = document.get("sweeps") or []
         self.series = document.get("series") or []
         self.by_key = {run.key: run for run in self.runs}
-        # The column of the paper's Table 2 that a scene is compared with; of each column the first such scene, or a name that no run has.
-        self.stands_for = {entry.get("name"): entry["paper"] for entry in document.get("scenes") or [] if entry.get("paper") in COLUMNS}
-        self.columns = {column: next((scene for scene, paper in self.stands_for.items() if paper == column), column) for column in COLUMNS}
+        # The column of the paper's Table 2 that a scene is compared with; of each column the first such scene, or a
+        # name that no run has.
+        self.stands_for = {
+            entry.get("name"): entry["paper"] for entry in document.get("scenes") or [] if entry.get("paper") in COLUMNS
+        }
+        self.columns = {
+            column: next((scene for scene, paper in self.stands_for.items() if paper == column), column)
+            for column in COLUMNS
+        }
         self.papers = list(self.columns.values())
-        # The plain cells: the chip as the paper has it, or with another bandwidth. A finished run goes before any other, a larger
-        # picture before a smaller one, and an exact run before a sampled one.
+        # The plain cells: the chip as the paper has it, or with another bandwidth. A finished run goes before any
+        # other, a larger picture before a smaller one, and an exact run before a sampled one.
         self._cells = {}
         for run in self.runs:
             others = {key: value for key, value in run.set.items() if key != "memory.bandwidth_gbps"}
@@ -244,10 +260,14 @@ class Results:
         return Results(self.document, [run for run in self.runs if sweep in run.experiments])
 
     def named(self, kind):
-        """Of "programs", "scenes", "workloads": what is known of each that has runs, by name, in the order of the file."""
+        """Of "programs", "scenes", "workloads": what is known of each that has runs, by name, in the order of the
+        file."""
         known = {entry["name"]: entry for entry in self.document.get(kind) or [] if isinstance(entry.get("name"), str)}
         present = dict.fromkeys(getattr(run, kind[:-1]) for run in self.runs)
-        return {name: known.get(name, {}) for name in [*(name for name in known if name in present), *(name for name in present if name and name not in known)]}
+        return {
+            name: known.get(name, {}) for name in
+            [*(name for name in known if name in present), *(name for name in present if name and name not in known)]
+        }
 
     def title(self, kind, name):
         title = self.named(kind).get(name, {}).get("title")
@@ -273,26 +293,14 @@ class Results:
         for run in runs:
             for key in {key for other in runs for key in other.machine} - set(run.set):
                 value = run.machine.get(key)
-                seen.setdefault(key, set()).add(str(value).lower() if isinstance(value, bool) else None if value is None else str(value))
+                seen.setdefault(key, set()).add(
+                    str(value).lower() if isinstance(value, bool) else None if value is None else str(value))
         return sorted((key, *values) for key, values in seen.items() if len(values) == 1 and None not in values)
 
 
 def read_results(path):
+    value = read_json(path, strict=False)
     try:
-        with open(path, "rb") as file:
-            data = file.read(FILE_LIMIT + 1)
-        if len(data) > FILE_LIMIT:
-            raise ResultsError(f"{path}: more than {FILE_LIMIT} bytes")
-        text = data.decode("utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise ResultsError(f"{path}: cannot be read: {error}") from None
-    try:
-        return Results(json.loads(text))
-    except json.JSONDecodeError as error:
-        raise ResultsError(f"{path}:{error.lineno}:{error.colno}: is not JSON: {error.msg}") from None
-    except ValueError as error:  # a number of thousands of digits
-        raise ResultsError(f"{path}: {error}") from None
-    except RecursionError:
-        raise ResultsError(f"{path}: is nested too deeply") from None
-    except ResultsError as error:
-        raise ResultsError(f"{path}: {error}") from None
+        return Results(value)
+    except Problem as problem:
+        raise Problem(f"{path}: {problem}") from None

@@ -1,14 +1,16 @@
-"""A table as data, built once: text for the command's output, Markdown for the pages of docs. markup.py writes it as HTML."""
+"""A table as data, built once: text for the command's output, Markdown for the pages of docs. markup.py writes it as
+HTML."""
 
 import math
 import textwrap
 
 
 def number(value, digits=3):
-    """A number for reading: so many significant digits, thousands apart, whole numbers as they are; None if there is none."""
+    """A number for reading: so many significant digits, thousands apart, whole numbers as they are; None if there is
+    none."""
     if value is None:
         return None
-    if isinstance(value, int) or abs(value) >= 10 ** digits or value == 0:
+    if isinstance(value, int) or abs(value) >= 10**digits or value == 0:
         return f"{value:,.0f}"
     if abs(value) < 1e-4:
         return f"{value:.{digits - 1}e}"
@@ -44,9 +46,8 @@ def between(interval):
 
 
 class Cell:
-    """shown: the text, None if nothing was measured; value: what the page sorts by; below: what stands beside it, smaller; links: (text, address);
-    style, title, link, identity: of the page alone."""
-
+    """shown: the text, None if nothing was measured; value: what the page sorts by; below: what stands beside it,
+    smaller; links: (text, address); style, title, link, identity: of the page alone."""
     def __init__(self, shown, value=None, below="", style="", title="", link="", links=(), identity=""):
         self.value = float(value) if isinstance(value, int) and abs(value) < 1 << 53 else value
         self.shown, self.below, self.style = shown, below, style
@@ -75,7 +76,6 @@ EMPTY = Cell("")
 class Table:
     """columns: (title, kind), kind "n" for numbers, "t" for text, None where the page does not sort. rows: lists of
     cells. notes: (of what, text), what is too long for a cell."""
-
     def __init__(self, identity, title, columns, rows, note="", notes=()):
         self.identity, self.title, self.columns, self.rows = identity, title, columns, rows
         self.note, self.notes = note, notes
@@ -96,15 +96,20 @@ class Table:
 
     def lines(self, padded):
         """Of Markdown; padded: to be read as it stands."""
-
         def plain(cell):
             text = "-" if cell.shown is None else " ".join([cell.shown, *(text for text, _ in cell.links)])
-            return (f"{text} ({cell.below})" if cell.below else text).replace("\u00a0", " ").replace("\n", " ").replace("|", "\\|")
+            text = f"{text} ({cell.below})" if cell.below else text
+            return text.replace("\u00a0", " ").replace("\n", " ").replace("|", "\\|")
 
-        rows = [[title.replace("|", "\\|") for title, _ in self.columns], *([plain(cell) for cell in row] for row in self.rows)]
+        rows = [[title.replace("|", "\\|") for title, _ in self.columns],
+                *([plain(cell) for cell in row] for row in self.rows)]
         widths = [max(len(row[place]) for row in rows) if padded else 0 for place in range(len(self.columns))]
         numeric = [kind == "n" for _, kind in self.columns]
-        shown = ["| " + " | ".join(text.rjust(width) if right else text.ljust(width) for text, width, right in zip(row, widths, numeric)) + " |" for row in rows]
+        shown = [
+            "| " + " | ".join(
+                text.rjust(width) if right else text.ljust(width)
+                for text, width, right in zip(row, widths, numeric)) + " |" for row in rows
+        ]
         rule = "|" + "|".join("-" * (width + 2) for width in widths) + "|" if padded else "|" + " --- |" * len(widths)
         return [shown[0], rule, *shown[1:]]
 

@@ -1,4 +1,5 @@
-"""Files of JSON that people write: a sweep, a program, a scene, a workload. What is wrong with one is an error with its name and the key."""
+"""Files of JSON that people write: a sweep, a program, a scene, a workload. What is wrong with one is an error with its
+name and the key."""
 
 import difflib
 import pathlib
@@ -22,7 +23,6 @@ def suggestion(name, names):
 
 class Fields:
     """The members of an object. path: the file, or the file and the place in it."""
-
     def __init__(self, path, value, keys):
         self.path, self.value = path, value
         if not isinstance(value, dict):
@@ -90,7 +90,9 @@ def find_file(kind, name, beside):
     """The file of what comes with trax under that name, or NAME.json in the folder `beside`; None if there is none."""
     if not re.fullmatch(r"[\w.+/-]{1,200}", name):
         return None
-    places = [pathlib.Path(beside, name)] if name.endswith(".json") else [FOLDER / place / f"{name}.json" for place in PLACES.get(kind, (kind,))]
+    places = [pathlib.Path(beside, name)] if name.endswith(".json") else [
+        FOLDER / place / f"{name}.json" for place in PLACES.get(kind, (kind, ))
+    ]
     return next((path for path in places if path.is_file()), None)
 
 

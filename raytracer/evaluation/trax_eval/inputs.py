@@ -1,4 +1,5 @@
-"""What programs read: prepared by trax-render, changed by the program's converter, and kept under the hash of what the manifest says."""
+"""What programs read: prepared by trax-render, changed by the program's converter, and kept under the hash of what the
+manifest says."""
 
 import contextlib
 import filecmp
@@ -7,7 +8,7 @@ import pathlib
 import shutil
 import typing
 
-from .manifest import read_manifest, seal
+from .manifest import forget_machine, read_manifest, seal
 from .programs import Program, convert
 from .scratch import new_scratch
 from .tools import run_tools
@@ -25,15 +26,17 @@ class Request(typing.NamedTuple):
     view: str | None
     size: str
     program: Program
-    chip: tuple | None  # what of it decides about the program, its TMs and the bytes of an instruction cache; None: nothing does
+    # what of it decides about the program, its TMs and the bytes of an instruction cache; None: nothing does
+    chip: tuple | None
     options: tuple  # of trax-render
     sampling: tuple  # those for a run of some parts
     whole: bool  # trax-render is to run again, to estimate or to measure
 
 
 def prepare_inputs(out, tools, requests, jobs, only_look=False):
-    """The files that programs read for pictures, several at the same time. requests: by Request, the options of trax-render that name its program. Yields
-    (request, description or Problem) as they get ready; the description is part of the job. only_look: nothing is kept."""
+    """The files that programs read for pictures, several at the same time. requests: by Request, the options of
+    trax-render that name its program. Yields (request, description or Problem) as they get ready; the description is
+    part of the job. only_look: nothing is kept."""
     with contextlib.ExitStack() as stack:
 
         def new_folder():
@@ -42,12 +45,14 @@ def prepare_inputs(out, tools, requests, jobs, only_look=False):
             return folder
 
         waiting = [(request, built, new_folder()) for request, built in requests.items()]
-        runs = stack.enter_context(contextlib.closing(run_tools([prepare_command(tools, *one) for one in waiting], jobs)))
+        runs = stack.enter_context(
+            contextlib.closing(run_tools([prepare_command(tools, *one) for one in waiting], jobs)))
         for place, run in runs:
             request, built, folder = waiting[place]
             try:
                 if run.returncode != 0:
-                    raise Problem(f"{request.scene}: {run.stderr.strip() or f'trax-render ended with status {run.returncode}'}")
+                    raise Problem(
+                        f"{request.scene}: {run.stderr.strip() or f'trax-render ended with status {run.returncode}'}")
                 result = keep_inputs(out, request, built, folder, only_look)
             except Problem as problem:
                 result = problem
@@ -71,6 +76,7 @@ def keep_inputs(out, request, built, folder, only_look):
         convert(program, folder)
     if program.convert or program.counters:
         seal_inputs(program, folder)
+    forget_machine(folder)
     description = description_of(read_manifest(folder))
     if request.whole:
         shutil.copyfile(request.scene, pathlib.Path(folder, "whole.trax"))
@@ -108,17 +114,25 @@ def describe_whole(program, built, more, folder):
     source = built[1] if built[:1] == ["--source"] else None
     if source:
         shutil.copytree(source, pathlib.Path(folder, SOURCE), copy_function=shutil.copyfile)
-    files = [*WHOLE_FILES, *sorted(str(path.relative_to(folder)) for path in pathlib.Path(folder, SOURCE).rglob("*") if path.is_file())]
-    return {"options": list(more), "program": not program.specialised, "source": bool(source), "files": {file: hash_file(pathlib.Path(folder, file)) for file in files}}
+    files = [
+        *WHOLE_FILES,
+        *sorted(str(path.relative_to(folder)) for path in pathlib.Path(folder, SOURCE).rglob("*") if path.is_file())
+    ]
+    return {
+        "options": list(more), "program": not program.specialised, "source": bool(source),
+        "files": {file: hash_file(pathlib.Path(folder, file)) for file in files}
+    }
 
 
 def seal_inputs(program, folder):
     """The manifest of files that the program's converter may have changed, with the buffer of its counters."""
-    more = [{"symbol": COUNTERS, "bytes": 4 * len(program.counters), "output": f"{COUNTERS}.raw"}] if program.counters else []
+    more = [{"symbol": COUNTERS, "bytes": 4 *
+             len(program.counters), "output": f"{COUNTERS}.raw"}] if program.counters else []
     try:
         seal(folder, more)
     except (OSError, ValueError, TypeError, KeyError) as error:
-        raise Problem(f"{program.file}: convert: the manifest or a file of it cannot be read any more: {error}") from None
+        raise Problem(
+            f"{program.file}: convert: the manifest or a file of it cannot be read any more: {error}") from None
 
 
 def description_of(manifest):

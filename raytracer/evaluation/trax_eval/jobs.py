@@ -10,7 +10,8 @@ A folder of results has
   runs/KEY.error  why it failed
   pictures/HASH.png    pictures by the hash of their pixels
 Every file appears complete or not at all, and runs/KEY.json last, so nothing but the runs under way is lost when
-processes die. Each has a digest: its name, its last member, or a member of runs/KEY.json. What is damaged is made anew."""
+processes die. Each has a digest: its name, its last member, or a member of runs/KEY.json. What is damaged is made
+anew."""
 
 import csv
 import json
@@ -23,6 +24,7 @@ import struct
 import subprocess
 import time
 
+from .accuracy import measure_error
 from .finished import is_done, is_picture
 from .inputs import COUNTERS, SOURCE, description_of
 from .manifest import NAME, read_manifest
@@ -32,11 +34,10 @@ from .tools import dying
 from .util import Problem, hash_bytes, hash_file, hash_value, read_json, remark, write_file, write_json, write_sealed
 
 FORMAT = 2
-OF_THE_HOST = ("program", "host_seconds", "instructions_per_host_second")  # in the statistics: they are not the machine's
-
+# In the statistics, but not of the machine.
+OF_THE_HOST = ("program", "host_seconds", "instructions_per_host_second")
 
 # --- jobs
-
 
 MEASURES = ("error", "hits")  # what trax-render tells of a picture, beside the run
 ENGINES = {"exact": "fast", "quick": "quick"}
@@ -48,9 +49,13 @@ def simulator(engine):
 
 
 def make_job(tools, inputs, point):
-    more = {name: value for name, value in (("counters", point.program.counters), ("measure", [name for name in MEASURES if getattr(point, name)])) if value}
+    more = {
+        name: value for name, value in (("counters", point.program.counters),
+                                        ("measure", [name for name in MEASURES if getattr(point, name)])) if value
+    }
     if "measure" in more:
         more["renderer"] = tools.hash("trax-render")
+        more["judge"] = tools.hash("trax-compare")
     return more | {
         "format": FORMAT,
         "emulator": tools.hash(simulator(ENGINES[point.mode])),
@@ -92,8 +97,12 @@ def is_job(path, key):
 def renderer(tools, inputs, job, scratch, threads):
     """trax-render on what the job's inputs were made of."""
     whole, size = job["inputs"]["whole"], "{width}x{height}".format_map(job["inputs"]["picture"])
-    command = [tools.path("trax-render"), str(inputs / "whole.trax"), "--view", str(inputs / "picture.view"), "--size", size, "--config", f"{scratch}/machine.cfg",
-               "--threads", str(threads), "--quiet", *whole["options"]]
+    command = [
+        tools.path("trax-render"),
+        str(inputs / "whole.trax"), "--view",
+        str(inputs / "picture.view"), "--size", size, "--config", f"{scratch}/machine.cfg", "--threads",
+        str(threads), "--quiet", *whole["options"]
+    ]
     command += ["--program", str(inputs / "program.elf")] if whole["program"] else []
     return [*command, *(["--source", str(inputs / SOURCE)] if whole["source"] else [])]
 
@@ -101,8 +110,14 @@ def renderer(tools, inputs, job, scratch, threads):
 def command_of(tools, inputs, job, scratch, threads):
     """trax-sim on the job's inputs; what it writes is in scratch."""
     if job["engine"] == "quick":
-        return [*renderer(tools, inputs, job, scratch, threads), "--sampled", "--stats", f"{scratch}/stats.json", "-o", f"{scratch}/image.png"]
-    command = [tools.path("trax-sim"), "--quiet", "--config", f"{scratch}/machine.cfg", "--engine", job["engine"], "--stats", f"{scratch}/stats.json"]
+        return [
+            *renderer(tools, inputs, job, scratch, threads), "--sampled", "--stats", f"{scratch}/stats.json", "-o",
+            f"{scratch}/image.png"
+        ]
+    command = [
+        tools.path("trax-sim"), "--quiet", "--config", f"{scratch}/machine.cfg", "--engine", job["engine"], "--stats",
+        f"{scratch}/stats.json"
+    ]
     command += ["--dump", f"{job['inputs']['picture']['buffer']}={scratch}/image.raw", "--host-threads", str(threads)]
     if job.get("counters"):
         command += ["--dump", f"{COUNTERS}={scratch}/counters.raw"]
@@ -116,12 +131,16 @@ def command_of(tools, inputs, job, scratch, threads):
     return [*command, str(inputs / NAME)]
 
 
-def measure_command(tools, out, inputs, job, scratch, threads):
-    """What trax-render tells of the picture, as JSON in scratch. It keeps what several runs need."""
-    command = renderer(tools, inputs, job, scratch, threads)
-    for name in job["measure"]:
-        command += [f"--{name}", f"{scratch}/{name}.json"]
-    return [*command, *(["--converged", str(out / "converged")] if "error" in job["measure"] else [])]
+def measure(tools, out, inputs, job, scratch, threads, run):
+    """The figures of the picture that the job asks for: {name: {figure: value}}."""
+    render = renderer(tools, inputs, job, scratch, threads)
+    figures = {}
+    if "error" in job["measure"]:
+        figures["error"] = measure_error(tools, out, inputs, job, scratch, render, run)
+    if "hits" in job["measure"]:
+        run("trax-render", [*render, "--hits", f"{scratch}/hits.json"])
+        figures["hits"] = read_json(pathlib.Path(scratch, "hits.json"))
+    return figures
 
 
 def check_inputs(job, inputs):
@@ -157,8 +176,10 @@ def run_job(out, tools, key, threads=1, on_start=None):
     if hash_value(job) != key:
         raise Problem(f"{out}/jobs/{key}.json is damaged: its name is not its hash")
     emulator = simulator(job["engine"])
-    for program, known in ((emulator, job["emulator"]), ("trax-render", job.get("renderer"))):
-        if known and known != hash_file(tools.path(program)):  # hashed anew: it may have been built since the command began
+    for program, known in ((emulator, job["emulator"]), ("trax-render", job.get("renderer")),
+                           ("trax-compare", job.get("judge"))):
+        if known and known != hash_file(
+                tools.path(program)):  # hashed anew: it may have been built since the command began
             raise Problem(f"job {key} is for another {program} than {tools.path(program)}")
     inputs = out / "inputs" / hash_value(job["inputs"])
     check_inputs(job, inputs)
@@ -168,17 +189,23 @@ def run_job(out, tools, key, threads=1, on_start=None):
         begin = time.monotonic()
         usage = run_process(emulator, command_of(tools, inputs, job, scratch, threads), scratch, on_start)
         statistics = json.loads(pathlib.Path(scratch, "stats.json").read_text())
-        host = {"host_seconds": round(time.monotonic() - begin, 3), "simulator_seconds": statistics.get("host_seconds"), "threads": threads,
-                "processor_seconds": round(usage.ru_utime + usage.ru_stime, 3), "name": socket.gethostname(), "processor": processor()}
+        host = {
+            "host_seconds": round(time.monotonic() - begin, 3), "simulator_seconds": statistics.get("host_seconds"),
+            "threads": threads, "processor_seconds": round(usage.ru_utime + usage.ru_stime,
+                                                           3), "name": socket.gethostname(), "processor": processor()
+        }
+        figures = {}
         if "measure" in job:
-            run_process("trax-render", measure_command(tools, out, inputs, job, scratch, threads), scratch, on_start)
+            figures = measure(tools, out, inputs, job, scratch, threads,
+                              lambda program, command: run_process(program, command, scratch, on_start))
         code = read_manifest(inputs).get("code")
-        keep_results(out, key, job, scratch, {name: value for name, value in statistics.items() if name not in OF_THE_HOST}, code, host)
+        statistics = {name: value for name, value in statistics.items() if name not in OF_THE_HOST}
+        keep_results(out, key, job, scratch, statistics, figures, code, host)
     finally:
         shutil.rmtree(scratch, ignore_errors=True)
 
 
-def keep_results(out, key, job, scratch, statistics, code, host):
+def keep_results(out, key, job, scratch, statistics, figures, code, host):
     picture = None
     if job["engine"] != "quick":  # a quick one is the native twin's, and of nothing that was simulated
         pixels = pathlib.Path(scratch, "image.raw").read_bytes()
@@ -190,8 +217,7 @@ def keep_results(out, key, job, scratch, statistics, code, host):
     if job["series"]:
         write_file(out / "runs" / f"{key}.csv", pathlib.Path(scratch, "series.csv").read_bytes())
         result["series"] = hash_file(pathlib.Path(scratch, "series.csv"))
-    for name in job.get("measure", ()):
-        result[name] = read_json(pathlib.Path(scratch, f"{name}.json"))
+    result |= figures
     if job.get("counters"):
         words = pathlib.Path(scratch, "counters.raw").read_bytes()
         result["counters"] = dict(zip(job["counters"], struct.unpack(f"<{len(job['counters'])}I", words)))

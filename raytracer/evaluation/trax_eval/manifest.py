@@ -43,6 +43,13 @@ def xxh128_of_file(path):
     return f"{found.high:016x}{found.low:016x}"
 
 
+def forget_machine(folder):
+    """Machines share inputs, and a job names its own: whichever came first must not stand here."""
+    manifest = read_manifest(folder)
+    manifest.pop("configuration", None)
+    write_json(pathlib.Path(folder, NAME), manifest)
+
+
 def seal(folder, more=()):
     """Writes sizes and hashes of the files as they are now. more: buffers behind those that are there."""
     manifest = read_manifest(folder)

@@ -17,7 +17,7 @@ def png(picture, pixels):
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
-    rows = b"".join(b"\0" + pixels[4 * width * row : 4 * width * (row + 1)] for row in range(height))
+    rows = b"".join(b"\0" + pixels[4 * width * row:4 * width * (row + 1)] for row in range(height))
     header = struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)
     return SIGNATURE + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows, 6)) + chunk(b"IEND", b"")
 
@@ -27,11 +27,12 @@ def rows_of(data):
     width, height = struct.unpack(">II", data[16:24])
     place, packed = len(SIGNATURE), b""
     while place < len(data):
-        size, kind = struct.unpack(">I4s", data[place : place + 8])
-        packed += data[place + 8 : place + 8 + size] if kind == b"IDAT" else b""
+        size, kind = struct.unpack(">I4s", data[place:place + 8])
+        packed += data[place + 8:place + 8 + size] if kind == b"IDAT" else b""
         place += 12 + size
     rows = zlib.decompress(packed)
-    return (width, height), [memoryview(rows)[row * (4 * width + 1) + 1 : (row + 1) * (4 * width + 1)] for row in range(height)]
+    return (width,
+            height), [memoryview(rows)[row * (4 * width + 1) + 1:(row + 1) * (4 * width + 1)] for row in range(height)]
 
 
 def pixels_that_differ(one, other):
@@ -41,7 +42,8 @@ def pixels_that_differ(one, other):
     (size, rows), (other_size, other_rows) = rows_of(one.read_bytes()), rows_of(other.read_bytes())
     if size != other_size:
         return None
-    return sum(a != b for row, beside in zip(rows, other_rows) if row != beside for a, b in zip(pixels_of(row), pixels_of(beside)))
+    return sum(a != b for row, beside in zip(rows, other_rows) if row != beside
+               for a, b in zip(pixels_of(row), pixels_of(beside)))
 
 
 def pixels_of(row):

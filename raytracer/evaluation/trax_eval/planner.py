@@ -14,20 +14,22 @@ from .util import Problem, hash_value
 
 
 def check_names(options, sweeps):
-    """Names of --program are those of programs that come with trax, or that a sweep has; other names are those of a sweep."""
+    """Names of --program are those of programs that come with trax, or that a sweep has; other names are those of a
+    sweep."""
     known = dict.fromkeys([*installed("programs"), *(program.name for sweep in sweeps for program in sweep.programs)])
     for program in options.programs or ():
         if not isinstance(program, Program) and program not in known:
             raise Problem(f'--program {program}: allowed are {", ".join(known)}, and files NAME.json')
-    for option, given, known in (("scene", options.scene, [scene for sweep in sweeps for scene in sweep.scenes]), ("variant", options.variant, [name for sweep in sweeps for name in sweep.variants])):
+    for option, given, known in (("scene", options.scene, [scene for sweep in sweeps for scene in sweep.scenes]),
+                                 ("variant", options.variant, [name for sweep in sweeps for name in sweep.variants])):
         for name in given or ():
             if name not in known:
                 raise Problem(f'--{option} {name}: the sweep has {"; ".join(dict.fromkeys(known)) or "none"}')
 
 
 def check_machines(sweeps, tools):
-    """A wrong key or value of the configuration, or an option that its program refuses, is the sweep's mistake, and ends the command before anything is written."""
-
+    """A wrong key or value of the configuration, or an option that its program refuses, is the sweep's mistake, and
+    ends the command before anything is written."""
     def check(place, tool, words):
         for option, use in tools.given(place, tool, tuple(words)) if words else ():
             if option in TAKEN[tool]:
@@ -59,9 +61,9 @@ def check_machines(sweeps, tools):
 
 class Planner:
     """From points to keys of jobs. Programs are built, scenes imported and inputs prepared once each."""
-
     def __init__(self, out, tools, folder, quiet, only_look, scratch):
-        self.out, self.tools, self.folder, self.quiet, self.only_look, self.scratch = out, tools, folder, quiet, only_look, scratch
+        self.out, self.tools, self.folder, self.scratch = out, tools, folder, scratch
+        self.quiet, self.only_look = quiet, only_look
         self.made, self.hashes = {}, {}
         self.not_imported = {}  # path of a scene file: why it could not be made
         self.prepared = {}  # Request: description of the inputs, or Problem
@@ -84,7 +86,6 @@ class Planner:
 
     def program(self, program):
         """Options of trax-render."""
-
         def make():
             self.note(f"{program.name}: compiling")
             return build(self.tools, program, tempfile.mkdtemp(dir=self.scratch))
@@ -96,10 +97,11 @@ class Planner:
         scene, workload = sweep.scenes[point.scene], sweep.workloads[point.workload]
         options = tuple(point.options("trax-scene", workload))
         machine = point.chip_file, point.machine()
-        order = order_options(self.tools.whole(*machine, "dcache.bytes")) if point.program.specialised else []  # it is made for a machine, as trax-render has it
-        return self.once(("scene", point.scene, scene["folder"], tuple(scene["meshes"]), options, tuple(order)),
-                         lambda: plan_scene(self.out, self.tools, self.folder, scene, [*order, *options], self.hashes,
-                                            self.only_look))
+        order = order_options(self.tools.whole(*machine, "dcache.bytes")) if point.program.specialised else [
+        ]  # it is made for a machine, as trax-render has it
+        return self.once(
+            ("scene", point.scene, scene["folder"], tuple(scene["meshes"]), options, tuple(order)), lambda: plan_scene(
+                self.out, self.tools, self.folder, scene, [*order, *options], self.hashes, self.only_look))
 
     def import_all(self, sweeps, jobs):
         """The scenes of all sweeps, several at the same time."""
@@ -131,13 +133,17 @@ class Planner:
         scene, program, workload = sweep.scenes[point.scene], point.program, sweep.workloads[point.workload]
         machine = point.chip_file, point.machine()
         rendered = tuple(point.options("trax-render", workload))
-        sampling = tuple(word for word in rendered if word.startswith("--sample-") and point.mode == "quick")  # all of an exact picture is simulated
+        sampling = tuple(
+            word for word in rendered
+            if word.startswith("--sample-") and point.mode == "quick")  # all of an exact picture is simulated
         rendered = tuple(word for word in rendered if not word.startswith("--sample-"))
         path = self.scene_file(sweep, point)
         if path is None:
             return None
-        chip = tuple(self.tools.whole(*machine, key) for key in ("chip.tms", "icache.bytes")) if program.specialised else None
-        return Request(path, scene["view"], point.size, program, chip, rendered, sampling, whole=point.mode == "quick" or point.error or point.hits)
+        chip = tuple(self.tools.whole(*machine, key)
+                     for key in ("chip.tms", "icache.bytes")) if program.specialised else None
+        return Request(path, scene["view"], point.size, program, chip, rendered, sampling,
+                       whole=point.mode == "quick" or point.error or point.hits)
 
     def prepare_all(self, sweeps, jobs):
         """The inputs of all sweeps, several at the same time."""
@@ -174,8 +180,11 @@ class Planner:
             inputs = self.inputs(sweep, point)
             if inputs is None:  # none of its runs has been made
                 machine = self.tools.configuration(point.chip_file, point.machine())
-                return "-" + hash_value([point.scene, point.program.file, machine, point.size, point.mode, point.series, point.lockstep, point.ray_kinds, point.workload,
-                                         [pair for pair in point.settings if option_of(pair[0])], point.error, point.hits]), None
+                return "-" + hash_value([
+                    point.scene, point.program.file, machine, point.size, point.mode, point.series,
+                    point.lockstep, point.ray_kinds, point.workload,
+                    [pair for pair in point.settings if option_of(pair[0])], point.error, point.hits
+                ]), None
             job = make_job(self.tools, inputs, point)
         except Problem as problem:
             return None, str(problem)
@@ -184,4 +193,5 @@ class Planner:
 
 def label(point):
     changes = "".join(f" {key}={value}" for key, value in point.settings)
-    return f"{point.scene} {point.chip}{f' ({point.variant})' if point.variant else changes} {point.program.name}{f' {point.workload}' if point.workload else ''} {point.size}"
+    machine = point.chip + (f" ({point.variant})" if point.variant else changes)
+    return " ".join(part for part in (point.scene, machine, point.program.name, point.workload, point.size) if part)

@@ -13,7 +13,8 @@ from .fields import INSTALLED, find_file, read_fields, unknown
 from .tools import run_tool
 from .util import Problem, canonical
 
-KEYS = ("name", "title", "like", "program", "source", "flags", "patch", "scene", "render", "set", "convert", "counters", "rays")
+KEYS = ("name", "title", "like", "program", "source", "flags", "patch", "scene", "render", "set", "convert", "counters",
+        "rays")
 SET_KEYS = ("name", "title", "programs")
 SPECIALISED = "specialised"  # trax-render makes it for scene, view and chip
 DEVICE = "raytracer"  # its source, in the installation
@@ -29,7 +30,8 @@ class Program:
     title: str
     file: str
     program: str
-    source: pathlib.Path | None  # the ELF or C file, or the folder of a specialised program's source; None: the installation's
+    # the ELF or C file, or the folder of a specialised program's source; None: the installation's
+    source: pathlib.Path | None
     flags: list
     patches: list
     scene: list  # options of trax-scene
@@ -46,18 +48,23 @@ class Program:
     @property
     def plain(self):
         """It runs as trax-render has it: nothing is compiled or changed here."""
-        return not (self.patches or self.convert or self.counters or self.program.endswith(".c") or self.source and self.specialised)
+        return not (self.patches or self.convert or self.counters or self.program.endswith(".c") or
+                    self.source and self.specialised)
 
 
 def check_settings(fields):
     value = fields.value.get("set", {})
-    if not isinstance(value, dict) or not all(isinstance(item, (bool, int, float)) or isinstance(item, str) and item.isalpha() for item in value.values()):
-        fields.fail("set", f"expected an object of keys of the machine, each with a number or a word, is {canonical(value)}")
+    if not isinstance(value, dict) or not all(
+            isinstance(item, (bool, int, float)) or isinstance(item, str) and item.isalpha()
+            for item in value.values()):
+        fields.fail("set",
+                    f"expected an object of keys of the machine, each with a number or a word, is {canonical(value)}")
     return tuple(value.items())
 
 
 def read_members(path, seen=()):
-    """The file's members and, under `like`, those of another program that it does not have: (Fields, the folder of the file that says each)."""
+    """The file's members and, under `like`, those of another program that it does not have: (Fields, the folder of the
+    file that says each)."""
     path = pathlib.Path(path).resolve()
     fields = read_fields(path, KEYS)
     folders = dict.fromkeys(fields.value, path.parent)
@@ -66,7 +73,8 @@ def read_members(path, seen=()):
         if not base or base.resolve() in (path, *seen):
             fields.fail("like", f'"{fields.value["like"]}" is no other program')
         others, other_folders = read_members(base, (path, *seen))
-        fields.value = {key: value for key, value in others.value.items() if key not in ("name", "title")} | fields.value
+        fields.value = {key: value
+                        for key, value in others.value.items() if key not in ("name", "title")} | fields.value
         folders = other_folders | folders
     return fields, folders
 
@@ -85,7 +93,8 @@ def read_program(path):
 
     program = fields.text("program", "")
     if program != SPECIALISED and not re.fullmatch(r".+\.(elf|c)", program):
-        fields.fail("program", f'expected "{SPECIALISED}", "FILE.elf" or "FILE.c", is {canonical(fields.value.get("program"))}')
+        fields.fail("program",
+                    f'expected "{SPECIALISED}", "FILE.elf" or "FILE.c", is {canonical(fields.value.get("program"))}')
     source = None
     if program == SPECIALISED:
         source = place("source", fields.text("source", "")) if "source" in fields.value else None
@@ -100,12 +109,17 @@ def read_program(path):
     if program == SPECIALISED and flags:
         fields.fail("flags", f'is for "FILE.c"; {program} programs are compiled by trax-render')
     counters = fields.words("counters", "names")
-    if len(counters) > MOST_COUNTERS or len(set(counters)) != len(counters) or not all(re.fullmatch(r"[\w.]+", counter) for counter in counters):
-        fields.fail("counters", f"expected at most {MOST_COUNTERS} names of letters, digits, . and _, none of them twice")
+    if len(counters) > MOST_COUNTERS or len(set(counters)) != len(counters) or not all(
+            re.fullmatch(r"[\w.]+", counter) for counter in counters):
+        fields.fail("counters",
+                    f"expected at most {MOST_COUNTERS} names of letters, digits, . and _, none of them twice")
     options = {key: fields.words(key, "the options and their values") for key in ("scene", "render")}
-    convert = [str(folders["convert"] / word) if (folders["convert"] / word).is_file() else word for word in fields.words("convert", "a command and its arguments")]
-    return Program(name, fields.text("title", name), str(path), program, source, flags, patches, options["scene"], options["render"], check_settings(fields), convert, counters,
-                   fields.flag("rays"))
+    convert = [
+        str(folders["convert"] / word) if (folders["convert"] / word).is_file() else word
+        for word in fields.words("convert", "a command and its arguments")
+    ]
+    return Program(name, fields.text("title", name), str(path), program, source, flags, patches, options["scene"],
+                   options["render"], check_settings(fields), convert, counters, fields.flag("rays"))
 
 
 def find_programs(name, beside, sets=True):
@@ -124,7 +138,8 @@ def find_programs(name, beside, sets=True):
 
 
 def compiler_failed(program, run):
-    raise Problem(f"{program.file}: program: {next((line for line in run.stderr.splitlines() if 'error' in line), run.stderr.strip()) or f'clang ended with status {run.returncode}'}")
+    said = next((line for line in run.stderr.splitlines() if "error" in line), run.stderr.strip())
+    raise Problem(f"{program.file}: program: {said or f'clang ended with status {run.returncode}'}")
 
 
 def patched(program, folder, scratch):
@@ -133,12 +148,16 @@ def patched(program, folder, scratch):
     shutil.copytree(folder, copy, copy_function=shutil.copyfile)
     for patch in program.patches:
         try:  # git would look for a repository above, and leave out what is not in it
-            run = subprocess.run(["git", "apply", "--whitespace=nowarn", str(patch)], cwd=copy, capture_output=True, text=True, errors="replace",
-                                 env=os.environ | {"GIT_CEILING_DIRECTORIES": str(copy.parent)})
+            run = subprocess.run(
+                ["git", "apply", "--whitespace=nowarn", str(patch)], cwd=copy, capture_output=True, text=True,
+                errors="replace", env=os.environ | {"GIT_CEILING_DIRECTORIES": str(copy.parent)})
         except FileNotFoundError:
             raise Problem(f"{program.file}: patch: git is not installed") from None
         if run.returncode != 0:
-            raise Problem(f"{program.file}: patch: {patch.name} does not fit {folder}: {run.stderr.strip().splitlines()[-1] if run.stderr.strip() else 'git apply failed'}")
+            raise Problem(
+                f"{program.file}: patch: {patch.name} does not fit {folder}: "
+                f"{run.stderr.strip().splitlines()[-1] if run.stderr.strip() else 'git apply failed'}"
+            )
     return copy
 
 
@@ -153,7 +172,11 @@ def build(tools, program, scratch):
         return ["--program", str(program.source)]
     folder = patched(program, program.source.parent, scratch) if program.patches else program.source.parent
     elf = pathlib.Path(scratch, "program.elf")
-    process = run_tool([tools.path("trax-clang"), *FLAGS, *program.flags, "-I", str(INSTALLED / DEVICE), program.source.name, "-o", str(elf)], cwd=folder)
+    process = run_tool([
+        tools.path("trax-clang"), *FLAGS, *program.flags, "-I",
+        str(INSTALLED / DEVICE), program.source.name, "-o",
+        str(elf)
+    ], cwd=folder)
     if process.returncode != 0:
         compiler_failed(program, process)
     return ["--program", str(elf)]
@@ -168,4 +191,7 @@ def convert(program, folder):
         raise Problem(f"{program.file}: convert: {command[0]}: No such file or directory, or no program")
     run = run_tool(command, cwd=folder, env=os.environ | {"PYTHONDONTWRITEBYTECODE": "1"})
     if run.returncode != 0:
-        raise Problem(f"{program.file}: convert: {run.stderr.strip().splitlines()[-1] if run.stderr.strip() else f'it ended with status {run.returncode}'}")
+        raise Problem(
+            f"{program.file}: convert: "
+            f"{run.stderr.strip().splitlines()[-1] if run.stderr.strip() else f'it ended with status {run.returncode}'}"
+        )

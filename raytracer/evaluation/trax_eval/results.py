@@ -15,9 +15,11 @@ from .values import ratio, values_of
 
 FORMAT, VERSION = "trax-eval-results", 2
 CATALOGUES = ("programs", "scenes", "workloads")
-LEFT_OUT = ("tms", "channels", "instructions_by_operation", "identity")  # of the statistics: the run's own file has them
+LEFT_OUT = ("tms", "channels", "instructions_by_operation", "identity"
+            )  # of the statistics: the run's own file has them
 SERIES_ROWS, SERIES_BEGIN = 2000, 500
-SERIES_COLUMNS = ("issued", "icache_bank_conflict", "fp_add_conflict", "fp_mul_conflict", "dcache_bank_conflict", "wait_memory", "halted")
+SERIES_COLUMNS = ("issued", "icache_bank_conflict", "fp_add_conflict", "fp_mul_conflict", "dcache_bank_conflict",
+                  "wait_memory", "halted")
 
 
 def effective(point, tools):
@@ -29,17 +31,22 @@ def effective(point, tools):
         if not option_of(pair[0]):
             rest = tuple(other for other in point.machine() if other[0] != pair[0])
             base = tuple(other for other in point.program.settings if other[0] == pair[0])
-            if tools.configuration(point.chip_file, rest + base) == tools.configuration(point.chip_file, rest + (pair,)):
+            if tools.configuration(point.chip_file,
+                                   rest + base) == tools.configuration(point.chip_file, rest + (pair, )):
                 continue
         kept.append(pair)
     return dict(kept)
 
 
 def preset_of(point, tools):
-    """The point by the name that the paper's tables have for its machine, or as it is: 1x32 with chip.tps_per_tm=48 is 1x48."""
+    """The point by the name that the paper's tables have for its machine, or as it is: 1x32 with chip.tps_per_tm=48 is
+    1x48."""
     name = "x".join(map(str, tools.shape(point.chip_file, point.machine())))
-    other = dataclasses.replace(point, chip=name, config="", settings=tuple(pair for pair in point.settings if pair[0] not in ("chip.tms", "chip.tps_per_tm")))
-    same = name in CHIPS and tools.configuration(name, other.machine()) == tools.configuration(point.chip_file, point.machine())
+    other = dataclasses.replace(
+        point, chip=name, config="",
+        settings=tuple(pair for pair in point.settings if pair[0] not in ("chip.tms", "chip.tps_per_tm")))
+    same = name in CHIPS and tools.configuration(name, other.machine()) == tools.configuration(
+        point.chip_file, point.machine())
     return other if same else point
 
 
@@ -49,50 +56,74 @@ def machine_of(point, tools):
 
 def plan_file(out, sweep):
     modes = {"quick"} if sweep.quick else {point.mode for point in sweep.points} - {"exact"}
-    return out / "sweeps" / ".".join([sweep.name, *sorted(modes), "json"])  # exact runs stay in the results beside estimates of the same sweep
+    return out / "sweeps" / ".".join([sweep.name, *sorted(modes), "json"
+                                      ])  # exact runs stay in the results beside estimates of the same sweep
 
 
 def references(sweep, keys):
-    """Point -> key of the run whose picture its own is compared with: that of the sweep's reference, otherwise as alike as there is."""
+    """Point -> key of the run whose picture its own is compared with: that of the sweep's reference, otherwise as alike
+    as there is."""
     found = {}
     for point in sweep.points if sweep.reference else ():
-        same = [other for other in sweep.points if sweep.reference in (other.variant, other.program.name) and (other.scene, other.workload) == (point.scene, point.workload)]
+        same = [
+            other for other in sweep.points if sweep.reference in (other.variant, other.program.name) and
+            (other.scene, other.workload) == (point.scene, point.workload)
+        ]
         if same:
-            found[point] = keys[max(same, key=lambda other: (other.chip == point.chip, len(set(other.settings) & set(point.settings)), other.program is point.program))][0]
+            found[point] = keys[max(
+                same, key=lambda other: (other.chip == point.chip, len(set(other.settings) & set(point.settings)), other
+                                         .program is point.program))][0]
     return found
 
 
 def write_plan(out, sweep, keys, tools):
-    """What a sweep asks for, so that results.json can be made of all sweeps in the folder. keys: point -> key, or the reason why there is none."""
+    """What a sweep asks for, so that results.json can be made of all sweeps in the folder. keys: point -> key, or the
+    reason why there is none."""
     points, compared = [], references(sweep, keys)
     for point in sweep.points:
         key, reason = keys[point]
         scene, workload = sweep.scenes[point.scene], sweep.workloads[point.workload]
-        order = order_options(tools.whole(point.chip_file, point.machine(), "dcache.bytes")) if point.program.specialised else []
+        order = order_options(tools.whole(point.chip_file, point.machine(),
+                                          "dcache.bytes")) if point.program.specialised else []
         imported = point.options("trax-scene", workload)
-        points.append({"scene": point.scene, "view": scene["view"], "program": point.program.name, **machine_of(point, tools),
-                       "preset": machine_of(preset_of(point, tools), tools), "size": [int(side) for side in point.size.split("x")], "mode": point.mode, "workload": point.workload,
-                       "variant": point.variant, "chip_file": point.chip_file, "import": [*order, *imported] if imported else [],
-                       "options": point.options("trax-render", workload), "elf": None if point.program.specialised else str(point.program.source),
-                       "plain": point.program.plain, "reference": compared.get(point), "key": key, "error": reason})
+        points.append({
+            "scene": point.scene, "view": scene["view"], "program": point.program.name,
+            **machine_of(point, tools), "preset": machine_of(preset_of(point, tools), tools),
+            "size": [int(side) for side in point.size.split("x")], "mode": point.mode, "workload": point.workload,
+            "variant": point.variant, "chip_file": point.chip_file, "import": [*order, *imported] if imported else [],
+            "options": point.options("trax-render",
+                                     workload), "elf": None if point.program.specialised else str(point.program.source),
+            "plain": point.program.plain, "reference": compared.get(point), "key": key, "error": reason
+        })
     used = {point.workload for point in sweep.points}
-    write_sealed(plan_file(out, sweep), {"name": sweep.name, "title": sweep.title, "x": sweep.x, "y": sweep.y, "y_per": sweep.y_per or None, "claim": sweep.claim,
-                                         "file": sweep.file, "variants": sweep.variants, "reference": sweep.reference or None, "table": sweep.table,
-                                         "programs": [{"name": program.name, "title": program.title} for program in sweep.programs],
-                                         "scenes": [{name: scene[name] for name in ("name", "title", "licence", "paper")} for scene in sweep.scenes.values()],
-                                         "workloads": [{name: workload[name] for name in ("name", "title")} for name, workload in sweep.workloads.items() if name and name in used],
-                                         "points": points})
+    write_sealed(
+        plan_file(out, sweep), {
+            "name": sweep.name, "title": sweep.title, "x": sweep.x, "y": sweep.y, "y_per": sweep.y_per or None,
+            "claim": sweep.claim, "file": sweep.file, "variants": sweep.variants, "reference": sweep.reference or None,
+            "table": sweep.table, "programs": [{"name": program.name, "title": program.title}
+                                               for program in sweep.programs],
+            "scenes": [{name: scene[name] for name in ("name", "title", "licence", "paper")}
+                       for scene in sweep.scenes.values()],
+            "workloads": [{name: workload[name] for name in ("name", "title")}
+                          for name, workload in sweep.workloads.items() if name and name in used], "points": points
+        })
 
 
 def repeat_command(point, result):
-    """The command that makes this run alone; of a program that is compiled or changed, from the inputs that were made."""
+    """The command that makes this run alone; of a program that is compiled or changed, from the inputs that were
+    made."""
     machine = ["--config", point.get("chip_file", point["config"])]
     for name, value in point["machine"].items():
         machine += ["--set", f"{name}={str(value).lower() if isinstance(value, bool) else value}"]
     if not point.get("plain", True):
-        return shlex.join(["trax-sim", f"inputs/{hash_value(result['job']['inputs'])}/manifest.json", *machine, "--stats", "stats.json"]) if result else ""
+        return shlex.join([
+            "trax-sim", f"inputs/{hash_value(result['job']['inputs'])}/manifest.json", *machine, "--stats", "stats.json"
+        ]) if result else ""
     imported = ["trax-scene", *point.get("import", []), "MESHES", "-o", "scene.trax"]
-    words = ["trax-render", "scene.trax" if point.get("import") else "SCENE", "--size", "x".join(map(str, point["size"])), *machine]
+    words = [
+        "trax-render", "scene.trax" if point.get("import") else "SCENE", "--size", "x".join(map(str, point["size"])),
+        *machine
+    ]
     words += ["--view", point["view"]] if point["view"] else []
     words += ["--program", point["elf"]] if point.get("elf") else []
     words += ["--sampled"] if point["mode"] == "quick" else []
@@ -102,8 +133,9 @@ def repeat_command(point, result):
 
 
 def thin_series(path, threads):
-    """Columns and at most SERIES_ROWS rows of a time series: the end of each interval, shares of its thread-cycles, and of the instructions that
-    threads asked their cache for the share that a conflict refused. The beginning keeps every interval, what follows is joined."""
+    """Columns and at most SERIES_ROWS rows of a time series: the end of each interval, shares of its thread-cycles, and
+    of the instructions that threads asked their cache for the share that a conflict refused. The beginning keeps every
+    interval, what follows is joined."""
     names, rows = read_csv(path)
     place = {name: index for index, name in enumerate(names)}
     chosen = [name for name in SERIES_COLUMNS if name in place]
@@ -114,8 +146,12 @@ def thin_series(path, threads):
         group.append(row)
         if index < SERIES_BEGIN or len(group) == step or index == len(chip) - 1:
             cycles = sum(float(one[place["end"]]) - float(one[place["begin"]]) for one in group)
-            shares = [sum(float(one[place[name]]) for one in group) / (cycles * threads) if cycles else None for name in chosen]
-            refused, issued = (sum(float(one[place[name]]) for one in group) for name in ("icache_bank_conflict", "issued"))
+            shares = [
+                sum(float(one[place[name]]) for one in group) / (cycles * threads) if cycles else None
+                for name in chosen
+            ]
+            refused, issued = (sum(float(one[place[name]]) for one in group)
+                               for name in ("icache_bank_conflict", "issued"))
             result.append([int(row[place["end"]]), ratio(refused, refused + issued), *shares])
             group = []
     return ["cycle", "fetch_refused", *chosen], result
@@ -126,7 +162,10 @@ def compared(out, result, reference):
     other, _ = found_of(out, reference) if reference else (None, None)
     if not other or not result["picture"] or not other[0]["picture"]:
         return {}
-    return {"picture.pixels_that_differ": pixels_that_differ(*(out / "pictures" / f"{one['picture']}.png" for one in (result, other[0])))}
+    return {
+        "picture.pixels_that_differ": pixels_that_differ(*(out / "pictures" / f"{one['picture']}.png"
+                                                           for one in (result, other[0])))
+    }
 
 
 def catalogue(plans, kind):
@@ -145,18 +184,27 @@ def found_of(out, key):
 def run_of(out, tools, areas, point):
     """What is known of a run, from its files. Its machine has the paper's name, whatever the sweep calls it."""
     point = point | point.get("preset", {})
-    run = {name: point[name] for name in ("key", "scene", "view", "size", "program", "config", "set", "machine", "mode")}
+    run = {
+        name: point[name] for name in ("key", "scene", "view", "size", "program", "config", "set", "machine", "mode")
+    }
     found, damaged = found_of(out, point["key"]) if point["key"] else (None, None)
-    run |= {"workload": point.get("workload", ""), "variant": point.get("variant", ""), "experiments": [], "points": [], "status": "missing",
-            "command": repeat_command(point, found and found[0])}
+    run |= {
+        "workload": point.get("workload", ""), "variant": point.get("variant", ""), "experiments": [], "points": [],
+        "status": "missing", "command": repeat_command(point, found and found[0])
+    }
     error = damaged or point["error"] or (error_of(out, point["key"]) if point["key"] else None)
     if found:
         result, host = found
         statistics = result["statistics"]
         series = out / "runs" / f"{point['key']}.csv"
-        run |= {"status": "done", "json": f"runs/{point['key']}.json", "csv": f"runs/{series.name}" if series.exists() else None,
-                "picture": f"pictures/{result['picture']}.png" if result["picture"] else None, "host_seconds": host.get("host_seconds"), "host": host or None,
-                "stats": {name: value for name, value in statistics.items() if name not in LEFT_OUT}, "values": values_of(result, areas) | compared(out, result, point.get("reference"))}
+        run |= {
+            "status": "done", "json": f"runs/{point['key']}.json",
+            "csv": f"runs/{series.name}" if series.exists() else None,
+            "picture": f"pictures/{result['picture']}.png" if result["picture"] else None,
+            "host_seconds": host.get("host_seconds"), "host": host or None,
+            "stats": {name: value for name, value in statistics.items() if name not in LEFT_OUT
+                      }, "values": values_of(result, areas) | compared(out, result, point.get("reference"))
+        }
     elif error:
         run |= {"status": "failed", "error": error}
     return run
@@ -189,7 +237,10 @@ def collect(out, tools, areas, command, seconds):
             label = point["key"] or f"{plan['name']}-{number}"
             if label not in runs:
                 runs[label] = run_of(out, tools, areas, point)
-            run, named = runs[label], {"experiment": plan["name"], "variant": point.get("variant", ""), **{name: point[name] for name in ("config", "set", "machine")}}
+            run, named = runs[label], {
+                "experiment": plan["name"], "variant": point.get("variant", ""),
+                **{name: point[name] for name in ("config", "set", "machine")}
+            }
             if plan["name"] not in run["experiments"]:
                 run["experiments"].append(plan["name"])
             if named not in run["points"]:
@@ -197,11 +248,15 @@ def collect(out, tools, areas, command, seconds):
     for run in runs.values():
         if run.get("csv"):
             columns, rows = thin_series(out / run["csv"], run["stats"]["threads"])
-            series.append({"name": run["experiments"][0], "title": f"{run['scene']}, {run['config']}, {run['program']}", "run": run["key"],
-                           "columns": columns, "rows": rows})
-    value = {"format": FORMAT, "version": VERSION, "trax": tools.version(), "command": command,
-             "created": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ"),
-             "host": {"processors": os.cpu_count()}, "host_seconds": round(seconds, 1), "runs": list(runs.values()), "sweeps": sweeps, "series": series,
-             **{kind: catalogue(plans, kind) for kind in CATALOGUES}}
+            series.append({
+                "name": run["experiments"][0], "title": f"{run['scene']}, {run['config']}, {run['program']}",
+                "run": run["key"], "columns": columns, "rows": rows
+            })
+    value = {
+        "format": FORMAT, "version": VERSION, "trax": tools.version(), "command": command,
+        "created": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ"),
+        "host": {"processors": os.cpu_count()}, "host_seconds": round(seconds, 1), "runs": list(runs.values()),
+        "sweeps": sweeps, "series": series, **{kind: catalogue(plans, kind) for kind in CATALOGUES}
+    }
     write_json(out / "results.json", value)
     return value

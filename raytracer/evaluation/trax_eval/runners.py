@@ -27,7 +27,6 @@ GRACE_SECONDS = 90  # until a file of another host is seen here: NFS keeps what 
 
 class Progress:
     """A line for each finished job, and on a terminal one more that says how long it will take."""
-
     def __init__(self, total, labels, quiet):
         self.total, self.labels, self.quiet = total, labels, quiet
         self.begin, self.done = time.monotonic(), 0
@@ -35,7 +34,9 @@ class Progress:
 
     def left(self):
         elapsed = time.monotonic() - self.begin
-        return f"{duration(elapsed)}, about {duration(elapsed / self.done * (self.total - self.done))} left" if self.done else duration(elapsed)
+        if not self.done:
+            return duration(elapsed)
+        return f"{duration(elapsed)}, about {duration(elapsed / self.done * (self.total - self.done))} left"
 
     def show(self):
         if self.terminal:
@@ -48,7 +49,8 @@ class Progress:
             return
         if self.terminal:
             sys.stderr.write("\r\033[K")
-        print(f"{self.labels[key]}: {'FAILED: ' + reason(error) if error else 'done'} ({self.done} of {self.total})", file=sys.stderr, flush=True)
+        print(f"{self.labels[key]}: {'FAILED: ' + reason(error) if error else 'done'} ({self.done} of {self.total})",
+              file=sys.stderr, flush=True)
         self.show()
 
     def end(self):
@@ -79,7 +81,8 @@ def try_job(out, tools, key, threads, on_start=None):
 
 
 def kill(process):
-    """Not process.kill, which would wait for it, too. It may have ended by itself, and its thread not be done with it yet."""
+    """Not process.kill, which would wait for it, too. It may have ended by itself, and its thread not be done with it
+    yet."""
     if process.returncode is None:
         with contextlib.suppress(ProcessLookupError):
             os.kill(process.pid, signal.SIGKILL)
@@ -114,7 +117,8 @@ def run_locally(out, tools, keys, options, progress):
                 waiting = {pool.submit(work, key) for key in keys}
             while waiting:
                 with held():
-                    finished, waiting = concurrent.futures.wait(waiting, timeout=POLL_SECONDS, return_when=concurrent.futures.FIRST_COMPLETED)
+                    finished, waiting = concurrent.futures.wait(waiting, timeout=POLL_SECONDS,
+                                                                return_when=concurrent.futures.FIRST_COMPLETED)
                 for future in finished:
                     progress.finished(*future.result())
                 progress.show()
@@ -137,8 +141,8 @@ def job_command(tools, out, threads):
 
 
 def watch(out, keys, progress, alive, complaint, grace=0):
-    """Reports results as they appear until all are there, or nobody has worked on them for `grace` seconds: so long it may
-    take to see the last ones. complaint() is what the engine said then."""
+    """Reports results as they appear until all are there, or nobody has worked on them for `grace` seconds: so long it
+    may take to see the last ones. complaint() is what the engine said then."""
     open_keys, ended = list(keys), None
     while open_keys:
         ended = ended or (None if alive() else time.monotonic())
@@ -170,7 +174,8 @@ def run_parallel(out, tools, keys, options, progress):
     command += ["--sshlogin", options.hosts, "--jobs", "100%"] if options.hosts else ["--jobs", str(options.jobs)]
     process = None
     try:
-        command = dying([*command, *map(shlex.quote, job_command(tools, out, 1)), "{}"])  # it ends after the runs in progress
+        command = dying([*command, *map(shlex.quote, job_command(tools, out, 1)),
+                         "{}"])  # it ends after the runs in progress
         with held():
             process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=errors)
         watch(out, keys, progress, lambda: process.poll() is None, lambda: f"GNU parallel: {last_line(errors.name)}")
@@ -187,7 +192,9 @@ def slurm(*words):
     try:
         run = subprocess.run(words, capture_output=True, text=True, errors="replace", timeout=SQUEUE_PATIENCE)
     except FileNotFoundError:
-        raise Problem(f"Slurm is not installed: there is no {words[0]} (Debian's packages are slurm-client, slurmctld and slurmd)") from None
+        raise Problem(
+            f"Slurm is not installed: there is no {words[0]} (Debian's packages are slurm-client, slurmctld and slurmd)"
+        ) from None
     except subprocess.TimeoutExpired:
         raise Problem(f"{words[0]}: no answer in {SQUEUE_PATIENCE} seconds") from None
     if run.returncode != 0:
@@ -196,8 +203,8 @@ def slurm(*words):
 
 
 class Queue:
-    """What Slurm's controller knows of arrays. It is asked now and then. If it does not answer for a while, the tasks go on."""
-
+    """What Slurm's controller knows of arrays. It is asked now and then. If it does not answer for a while, the tasks
+    go on."""
     def __init__(self, arrays):
         self.arrays, self.asked, self.answered, self.known = arrays, None, time.monotonic(), True
 
@@ -225,14 +232,17 @@ def run_slurm(out, tools, keys, options, progress):
     logs.mkdir(parents=True, exist_ok=True)
     try:
         for first in range(0, len(keys), ARRAY_LIMIT):
-            some = keys[first : first + ARRAY_LIMIT]
+            some = keys[first:first + ARRAY_LIMIT]
             names = logs / f"keys.{os.getpid()}.{first}"
             write_file(names, "".join(key + "\n" for key in some))
             command = shlex.join([*job_command(tools, out, 1), "--list", str(names)])
             with held():
-                arrays.append(slurm("sbatch", "--parsable", f"--array=0-{len(some) - 1}", "--ntasks=1", "--cpus-per-task=1", "--job-name=trax-eval",
-                                    f"--output={str(logs).replace('%', '%%')}/%A_%a.log", *shlex.split(options.slurm_options), "--wrap", command).split(";")[0])
-        watch(out, keys, progress, Queue(arrays).is_alive, lambda: f"Slurm: the tasks' output is in {logs}", GRACE_SECONDS)
+                arrays.append(
+                    slurm("sbatch", "--parsable", f"--array=0-{len(some) - 1}", "--ntasks=1", "--cpus-per-task=1",
+                          "--job-name=trax-eval", f"--output={str(logs).replace('%', '%%')}/%A_%a.log",
+                          *shlex.split(options.slurm_options), "--wrap", command).split(";")[0])
+        watch(out, keys, progress,
+              Queue(arrays).is_alive, lambda: f"Slurm: the tasks' output is in {logs}", GRACE_SECONDS)
         arrays.clear()
     finally:
         if arrays:

@@ -24,8 +24,10 @@ def scene_of(fields, folder):
         fields.fail("view", "expected a file or the name of one that comes with trax")
     if view is not None and pathlib.Path(folder, view).is_file():
         view = str(pathlib.Path(folder, view).resolve())
-    return {"name": name, "title": fields.text("title", name), "meshes": meshes, "view": view, "folder": str(folder), "licence": fields.text("licence", ""),
-            "paper": fields.text("paper", "")}
+    return {
+        "name": name, "title": fields.text("title", name), "meshes": meshes, "view": view, "folder": str(folder),
+        "licence": fields.text("licence", ""), "paper": fields.text("paper", "")
+    }
 
 
 def inline_scene(path, value):

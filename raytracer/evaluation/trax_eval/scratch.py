@@ -8,8 +8,8 @@ import tempfile
 
 
 def new_scratch(out):
-    """A folder for one process's unfinished files, named after the process. out: the folder of results; None: nothing may
-    be written there."""
+    """A folder for one process's unfinished files, named after the process. out: the folder of results; None: nothing
+    may be written there."""
     folder = out / "scratch" if out else pathlib.Path(tempfile.gettempdir())
     folder.mkdir(parents=True, exist_ok=True)
     return tempfile.mkdtemp(prefix=f"{'' if out else 'trax-eval.'}{socket.gethostname()}.{os.getpid()}.", dir=folder)
@@ -26,9 +26,11 @@ def process_lives(pid):
 
 
 def clean_scratch(out):
-    """Removes what dead processes of this host have left; of None what they have left in the folder for temporary files."""
+    """Removes what dead processes of this host have left; of None what they have left in the folder for temporary
+    files."""
     host, temporary = f"{socket.gethostname()}.", pathlib.Path(tempfile.gettempdir())
-    folders = [out / name for name in (".", "scratch", "runs", "jobs", "pictures", "scenes", "sweeps")] if out else [temporary]
+    folders = [out / name
+               for name in (".", "scratch", "runs", "jobs", "pictures", "scenes", "sweeps")] if out else [temporary]
     for folder in folders:
         for path in folder.glob(f"*{host}*" if out else f"trax-eval.{host}*"):
             owner = path.name.split(host, 1)[1].split(".")[0]

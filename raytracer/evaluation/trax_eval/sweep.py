@@ -6,12 +6,10 @@ import math
 import pathlib
 import re
 
-from report.results import ResultsError
-from report.sweeps import descriptions
-
 from .fields import Fields, quoted
 from .programs import Program, find_programs
 from .scenes import find_scenes, inline_scene
+from .table_spec import descriptions
 from .util import Problem, TEXT_LIMIT, canonical, read_json
 from .workloads import PAPER, find_workload, no_workload
 
@@ -19,17 +17,20 @@ CHIPS = "1x32 1x48 2x32 1x64 2x48 4x32 2x64 6x32 4x48 8x32 4x64 6x48 8x48 6x64 8
 PAPERS_PROGRAMS = "paper"  # the set that a sweep has which names no programs
 MODES = ("exact", "quick")
 WORD = r"[A-Za-z][\w.:-]*"  # of a key whose values are words
-# --quick: so that all experiments take less than nine minutes on two cores. Of pictures with fewer pixels than QUICK_PIXELS so many slots must be
-# simulated that little is saved (docs/sampling.md): they become narrow instead, and all of them is simulated. Larger ones are sampled.
+# --quick: so that all experiments take less than nine minutes on two cores. Of pictures with fewer pixels than
+# QUICK_PIXELS so many slots must be simulated that little is saved (docs/sampling.md): they become narrow instead, and
+# all of them is simulated. Larger ones are sampled.
 QUICK_PIXELS, QUICK_WIDTH, QUICK_SIDE = 640 * 360, 80, 2 / 3
 MOST_RUNS = 100000  # of one sweep: all combinations of a few long lists take all memory
-KEYS = ("name", "title", "claim", "x", "y", "y_per", "scenes", "programs", "chips", "set", "size", "mode", "series", "lockstep",
-        "workloads", "ray_kinds", "reference", "error", "hits", "table", "all")
+KEYS = ("name", "title", "claim", "x", "y", "y_per", "scenes", "programs", "chips", "set", "size", "mode", "series",
+        "lockstep", "workloads", "ray_kinds", "reference", "error", "hits", "table", "all")
 # Keys of `set` may be options of these programs: "trax-scene --leaf". What trax-eval says itself is not for sweeps,
 # programs and workloads, nor is what writes files, which the programs' tables tell (Tools.given).
-TAKEN = {"trax-scene": ("check", "stats", "quiet"),
-         "trax-render": ("size", "frames", "show", "config", "set", "engine", "threads", "compare", "source", "program",
-                         "sampled", "quiet")}
+TAKEN = {
+    "trax-scene": ("check", "stats", "quiet"),
+    "trax-render": ("size", "frames", "show", "config", "set", "engine", "threads", "compare", "source", "program",
+                    "sampled", "quiet")
+}
 VARIANT_KEYS = ("name", "program")  # of an object in the list `set`, beside keys that are set
 
 
@@ -80,11 +81,17 @@ class Point:
 
     def machine(self):
         """All changes of the chip's configuration; of the same key the sweep's."""
-        return tuple({**dict(self.program.settings), **{key: value for key, value in self.settings if not option_of(key)}}.items())
+        return tuple(
+            {**dict(self.program.settings),
+             **{key: value for key, value in self.settings if not option_of(key)}}.items())
 
     def options(self, tool, workload):
-        """What trax-scene or trax-render is given: the program's options, the workload's, and the sweep's in place of both."""
-        words = [*(self.program.scene if tool == "trax-scene" else self.program.render), *workload["scene" if tool == "trax-scene" else "render"]]
+        """What trax-scene or trax-render is given: the program's options, the workload's, and the sweep's in place of
+        both."""
+        words = [
+            *(self.program.scene if tool == "trax-scene" else self.program.render),
+            *workload["scene" if tool == "trax-scene" else "render"]
+        ]
         words += ["--mark-rays"] if tool == "trax-render" and self.ray_kinds and self.program.specialised else []
         for key, value in self.settings:
             if (option := option_of(key)) and option[0] == tool:
@@ -116,7 +123,6 @@ class Sweep:
 
 class Reader(Fields):
     """One sweep file."""
-
     @property
     def folder(self):
         return pathlib.Path(self.path).parent
@@ -134,9 +140,16 @@ class Reader(Fields):
         if option:
             if option[0] not in TAKEN:
                 self.fail(place, f'"{option[0]}" is no program whose options can be set; {quoted(TAKEN)} are')
-            if not values or not all(isinstance(value, (bool, int, float)) or isinstance(value, str) and value for value in values):
-                self.fail(place, f"expected a text, a number, true (given), false (left out) or a list of them, is {canonical(values)}")
-        elif not values or not all(isinstance(value, (bool, int, float)) or isinstance(value, str) and re.fullmatch(WORD, value) for value in values):
+            if not values or not all(
+                    isinstance(value, (bool, int, float)) or isinstance(value, str) and value for value in values):
+                self.fail(
+                    place,
+                    f"expected a text, a number, true (given), false (left out) or a list of them, is "
+                    f"{canonical(values)}"
+                )
+        elif not values or not all(
+                isinstance(value, (bool, int, float)) or isinstance(value, str) and re.fullmatch(WORD, value)
+                for value in values):
             self.fail(place, f"expected a number, a word or a list of them, is {canonical(values)}")
         return [(key, value) for value in values]
 
@@ -199,7 +212,8 @@ class Reader(Fields):
             elif isinstance(item, str):
                 new = self.found("scenes", find_scenes, item)
             else:
-                self.fail("scenes", f"expected names of scenes and objects with name, meshes, view, is {canonical(item)}")
+                self.fail("scenes",
+                          f"expected names of scenes and objects with name, meshes, view, is {canonical(item)}")
             for scene in new:
                 if scene["name"] in chosen:
                     self.fail("scenes", f'"{scene["name"]}" is there twice')
@@ -211,7 +225,10 @@ class Reader(Fields):
     def chips(self):
         """Name to what trax-sim --config is given; files beside the sweep come first."""
         names = self.strings("chips", None)
-        return {name: str((self.folder / name).resolve()) if self.folder.joinpath(name).is_file() else "" for name in (CHIPS if names == ["paper"] else names)}
+        return {
+            name: str((self.folder / name).resolve()) if self.folder.joinpath(name).is_file() else ""
+            for name in (CHIPS if names == ["paper"] else names)
+        }
 
 
 def parse_size(text):
@@ -232,40 +249,61 @@ def quick_size(text, mode):
 
 
 def read_sweep(path, *, size=None, mode=None, programs=None, chips=None, only_scenes=None, only_variants=None):
-    """The sweep in a file. size, mode, programs and chips: what the command line says instead of the file; programs are names, and Programs that take the
-    place of the sweep's. only_scenes, only_variants: the others are left out, but for the reference. With the mode "quick" pictures are smaller, if the command line does not say their size."""
+    """The sweep in a file. size, mode, programs and chips: what the command line says instead of the file; programs are
+    names, and Programs that take the place of the sweep's. only_scenes, only_variants: the others are left out, but for
+    the reference. With the mode "quick" pictures are smaller, if the command line does not say their size."""
     reader = Reader(path, read_json(path, TEXT_LIMIT), KEYS)
     value = reader.value
     name = reader.name()
     missing = [key for key in ("scenes", "chips") if key not in value]
     if missing:
-        reader.fail(None, f"it is no sweep without {' and '.join(map(quoted, ([key] for key in missing)))}: what is rendered, and on which chips")
+        reader.fail(
+            None,
+            f"it is no sweep without {' and '.join(map(quoted, ([key] for key in missing)))}: what is rendered, and on "
+            f"which chips"
+        )
     chosen_size = reader.text("size", size or "1280x720")
     if not parse_size(chosen_size):
         reader.fail("size", f'expected "WIDTHxHEIGHT", each 1 to 16384, is "{chosen_size}"')
     chosen_mode = mode or reader.strings("mode", "exact", MODES)[0]
     series = value.get("series", 0)
     if type(series) is not int or not 0 <= series <= 10**9:
-        reader.fail("series", f"expected the cycles of an interval, 1 to 1000000000, or 0 for no series, is {canonical(series)}")
+        reader.fail("series",
+                    f"expected the cycles of an interval, 1 to 1000000000, or 0 for no series, is {canonical(series)}")
     lockstep, ray_kinds, workloads = reader.flag("lockstep"), reader.flag("ray_kinds"), reader.workloads()
     error, hits = reader.flag("error"), reader.flag("hits")
     rays = ray_kinds or list(workloads) != [PAPER]
     chosen_programs, variants = reader.programs(rays), reader.variants()
-    reference, named = reader.text("reference", ""), list(dict.fromkeys(variant[0] for variant in variants if variant[0]))
+    reference, named = reader.text("reference",
+                                   ""), list(dict.fromkeys(variant[0] for variant in variants if variant[0]))
     if only_variants is not None:
-        variants = [variant for variant in variants if variant[0] in (*only_variants, *([reference] if reference else []))]
+        variants = [
+            variant for variant in variants if variant[0] in (*only_variants, *([reference] if reference else []))
+        ]
     if programs is not None:
         own = [program for program in programs if isinstance(program, Program)]
         chosen_programs = own + [program for program in chosen_programs if program.name in programs]
-        variants = [(label, program, settings) for label, program, settings in variants if not program or program.name in programs]
+        variants = [(label, program, settings) for label, program, settings in variants
+                    if not program or program.name in programs]
     used = list(dict.fromkeys([*chosen_programs, *(program for _, program, _ in variants if program)]))
     if rays and (unfit := [program for program in used if not program.rays]):
-        reader.fail("programs", f'workloads and ray_kinds need programs with "rays": true, which {unfit[0].file} has not: they take workloads, and tell where rays begin')
+        reader.fail(
+            "programs",
+            f'workloads and ray_kinds need programs with "rays": true, which {unfit[0].file} has not: they take '
+            f'workloads, and tell where rays begin'
+        )
     if (error or hits) and (unfit := [program for program in used if not program.specialised or program.convert]):
-        reader.fail("programs", f'error and hits need programs that are "specialised", without "convert", which {unfit[0].file} is not')
-    if series or lockstep or rays or error or hits or not all(program.plain for program in used):  # every cycle is needed, or the run is not trax-render's own
+        reader.fail(
+            "programs",
+            f'error and hits need programs that are "specialised", without "convert", which {unfit[0].file} is not')
+    if series or lockstep or rays or error or hits or not all(
+            program.plain for program in used):  # every cycle is needed, or the run is not trax-render's own
         if "mode" in value and chosen_mode != "exact" and not mode:
-            reader.fail("mode", 'series, lockstep, ray_kinds, workloads, error, hits and programs that are compiled or converted need "exact"')
+            reader.fail(
+                "mode",
+                'series, lockstep, ray_kinds, workloads, error, hits and programs that are compiled or converted need '
+                '"exact"'
+            )
         chosen_mode = "exact"
     if mode == "quick" and not size and not ray_kinds:
         chosen_size, chosen_mode = quick_size(chosen_size, chosen_mode)
@@ -279,8 +317,10 @@ def read_sweep(path, *, size=None, mode=None, programs=None, chips=None, only_sc
     if runs > MOST_RUNS:
         reader.fail(None, f"it asks for {runs} runs; at most {MOST_RUNS} are allowed")
     points = [
-        Point(scene, program, chip, settings, size or chosen_size, chosen_mode, series, lockstep, ray_kinds, workload, chips[chip], variant, error, hits)
-        for workload, scene, (program, some) in itertools.product(workloads, scenes, groups.items()) for chip, (variant, _, settings) in itertools.product(chips, some)
+        Point(scene, program, chip, settings, size or chosen_size, chosen_mode, series, lockstep, ray_kinds, workload,
+              chips[chip], variant, error, hits)
+        for workload, scene, (program, some) in itertools.product(workloads, scenes, groups.items())
+        for chip, (variant, _, settings) in itertools.product(chips, some)
     ]
     known = list(dict.fromkeys([*named, *(program.name for program in used)]))
     if reference and programs is None and reference not in known:
@@ -288,7 +328,8 @@ def read_sweep(path, *, size=None, mode=None, programs=None, chips=None, only_sc
     table = value.get("table")
     try:
         descriptions({"name": name, "table": table})
-    except ResultsError as error:
+    except Problem as error:
         reader.fail(None, str(error))
-    return Sweep(name, reader.text("title", name), reader.text("claim", ""), reader.text("x", "threads"), reader.text("y", "mrps"), reader.text("y_per", ""), str(path),
-                 scenes, used, points, workloads, named, reference, table, reader.flag("all", True), mode == "quick")
+    return Sweep(name, reader.text("title", name), reader.text("claim", ""), reader.text("x", "threads"),
+                 reader.text("y", "mrps"), reader.text("y_per", ""), str(path), scenes, used, points, workloads, named,
+                 reference, table, reader.flag("all", True), mode == "quick")

@@ -18,7 +18,10 @@ POLL_SECONDS = 0.05
 def dying(command, number="TERM"):
     """The command, whose process gets a signal when this process dies, whatever ends it: also if that was before the
     kernel had been asked for it."""
-    return ["/usr/bin/setpriv", "--pdeathsig", number, "/bin/sh", "-c", '[ "$PPID" = "$0" ] && exec "$@"', str(os.getpid()), *command]
+    return [
+        "/usr/bin/setpriv", "--pdeathsig", number, "/bin/sh", "-c", '[ "$PPID" = "$0" ] && exec "$@"',
+        str(os.getpid()), *command
+    ]
 
 
 def communicate(process):
@@ -31,11 +34,13 @@ def communicate(process):
 
 
 def run_tool(command, **where):
-    """The finished process, with what it said. An interrupt ends it in an orderly way first: it removes what it has not finished. where: cwd, env."""
+    """The finished process, with what it said. An interrupt ends it in an orderly way first: it removes what it has not
+    finished. where: cwd, env."""
     process = None
     try:
         with held():
-            process = subprocess.Popen(dying(command), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, errors="replace", **where)
+            process = subprocess.Popen(dying(command), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                       stderr=subprocess.PIPE, text=True, errors="replace", **where)
         out, errors = communicate(process)
     except BaseException:
         if process:
@@ -46,7 +51,8 @@ def run_tool(command, **where):
 
 
 def run_tools(commands, jobs):
-    """As run_tool, several at the same time: yields (place in the list, finished process) as they end. Their output is what they said of errors."""
+    """As run_tool, several at the same time: yields (place in the list, finished process) as they end. Their output is
+    what they said of errors."""
     running, waiting = {}, list(enumerate(commands))
     try:
         while waiting or running:
@@ -54,7 +60,8 @@ def run_tools(commands, jobs):
                 place, command = waiting.pop(0)
                 said = tempfile.TemporaryFile()
                 with held():
-                    running[place] = subprocess.Popen(dying(command), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=said), said
+                    running[place] = subprocess.Popen(dying(command), stdin=subprocess.DEVNULL,
+                                                      stdout=subprocess.DEVNULL, stderr=said), said
             ended = [place for place, (process, _) in running.items() if process.poll() is not None]
             if not ended:
                 time.sleep(POLL_SECONDS)
@@ -87,12 +94,13 @@ class Tools:
         return hash_file(self.path(name))
 
     def version(self):
-        return subprocess.run([self.path("trax-sim"), "--version"], capture_output=True, text=True, check=True).stdout.split()[-1]
+        return subprocess.run([self.path("trax-sim"), "--version"], capture_output=True, text=True,
+                              check=True).stdout.split()[-1]
 
     @functools.lru_cache(maxsize=None)
     def given(self, place, name, words):
-        """The options of a program of ours that the words (a tuple) give: (name, "reads", "writes" or ""). Nothing if the
-        program is not there. Which of them exclude each other is not asked."""
+        """The options of a program of ours that the words (a tuple) give: (name, "reads", "writes" or ""). Nothing if
+        the program is not there. Which of them exclude each other is not asked."""
         if not (self.folder / name).is_file():
             return []
         run = run_tool([self.path(name), *words, "--help-given"])
@@ -118,7 +126,9 @@ class Tools:
     def whole(self, chip, settings, key):
         """A value of that machine which is a whole number: "dcache.bytes"."""
         section, name = key.split(".")
-        return int(re.search(rf"^{section}: {{.*?^ *{name} = (\d+);", self.configuration(chip, settings), re.MULTILINE | re.DOTALL).group(1))
+        return int(
+            re.search(rf"^{section}: {{.*?^ *{name} = (\d+);", self.configuration(chip, settings),
+                      re.MULTILINE | re.DOTALL).group(1))
 
     def shape(self, chip, settings):
         """(TMs, TPs of each) of that chip."""

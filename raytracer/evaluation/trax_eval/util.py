@@ -58,7 +58,8 @@ def write_file(path, data):
 
 
 def identity(path):
-    """Which file a path names, whatever its spelling; None of what is no regular file, which may be written any number of times."""
+    """Which file a path names, whatever its spelling; None of what is no regular file, which may be written any number
+    of times."""
     try:
         found = os.stat(path)
     except OSError:
@@ -75,9 +76,11 @@ def check_files(inputs, outputs):
         if which is None:
             continue
         if which in known:
-            raise Problem(f"{path}: is an input and the output" + ("" if str(path) == str(known[which]) else f"; it is the same file as {known[which]}"))
+            raise Problem(f"{path}: is an input and the output" +
+                          ("" if str(path) == str(known[which]) else f"; it is the same file as {known[which]}"))
         if which in written:
-            raise Problem(f"{written[which]}: is written twice" + ("" if str(path) == str(written[which]) else f" as {path}"))
+            raise Problem(f"{written[which]}: is written twice" +
+                          ("" if str(path) == str(written[which]) else f" as {path}"))
         written[which] = path
 
 
@@ -98,7 +101,7 @@ def write_sealed(path, value):
 def read_sealed(path):
     """Its value without the digest; a Problem if it has not the bytes that were written."""
     data = read_bytes(path)
-    text = data[: -len(SEAL % hash_bytes(b""))]
+    text = data[:-len(SEAL % hash_bytes(b""))]
     if data != text + (SEAL % hash_bytes(text)).encode():
         raise Problem(f"{path}: is damaged, or of an older trax-eval: it has not the bytes of its digest")
     return json.loads(text + b"}")
@@ -132,7 +135,8 @@ def check_texts(value):
         check_texts(item)
 
 
-TEXT_LIMIT, FILE_LIMIT = 1 << 20, 1 << 28  # bytes of what people write, and of what this program does; the largest has a hundredth
+# bytes of what people write, and of what this program does; the largest has a hundredth
+TEXT_LIMIT, FILE_LIMIT = 1 << 20, 1 << 28
 
 
 def read_bytes(path, limit=FILE_LIMIT):
@@ -146,11 +150,17 @@ def read_bytes(path, limit=FILE_LIMIT):
     return data
 
 
-def read_json(path, limit=FILE_LIMIT):
+STRICT = {"object_pairs_hook": refuse_duplicates, "parse_constant": refuse_constant, "parse_float": finite}
+
+
+def read_json(path, limit=FILE_LIMIT, strict=True):
+    """The value of a file. strict: without duplicate keys, numbers that are not finite, and texts that no name can
+    have."""
     data = read_bytes(path, limit)
     try:
-        value = json.loads(data.decode("utf-8"), object_pairs_hook=refuse_duplicates, parse_constant=refuse_constant, parse_float=finite)
-        check_texts(value)
+        value = json.loads(data.decode("utf-8"), **(STRICT if strict else {}))
+        if strict:
+            check_texts(value)
         return value
     except json.JSONDecodeError as error:
         raise Problem(f"{path}:{error.lineno}:{error.colno}: {error.msg}") from error

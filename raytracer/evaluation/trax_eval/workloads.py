@@ -13,7 +13,10 @@ def no_workload():
 def read_workload(path):
     fields = read_fields(path, KEYS)
     name = fields.name()
-    return {"name": name, "title": fields.text("title", name), "file": str(path), **{key: fields.words(key, "the options and their values") for key in ("render", "scene")}}
+    return {
+        "name": name, "title": fields.text("title", name), "file": str(path),
+        **{key: fields.words(key, "the options and their values") for key in ("render", "scene")}
+    }
 
 
 def find_workload(name, beside):

@@ -1,5 +1,5 @@
-/* What a twin compiled with TRAX_ACCESSES tells of its way through the scene: which nodes and triangles it reads, ray
-   by ray and slot by slot. One thread at a time. */
+/* The log of the twin's way through the scene: which nodes and triangles it reads, ray by ray and slot by slot. One
+   thread at a time. */
 #ifndef TRAX_ACCESS_H
 #define TRAX_ACCESS_H
 

@@ -1,4 +1,4 @@
-/* The device program's records of its picture, for trax-render --error. Only a program compiled with TRAX_RECORD
+/* The device program's records of its picture, for trax-render --layers. Only a program compiled with TRAX_RECORD
    (render/specialise.c) writes them, to its buffer `record`: a struct trax_pixel_record for each pixel of the picture,
    in its order, then a struct trax_sample_record for each sample of each pixel. */
 #ifndef TRAX_RECORD_H

@@ -18,7 +18,7 @@
 
 /* Bits of trax_render_params.features; features.def describes them. */
 enum trax_feature {
-#define TRAX_FEATURE(NAME, TEXT, QUESTION, SECTIONS) TRAX_FEATURE_##NAME,
+#define TRAX_FEATURE(NAME, TEXT, SECTIONS) TRAX_FEATURE_##NAME,
 #include "trax/features.def"
 #undef TRAX_FEATURE
   TRAX_FEATURE_COUNT

@@ -30,15 +30,15 @@ MUTANTS = [
     ("stack-dropped", "traverse.h", "top->enter >= limit", "top->enter >= 0", "soup"),
     ("no-offset", "shade.h", "times(bound * inverse_length, n)", "times(0 * inverse_length, n)", "grazing-shadows"),
     ("no-step-back", "shade.h", "bits_float(0x7E800000 - far) * bound", "bits_float(0x7E800000 - far) * 0", "corners-dark"),
-    ("exact-bound", "triangle.h", "* 0x1p-17f + 0x1p-38f", "* 0", "tiny-1e16"),
-    ("exact-scale", "triangle.h", "bits_float(0x7F000000 - (size & 0x7F800000))", "1.0f", "tiny-1e18"),
+    ("exact-bound", "exact.h", "* 0x1p-17f + 0x1p-38f", "* 0", "tiny-1e16"),
+    ("exact-scale", "exact.h", "bits_float(0x7F000000 - (size & 0x7F800000))", "1.0f", "tiny-1e18"),
     ("exact-borrow", "exact.h", "carry = turned ? *at != 0 : both == 0;", "carry = 0;", "room-1e18"),
     ("exact-order", "exact.h", "sign ^ odd << 31", "sign", "room-1e9"),
-    ("exact-side", "shade.h", "exactly_turned(&direction.x, v0)", "~float_bits(dot(n, minus(a, eye))) & SIGN_BIT", "oblique"),
-    ("exact-point", "shade.h", "bound = way_bound, base = eye, inside = way", "bound = bound", "picture-both"),
-    ("exact-way", "shade.h", "if (HITS_ARE_EXACT)\n    way = scale_way", "if (0)\n    way = scale_way", "tiny-lit"),
-    ("far-start", "shade.h", "OFFSET_PER_WAY 0x1p-19f", "OFFSET_PER_WAY 0x1p-12f", "both"),
-    ("no-slack", "shade.h", "LIGHT_SLACK 64", "LIGHT_SLACK 0", "light-on-surface"),
+    ("exact-side", "exact.h", "exactly_turned(&direction.x, v0)", "~float_bits(dot(n, minus(a, eye))) & SIGN_BIT", "oblique"),
+    ("exact-point", "exact.h", "bound = way_bound, base = eye, inside = way", "bound = bound", "picture-both"),
+    ("exact-way", "exact.h", "#define aim_at_light aim_at_light_exactly\n", "", "tiny-lit"),
+    ("far-start", "exact.h", "OFFSET_PER_WAY 0x1p-19f", "OFFSET_PER_WAY 0x1p-12f", "both"),
+    ("no-slack", "aim.h", "LIGHT_SLACK 64", "LIGHT_SLACK 0", "light-on-surface"),
 ]
 
 

@@ -1,6 +1,10 @@
 #include "query.h"
 
-#include "../../../raytracer/device/shade.h"
+#if TRAX_EXACT_HITS
+#include "../../../raytracer/device/exact.h"
+#endif
+
+#include "../../../raytracer/device/aim.h"
 #include "../../../raytracer/device/traverse.h"
 
 #include <trax.h>
@@ -30,10 +34,7 @@ static inline void answer_query(const char *scene, const struct query_params *pa
       break;
     struct surface surface;
     struct light way;
-    if (HITS_ARE_EXACT)
-      find_surface_exactly(&surface, &hit, origin, direction);
-    else
-      find_surface(&surface, &hit, origin);
+    find_surface(&surface, &hit, origin, direction);
     aim_at_light(&way, &surface, params->light);
     answer->origin[0] = surface.start.x, answer->origin[1] = surface.start.y, answer->origin[2] = surface.start.z;
     answer->light = QUERY_BEHIND;

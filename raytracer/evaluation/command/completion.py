@@ -4,7 +4,7 @@ from report import docs, make
 
 from .options import OPTIONS
 
-COMMANDS = {"report": make.new_parser, "docs": docs.new_parser, "new-sweep": None}  # the last has no options
+COMMANDS = {"report": make.new_parser, "docs": docs.new_parser}
 
 SCRIPT = """\
 # Completes the options and experiments of trax-eval in bash.
@@ -48,8 +48,11 @@ def files(kind):
 def value_of(option, data):
     """A row of `case`: what is offered behind the option."""
     values = (*option.words, *(stems(data, option.folder) if option.folder else ()))
-    offered = " ".join([*([words(values, option.mark)] if values else []), *([files(option.files)] if option.files else [])])
-    return f"    {f'-{option.letter} | ' if option.letter else ''}--{option.name}) {f'COMPREPLY=({offered}); ' if offered else ''}return ;;"
+    offered = " ".join(
+        [*([words(values, option.mark)] if values else []), *([files(option.files)] if option.files else [])])
+    begin = f"-{option.letter} | " if option.letter else ""
+    reply = f"COMPREPLY=({offered}); " if offered else ""
+    return f"    {begin}--{option.name}) {reply}return ;;"
 
 
 def stems(data, folder):
@@ -58,13 +61,14 @@ def stems(data, folder):
 
 def of_command(name, new_parser):
     """A row of `case`: another command of trax-eval has options of its own, and files."""
-    names = sorted(name for name in new_parser()._option_string_actions if name.startswith("--")) if new_parser else []  # argparse offers no other way
-    return f"      {name}) if [[ $word == -* ]]; then COMPREPLY=({words(names)}); else COMPREPLY=({files('f')}); fi; return ;;"
+    names = sorted(name for name in new_parser()._option_string_actions
+                   if name.startswith("--"))  # argparse offers no other way
+    return (f"      {name}) if [[ $word == -* ]]; then COMPREPLY=({words(names)}); "
+            f"else COMPREPLY=({files('f')}); fi; return ;;")
 
 
 def script(data, experiments):
     """experiments: their names."""
-    return SCRIPT % ("\n".join(of_command(*command) for command in COMMANDS.items()),
-                     "\n".join(value_of(option, data) for option in OPTIONS if option.argument),
-                     words(f"--{option.name}" for option in OPTIONS),
-                     f"{words([*experiments, *COMMANDS])} {files('f')}")
+    return SCRIPT % ("\n".join(of_command(*command) for command in COMMANDS.items()), "\n".join(
+        value_of(option, data) for option in OPTIONS if option.argument), words(
+            f"--{option.name}" for option in OPTIONS), f"{words([*experiments, *COMMANDS])} {files('f')}")

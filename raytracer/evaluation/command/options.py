@@ -5,9 +5,9 @@ import dataclasses
 import os
 import pathlib
 
-from . import runners
-from .sweep import CHIPS, MODES
-from .util import Problem
+from trax_eval import runners
+from trax_eval.sweep import CHIPS, MODES
+from trax_eval.util import Problem
 
 COLUMN = 24  # of the meanings in the help
 
@@ -42,7 +42,8 @@ class Option:
 
     def lines(self):
         first, *others = self.meaning.split("\n")
-        begin = f"  {f'-{self.letter},' if self.letter else '   '} --{self.name}{' ' + self.argument if self.argument else ''}"
+        letter = f"-{self.letter}," if self.letter else "   "
+        begin = f"  {letter} --{self.name}{' ' + self.argument if self.argument else ''}"
         return [f"{begin:{COLUMN - 1}} {first}", *(" " * COLUMN + line for line in others)]
 
 
@@ -53,26 +54,35 @@ def choice(values, **how):
 GROUPS = {
     "What is run": (
         Option("all", "", "every experiment that is about a figure of the paper, and the page"),
-        Option("program", "NAMES", "those of a sweep's programs, with commas between (default: all); a file NAME.json takes the place\nof the sweep's",
-               mark=",", folder="programs", files="f"),
+        Option(
+            "program", "NAMES",
+            "those of a sweep's programs, with commas between (default: all); a file NAME.json takes the place\nof the "
+            "sweep's",
+            mark=",", folder="programs", files="f"),
         Option("scene", "NAMES", "those of a sweep's scenes", mark=",", folder="scenes"),
         Option("variant", "NAMES", "those of its variants, with semicolons between", mark=";"),
         Option("chip", "NAMES", "instead of the sweep's: presets, files", mark=",", words=tuple(CHIPS), files="f"),
         Option("size", "WxH", "of the pictures (default: what the sweep says, 1280x720)"),
         Option("mode", "WHICH", "exact or quick, instead of what the sweep says", **choice(MODES)),
-        Option("quick", "", "the same as --mode quick: some parts of each picture are simulated, and figures are estimates\n"
-               "with intervals (trax-render --sampled). If --size is not given, pictures have two thirds of\n"
-               "their sides; those of less than 640x360 are 80 pixels wide, and all of them is simulated",
-               how={"dest": "mode", "action": "store_const", "const": "quick"}),
+        Option(
+            "quick", "",
+            "the same as --mode quick: some parts of each picture are simulated, and figures are estimates\n"
+            "with intervals (trax-render --sampled). If --size is not given, pictures have two thirds of\n"
+            "their sides; those of less than 640x360 are 80 pixels wide, and all of them is simulated",
+            how={"dest": "mode", "action": "store_const", "const": "quick"}),
     ),
     "Where it runs": (
-        Option("runner", "WHICH", "local (default): this host; parallel: GNU parallel; slurm: an array of Slurm's", **choice(runners.RUNNERS, default="local")),
-        Option("jobs", "N", "runs at the same time on this host (default: its processors)", how={"type": int, "default": len(os.sched_getaffinity(0))}),
-        Option("hosts", "LIST", "--runner parallel: hosts as for its --sshlogin; they see the folders at the same place"),
+        Option("runner", "WHICH", "local (default): this host; parallel: GNU parallel; slurm: an array of Slurm's",
+               **choice(runners.RUNNERS, default="local")),
+        Option("jobs", "N", "runs at the same time on this host (default: its processors)",
+               how={"type": int, "default": len(os.sched_getaffinity(0))}),
+        Option("hosts", "LIST",
+               "--runner parallel: hosts as for its --sshlogin; they see the folders at the same place"),
         Option("slurm-options", "T", "--runner slurm: more options for sbatch", how={"default": ""}),
     ),
     "Results": (
-        Option("output", "DIR", "the folder of results (default: out/eval)", "o", {"default": "out/eval", "type": path_argument}, files="d"),
+        Option("output", "DIR", "the folder of results (default: out/eval)", "o",
+               {"default": "out/eval", "type": path_argument}, files="d"),
         Option("dry-run", "", "prints the runs that are missing, and ends; imports no scene and writes nothing"),
         Option("report", "", "writes the page, too: report.html in the folder of results"),
     ),
@@ -87,7 +97,8 @@ OPTIONS = [option for group in GROUPS.values() for option in group]
 
 def described():
     """The groups as the help shows them."""
-    return "\n\n".join("\n".join([f"{heading}:", *(line for option in group for line in option.lines())]) for heading, group in GROUPS.items())
+    return "\n\n".join("\n".join([f"{heading}:", *(line for option in group for line in option.lines())])
+                       for heading, group in GROUPS.items())
 
 
 def new_parser():

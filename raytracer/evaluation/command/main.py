@@ -12,34 +12,33 @@ from report import docs, make
 from report.paper import Paper
 from report.results import Results
 from report.tables import print_tables
+from trax_eval import runners
+from trax_eval.finished import forget_damaged, is_intact
+from trax_eval.interrupts import Interrupted, catch_interrupts, end_by_signal
+from trax_eval.planner import Planner, check_machines, check_names, label
+from trax_eval.programs import find_programs
+from trax_eval.results import collect, plan_file, write_plan
+from trax_eval.scratch import clean_scratch, new_scratch
+from trax_eval.sweep import parse_size, read_sweep
+from trax_eval.tools import Tools
+from trax_eval.util import Problem, check_files, complain, remark
+from trax_eval.values import Areas
 
-from . import completion, runners
-from .finished import forget_damaged, is_intact
-from .interrupts import Interrupted, catch_interrupts, end_by_signal
-from .new_sweep import new_sweep
+from . import completion
 from .options import OPTIONS, Parser, described, new_parser
-from .planner import Planner, check_machines, check_names, label
-from .programs import find_programs
-from .results import collect, plan_file, write_plan
-from .scratch import clean_scratch, new_scratch
-from .sweep import parse_size, read_sweep
-from .tools import Tools
-from .util import Problem, check_files, complain, remark
-from .values import Areas
 
 HELP = """\
 usage: trax-eval [OPTION...] EXPERIMENT... [SCENES]
        trax-eval [OPTION...] --all [SCENES]
        trax-eval report RESULTS.json -o PAGE.html
        trax-eval docs [--check] [RESULTS.json...] PAGE.md...
-       trax-eval new-sweep NAME.json
 
 Repeats what the paper measured, and shows our figures beside the paper's. Finished runs are kept: the same
 command makes only what is missing, whenever and however the one before it ended.
 
-EXPERIMENT is one of those below, or a sweep file of your own (NAME.json; new-sweep asks and writes one, README.md
-of lib/trax/evaluation has the format). SCENES is the folder with the scenes' meshes (default: the variable TRAX_SCENES,
-or else ./scenes).
+EXPERIMENT is one of those below, or a sweep file of your own (NAME.json): copy lib/trax/evaluation/example.json, and
+change it; README.md beside it has the format. SCENES is the folder with the scenes' meshes (default: the variable
+TRAX_SCENES, or else ./scenes).
 
 %s
 %s
@@ -63,7 +62,9 @@ def help_text(data):
 
 def parse(arguments):
     options = new_parser().parse_intermixed_args(arguments)
-    options.programs = None if options.program is None else [find_programs(name, ".", False)[0] if name.endswith(".json") else name for name in options.program.split(",")]
+    options.programs = None if options.program is None else [
+        find_programs(name, ".", False)[0] if name.endswith(".json") else name for name in options.program.split(",")
+    ]
     for option in OPTIONS:
         given = getattr(options, option.name, None) if option.mark and option.name != "program" else None
         if given is not None:
@@ -96,7 +97,10 @@ def choose(options, data):
         elif pathlib.Path(word).is_dir() and folder is None:
             folder = pathlib.Path(word)
         else:
-            raise Problem(f'"{word}" is neither an experiment ({", ".join(known)}), nor a sweep file (NAME.json), nor a folder of scenes')
+            raise Problem(
+                f'"{word}" is neither an experiment ({", ".join(known)}), nor a sweep file (NAME.json), nor a folder '
+                f'of scenes'
+            )
     if not files:
         raise Problem("no experiment was named; trax-eval --help lists them, --all is all of them")
     return files, folder or pathlib.Path(os.environ.get("TRAX_SCENES", "scenes"))
@@ -108,9 +112,14 @@ def evaluate(options, tools, data, command):
     whole = [read_sweep(path, size=options.size, mode=options.mode, programs=options.programs) for path in files]
     check_names(options, whole)
     sweeps = whole if (options.scene, options.variant, options.chip) == (None, None, None) else [
-        read_sweep(path, size=options.size, mode=options.mode, programs=options.programs, chips=options.chip, only_scenes=options.scene, only_variants=options.variant) for path in files]
+        read_sweep(path, size=options.size, mode=options.mode, programs=options.programs, chips=options.chip,
+                   only_scenes=options.scene, only_variants=options.variant) for path in files
+    ]
     check_machines(sweeps, tools)
-    check_files(files, [*(plan_file(options.output, sweep) for sweep in sweeps), options.output / "results.json", options.output / "report.html"])
+    check_files(files, [
+        *(plan_file(options.output, sweep)
+          for sweep in sweeps), options.output / "results.json", options.output / "report.html"
+    ])
     out = options.output.resolve()
     if out.exists() and not out.is_dir():
         raise Problem(f"{out}: is no folder")
@@ -132,8 +141,10 @@ def evaluate(options, tools, data, command):
             labels |= {key: label(point) for point, (key, _) in keys.items() if key}
             without += sum(key is None for key, _ in keys.values())
     if options.dry_run:
-        missing = [f"{'(new)' if key.startswith('-') else key} {name}" for key, name in labels.items()
-                   if not is_intact(out, key)]
+        missing = [
+            f"{'(new)' if key.startswith('-') else key} {name}" for key, name in labels.items()
+            if not is_intact(out, key)
+        ]
         print("\n".join([*missing, f"{len(missing)} of {len(labels)} runs are missing"]))
         return 0
     for sweep, keys in plans:
@@ -143,8 +154,12 @@ def evaluate(options, tools, data, command):
     results = collect(out, tools, Areas(data / "paper"), command, time.monotonic() - begin)
     if not options.quiet:
         print_tables(Results(results), Paper(data / "paper"), [sweep.name for sweep in sweeps], sys.stdout)
-        print(f"{len(labels) - failed} runs are there, {failed} failed, {without} could not be prepared; {out / 'results.json'}")
-    unreported = (options.all or options.report) and make.main([str(out / "results.json"), "-o", str(out / "report.html")])
+        print(
+            f"{len(labels) - failed} runs are there, {failed} failed, {without} could not be prepared; "
+            f"{out / 'results.json'}"
+        )
+    unreported = (options.all or options.report) and make.main(
+        [str(out / "results.json"), "-o", str(out / "report.html")])
     return 1 if failed or without or unreported else 0
 
 
@@ -186,9 +201,8 @@ def dispatch(arguments, tools, data):
     if arguments[:1] == ["docs"]:
         return docs.main(arguments[1:])
     if arguments[:1] == ["new-sweep"]:
-        if len(arguments) != 2:
-            raise Problem("new-sweep: expected one file, NAME.json")
-        return new_sweep(arguments[1], lambda sweeps: check_machines(sweeps, tools), sys.stdout)
+        raise Problem(
+            f"new-sweep is no longer there; copy {data / 'example.json'}, and change it ({data / 'README.md'})")
     return evaluate(parse(arguments), tools, data, shlex.join(["trax-eval", *arguments]))
 
 
