@@ -27,16 +27,14 @@ packages=(
   cmake ninja-build gcc g++ pkg-config python3                            # to build
   llvm-19-dev libclang-19-dev libclang-common-19-dev libc++-19-dev
   libelf-dev libdw-dev libconfig-dev libjansson-dev libxxhash-dev         # linker, emulator
-  libassimp-dev libembree-dev libpng-dev libjpeg-dev libopenexr-dev liblzma-dev zlib1g-dev libgmp-dev  # ray tracer's host side
-  libx11-dev                                                              # optional: the window of trax-render --show
+  libassimp-dev libembree-dev libpng-dev libjpeg-dev libtinyexr-dev liblzma-dev zlib1g-dev libgmp-dev  # ray tracer's host side
   newlib-source                                                           # the mathematical functions of binary64
   glmark2-data                                                            # the demo's bunny
 )
 test_packages=(
   make git llvm-19 llvm-19-tools clang-19                                 # the tutorial applies a patch with git
   libcmocka-dev libmpfr-dev gdb gdb-multiarch
-  xvfb                                                                    # that window's display
-  gnuplot-nox                                                             # the evaluation's figures
+  flake8                                                                  # the style of Python
   parallel 'chromium|chromium-browser'                                    # runs handed to GNU parallel; the evaluation's page in a browser
   slurmctld slurmd slurm-client                                           # the same by Slurm; its services do nothing without a configuration
   clangd-19 clang-tidy-19 meson                                           # recipes of docs/compiler.md

@@ -17,7 +17,7 @@ pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
 pkg_check_modules(ASSIMP REQUIRED IMPORTED_TARGET assimp)
 pkg_check_modules(GMP REQUIRED IMPORTED_TARGET gmp)
 pkg_check_modules(LZMA REQUIRED IMPORTED_TARGET liblzma)
-find_library(OPENEXR_CORE_LIBRARY OpenEXRCore REQUIRED) # the C one alone, not the C++ of its package
+find_library(TINYEXR_LIBRARY tinyexr REQUIRED)
 find_package(PNG REQUIRED)
 find_package(JPEG REQUIRED)
 find_package(ZLIB REQUIRED)

@@ -16,7 +16,6 @@ set(CPACK_DEBIAN_PACKAGE_SECTION devel)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # What no library says: clang's own headers, those of C++, trax-eval's interpreter.
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "libclang-common-${LLVM_VERSION_MAJOR}-dev, libc++-${LLVM_VERSION_MAJOR}-dev, python3")
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "gnuplot-nox")
 # For programs that link the emulator.
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "parallel, pkgconf, libelf-dev, libdw-dev, libconfig-dev, libjansson-dev, libxxhash-dev, zlib1g-dev")
 set(CPACK_PROJECT_CONFIG_FILE ${CMAKE_CURRENT_LIST_DIR}/debian/tools.cmake)

@@ -9,6 +9,10 @@ import re
 import subprocess
 import sys
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import checking  # noqa: E402
+from checking import check  # noqa: E402
+
 BIN, SOURCE = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
 TABLES = {
     "trax-sim": "emulator/host/options.c",
@@ -16,15 +20,8 @@ TABLES = {
     "trax-render": "raytracer/render/options.c",
     "trax-compare": "raytracer/render/compare_main.c",
 }
+EXPLAIN = SOURCE / "emulator/include/trax/explain.h"  # the options that explain a run
 LEAST = {"trax-sim": 40, "trax-scene": 25, "trax-render": 50, "trax-compare": 4}
-failures = 0
-
-
-def check(passed, *what):
-    global failures
-    if not passed:
-        failures += 1
-        print("FAILED:", *what)
 
 
 def printed(command, option):
@@ -35,7 +32,10 @@ def table(command):
     """Names of the options, and of those that are gone."""
     text = (SOURCE / TABLES[command]).read_text()
     rows = re.findall(r'^ *(?:static const trax_option rows\[\] = \{)?\{"([a-z-]+)",(.*?)(?=^ *(?:\{|TRAX_OPTION))', text, re.MULTILINE | re.DOTALL)
+    rows = [(name, rest) for name, rest in rows if ".meaning" in rest or ".instead" in rest]
     names = {name for name, rest in rows if ".instead" not in rest} | {"help", "version"}
+    if "TRAX_EXPLAIN_FILES" in text:
+        names |= set(re.findall(r'^ *X\(\w+, "([a-z-]+)"', EXPLAIN.read_text(), re.MULTILINE))
     return names, {name for name, rest in rows if ".instead" in rest}
 
 
@@ -66,7 +66,7 @@ def main():
             check(completed(command, f"--{name}") <= names and f"\\-\\-{name}" not in manual, command, name, "is gone")
         check(subprocess.run(["groff", "-man", "-Tascii", "-ww", "-z"], input=manual, capture_output=True, text=True).stderr == "" if have("groff") else True,
               command, "groff warns of the page")
-    check(completed("trax-render", "--engine", "") == {"fast", "reference", "native", "embree"}, "choices")
+    check(completed("trax-render", "--engine", "") == {"fast", "reference", "native", "embree", "exact"}, "choices")
     check(completed("trax-render", "--engine", "re") == {"reference"}, "a choice that is begun")
     check(completed("trax-render", "--engine", "=", "na") == {"native"}, "a choice behind '='")
     check(completed("trax-render", "--size", "1") == set(), "what only the user knows")
@@ -74,7 +74,7 @@ def main():
     check("SS View" in printed("trax-render", "--help-man") and "\nView:\n" in printed("trax-render", "--help"), "headings")
     evaluation_completion()
     help_pages()
-    return failures != 0
+    return checking.failures != 0
 
 
 def stems(folder):
@@ -90,13 +90,12 @@ def evaluation_completion():
     experiments = stems("sweeps")
     for words in ([""], ["--quick", ""]):
         found = completed("trax-eval", *words)
-        check(experiments | {"report", "docs", "new-sweep", "index.md"} <= found and len(experiments) >= 30, "experiments:", sorted(experiments - found))
+        check(experiments | {"report", "docs", "index.md"} <= found and len(experiments) >= 30, "experiments:", sorted(experiments - found))
     check(completed("trax-eval", "table2", "table") == {"table1", "table2", "table3"}, "an experiment that is begun")
     for words, expected in ((["--mode", ""], {"exact", "quick"}), (["--runner", "p"], {"parallel"}), (["--runner", "=", "s"], {"slurm"}), (["--size", "1"], set()),
                             (["--jobs", ""], set()), (["--chip", "4x32,8x4"], {"4x32,8x48"}), (["--program", "pap"], {"paper"}),
                             (["--scene", "sibenik,cryt"], {"sibenik,crytek-sponza"}), (["--scene", "ind"], set()), (["--chip", "ind"], {"index.md"}), (["-o", "resu"], {"results"}), (["-o", "inde"], set()),
-                            (["docs", "--"], {"--anew", "--check", "--help"}), (["report", "--o"], {"--output"}), (["report", "inde"], {"index.md"}),
-                            (["new-sweep", "--"], set())):
+                            (["docs", "--"], {"--anew", "--check", "--help"}), (["report", "--o"], {"--output"}), (["report", "inde"], {"index.md"})):
         check(completed("trax-eval", *words) == expected, *words, completed("trax-eval", *words))
     check(stems("programs") <= completed("trax-eval", "--program", ""), "programs of trax-eval")
     check(stems("scenes") <= completed("trax-eval", "--scene", ""), "scenes of trax-eval")

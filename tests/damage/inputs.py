@@ -1,8 +1,12 @@
 """Good inputs of every kind, made in a folder. What is damaged begins with them."""
 import json
 import struct
+import pathlib
 import subprocess
-import zlib
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from png_files import png_of  # noqa: E402
 
 PROGRAM = r"""
 #include <stdio.h>
@@ -143,19 +147,6 @@ light = [2.0, 3.0, 4.0];
 """
 
 
-def png(width, height, pixel):
-    def chunk(kind, body):
-        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
-
-    rows = b"".join(b"\0" + b"".join(pixel(x, y) for x in range(width)) for y in range(height))
-    return (
-        b"\x89PNG\r\n\x1a\n"
-        + chunk(b"IHDR", struct.pack(">2I5B", width, height, 8, 6, 0, 0, 0))
-        + chunk(b"IDAT", zlib.compress(rows))
-        + chunk(b"IEND", b"")
-    )
-
-
 def gltf(uri):
     """A triangle with a node above a node; the bytes of its buffer are beside it, or in the file itself."""
     return {
@@ -249,7 +240,8 @@ def make(binaries, folder):
         + b"".join(struct.pack("<3fB", x, x * x, -x, 9) for x in range(4))
         + struct.pack("<B4iB3i", 4, 0, 1, 2, 3, 3, 0, 2, 3)
     )
-    (folder / "texture.png").write_bytes(png(4, 4, lambda x, y: bytes((60 * x, 60 * y, 9, 255 - 80 * x))))
+    rows = [bytes(v for x in range(4) for v in (60 * x, 60 * y, 9, 255 - 80 * x)) for y in range(4)]
+    (folder / "texture.png").write_bytes(png_of(rows, channels=4))
     run("trax-scene", "mesh.obj", "-q", "-o", "scene.trax")
     run("trax-scene", "mesh.obj", "-q", "--smooth", "--nodes", "quantised", "--splits=2", "-o", "quantised.trax")
     run("trax-render", "scene.trax", "-q", "--engine", "native", "--size", "9x7", "-o", "picture.png")

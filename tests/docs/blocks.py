@@ -4,7 +4,8 @@
     text                                  what the commands before it print
     c hello.c (any language and a name)   a file, written before the commands run
     c of PATH (any language)              a part of that file of the sources
-    sh long, console long                 commands that take minutes or need files that are not here; only their options are checked
+sh long, console long                 commands that take minutes or need files that are not here; only their options are
+checked
     sh whole, text whole                  the same, in the tutorial: they need changed sources built anew
     sh recipe                             what the test clang/recipes.test runs
     output                                what a program prints, shown to explain it
@@ -56,7 +57,7 @@ def kind(words, text):
     return "part" if len(words) == 3 and words[1] == "of" else None
 
 
-def run_commands(blocks, root, folder, kinds=("sh",), path=()):
+def run_commands(blocks, root, folder, kinds=("sh", ), path=()):
     """What each block of commands printed, by its line, and what went to standard error. Files go to `folder`."""
     script = ["set -e -o pipefail"]
     folder.mkdir(parents=True, exist_ok=True)
@@ -67,15 +68,18 @@ def run_commands(blocks, root, folder, kinds=("sh",), path=()):
         elif words.startswith("sh") and what in kinds:
             script += [f"echo '{MARK}{line}'", text]
     environment = {**os.environ, "LC_ALL": "C", "PATH": os.pathsep.join([*map(str, path), os.environ["PATH"]])}
-    done = subprocess.run(["bash", "-c", "\n".join(script)], cwd=root, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                          stderr=subprocess.PIPE, text=True, check=False)
+    done = subprocess.run(["bash", "-c", "\n".join(script)], cwd=root, env=environment, stdin=subprocess.DEVNULL,
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
     printed = {}
     for part in done.stdout.split(MARK)[1:]:
         line, _, text = part.partition("\n")
         printed[int(line)] = text
     if done.returncode != 0:
         last = max(printed, default=0)
-        raise Failure(f"the commands of line {last} ended with status {done.returncode}:\n{printed.get(last, '')[-2000:]}{done.stderr[-2000:]}")
+        raise Failure(
+            f"the commands of line {last} ended with status "
+            f"{done.returncode}:\n{printed.get(last, '')[-2000:]}{done.stderr[-2000:]}"
+        )
     return printed, done.stderr
 
 
@@ -108,5 +112,8 @@ def check_parts(blocks, source):
 def pages(source):
     """Every page that a reader meets."""
     source = pathlib.Path(source)
-    named = [source / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "tests/isa/README.md", "raytracer/evaluation/README.md")]
+    named = [
+        source / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "tests/isa/README.md",
+                                   "raytracer/evaluation/README.md")
+    ]
     return [page for page in named if page.exists()] + sorted((source / "docs").rglob("*.md"))

@@ -1,11 +1,12 @@
 """Commands of the pages: commands_test.py SOURCE BUILD [--update] [PAGE...]
 
-- Blocks of `sh` are run, each page in a folder of its own, and `text` behind one is what it prints (blocks.py has the kinds).
-- Of blocks of `sh long`, and of `code` that is a command, the program and its options must exist. Those of trax-render are
+- Blocks of `sh` are run, each page in a folder of its own, and `text` behind one is what it prints (blocks.py has the
+kinds). - Of blocks of `sh long`, and of `code` that is a command, the program and its options must exist. Those of
+trax-render are
   also started, without their files: a file that is not there must be all that is wrong.
 
-Stand-ins (small meshes, small programs) have the names that pages use for files of the reader's. --update writes into the pages
-what the commands print. tests/tutorial does the tutorial's two pages."""
+Stand-ins (small meshes, small programs) have the names that pages use for files of the reader's. --update writes into
+the pages what the commands print. tests/tutorial does the tutorial's two pages."""
 
 import functools
 import json
@@ -23,8 +24,8 @@ from blocks import Failure, check_parts, compare, kind, pages, read_blocks, run_
 
 TUTORIAL = ("docs/tutorial.md", "docs/extending.md")
 LINKED = ("build", "raytracer", "emulator", "llvm-target", "tests", "isa", "runtime")
-HELLO = '#include <stdio.h>\n#include <trax.h>\nint main(void) {\n  if (trax_thread() == 0)\n    printf("threads: %u\\n", trax_threads());\n}\n'
-
+HELLO = ('#include <stdio.h>\n#include <trax.h>\nint main(void) {\n  if (trax_thread() == 0)\n'
+         '    printf("threads: %u\\n", trax_threads());\n}\n')
 
 # --- stand-ins ---
 
@@ -33,7 +34,8 @@ def ball():
     """Vertices and triangles of a small ball."""
     rows, columns = 8, 12
     points = [(math.sin(math.pi * i / rows) * math.cos(2 * math.pi * j / columns), math.cos(math.pi * i / rows),
-               math.sin(math.pi * i / rows) * math.sin(2 * math.pi * j / columns)) for i in range(rows + 1) for j in range(columns)]
+               math.sin(math.pi * i / rows) * math.sin(2 * math.pi * j / columns)) for i in range(rows + 1)
+              for j in range(columns)]
     faces = []
     for i in range(rows):
         for j in range(columns):
@@ -43,16 +45,21 @@ def ball():
 
 
 def glb(points, faces):
-    data = b"".join(struct.pack("<3f", *point) for point in points) + b"".join(struct.pack("<3H", *face) for face in faces)
+    data = b"".join(struct.pack("<3f", *point)
+                    for point in points) + b"".join(struct.pack("<3H", *face) for face in faces)
     data += bytes(-len(data) % 4)
     vertices = 12 * len(points)
     low, high = [min(axis) for axis in zip(*points)], [max(axis) for axis in zip(*points)]
     text = json.dumps({
-        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}], "buffers": [{"byteLength": len(data)}],
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+        "buffers": [{"byteLength": len(data)}],
         "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
-        "bufferViews": [{"buffer": 0, "byteLength": vertices}, {"buffer": 0, "byteOffset": vertices, "byteLength": 6 * len(faces)}],
-        "accessors": [{"bufferView": 0, "componentType": 5126, "count": len(points), "type": "VEC3", "min": low, "max": high},
-                      {"bufferView": 1, "componentType": 5123, "count": 3 * len(faces), "type": "SCALAR"}]}).encode()
+        "bufferViews": [{"buffer": 0, "byteLength": vertices},
+                        {"buffer": 0, "byteOffset": vertices, "byteLength": 6 * len(faces)}], "accessors": [{
+                            "bufferView": 0, "componentType": 5126, "count": len(points), "type": "VEC3", "min": low,
+                            "max": high
+                        }, {"bufferView": 1, "componentType": 5123, "count": 3 * len(faces), "type": "SCALAR"}]
+    }).encode()
     text += b" " * (-len(text) % 4)
     chunks = struct.pack("<2I", len(text), 0x4E4F534A) + text + struct.pack("<2I", len(data), 0x004E4942) + data
     return struct.pack("<3I", 0x46546C67, 2, 12 + len(chunks)) + chunks
@@ -60,10 +67,11 @@ def glb(points, faces):
 
 def stand_ins(root, binaries):
     points, faces = ball()
-    obj = "".join("v %g %g %g\n" % point for point in points) + "".join("f %d %d %d\n" % tuple(i + 1 for i in face) for face in faces)
-    ply = f"ply\nformat ascii 1.0\nelement vertex {len(points)}\nproperty float x\nproperty float y\nproperty float z\nelement face {len(faces)}\n" \
-          "property list uchar int vertex_indices\nend_header\n" + "".join("%g %g %g\n" % point for point in points) + \
-          "".join("3 %d %d %d\n" % face for face in faces)
+    corners = [tuple(i + 1 for i in face) for face in faces]
+    obj = "".join(["v %g %g %g\n" % point for point in points] + ["f %d %d %d\n" % corner for corner in corners])
+    head = ["ply", "format ascii 1.0", f"element vertex {len(points)}", *(f"property float {axis}" for axis in "xyz"),
+            f"element face {len(faces)}", "property list uchar int vertex_indices", "end_header"]
+    ply = "\n".join([*head, *("%g %g %g" % point for point in points), *("3 %d %d %d" % face for face in faces), ""])
     for name in ("bunny.obj", "my-mesh.obj"):
         (root / name).write_text(obj)
     for name in ("conference.ply.xz", "dragon.ply.xz"):
@@ -84,11 +92,13 @@ def stand_ins(root, binaries):
 @functools.cache
 def help_of(program):
     """What lists the program's options."""
-    done = subprocess.run([program, "--help"], capture_output=True, text=True, stdin=subprocess.DEVNULL, timeout=60, check=False)
+    done = subprocess.run([program, "--help"], capture_output=True, text=True, stdin=subprocess.DEVNULL, timeout=60,
+                          check=False)
     text = done.stdout + done.stderr
     if set(re.findall(r"--[a-z][\w-]*", text)) - {"--help"}:
         return text
-    words = re.findall(rb"([a-z][a-z-]+)(?=\0)", program.read_bytes())  # a test's program without help: its strings, and their ends
+    words = re.findall(rb"([a-z][a-z-]+)(?=\0)",
+                       program.read_bytes())  # a test's program without help: its strings, and their ends
     return " ".join(f"--{word[at:].decode()}" for word in set(words) if len(word) < 40 for at in range(len(word) - 2))
 
 
@@ -99,15 +109,18 @@ class Commands:
 
     @functools.cached_property
     def targets(self):
-        listed = subprocess.run(["ninja", "-C", str(self.build), "-t", "targets", "all"], capture_output=True, text=True, check=True).stdout
+        listed = subprocess.run(["ninja", "-C", str(self.build), "-t", "targets", "all"], capture_output=True,
+                                text=True, check=True).stdout
         return {line.split(": ")[0] for line in listed.splitlines()}
 
     @functools.cached_property
     def evaluation(self):
-        return help_of(self.binaries / "trax-eval") + "".join(path.read_text() for path in (self.source / "raytracer/evaluation").rglob("*.py"))
+        return help_of(self.binaries / "trax-eval") + "".join(
+            path.read_text() for path in (self.source / "raytracer/evaluation").rglob("*.py"))
 
     def options_of(self, word):
-        """The text in which options of the command must stand; None: its options are not ours; Failure: no such program."""
+        """The text in which options of the command must stand; None: its options are not ours; Failure: no such
+        program."""
         if word in ("clang", "clang++", "trax-clang", "trax-clang++", "build/bin/clang"):
             return None
         if "/" not in word and word.startswith("trax-") and (self.binaries / word).exists():
@@ -138,8 +151,10 @@ class Commands:
             return None
         try:
             if words[0] == "ninja":
-                wrong = [word for at, word in enumerate(words[1:], 1) if not word.startswith("-") and words[at - 1] not in ("-C", "-j") and
-                         not word.isupper() and word not in self.targets]
+                wrong = [
+                    word for at, word in enumerate(words[1:], 1) if not word.startswith("-") and words[at - 1] not in (
+                        "-C", "-j") and not word.isupper() and word not in self.targets
+                ]
                 self.checked += 1
                 return f"`{command}`: no target {wrong[0]}" if wrong else None
             if words[:2] == ["cmake", "--preset"]:
@@ -156,21 +171,21 @@ class Commands:
             if word in ("--", "|", ">", "&&", ";"):
                 break
             option = word.split("=")[0].rstrip(",.")
-            if re.fullmatch(r"--[a-z][\w-]*", option) and not re.search(rf"(?<![\w-]){option}(?![\w-])", text) and option not in ("--help", "--version"):
+            if re.fullmatch(r"--[a-z][\w-]*", option) and not re.search(rf"(?<![\w-]){option}(?![\w-])",
+                                                                        text) and option not in ("--help", "--version"):
                 return f"`{command}`: {words[0]} has no {option}"
         return None
 
     def start(self, command):
-        """What trax-render says of a command before it looks for meshes; None if nothing. Words in capitals are values."""
+        """What trax-render says of a command before it looks for meshes; None if nothing. Words in capitals are
+        values."""
         if not re.match(r"(build/bin/)?trax-render [^-]", command) or "..." in command:
             return None
-        words = [re.sub(r"\b(N|SEED)\b", "1", word) for word in shlex.split(command, comments=True)[1:]
-            if word != "--show"]  # no window
+        words = [re.sub(r"\b(N|SEED)\b", "1", word) for word in shlex.split(command, comments=True)[1:]]
         made = ["missing.obj"] if words[0].startswith("generate:") else []
         with tempfile.TemporaryDirectory() as folder:
             done = subprocess.run([self.binaries / "trax-render", *made, *words], cwd=folder, capture_output=True,
-                text=True,
-                                  stdin=subprocess.DEVNULL, timeout=60, check=False)
+                                  text=True, stdin=subprocess.DEVNULL, timeout=60, check=False)
         self.started += 1
         looked = done.returncode == 1 and "No such file" in done.stderr
         return None if looked else f"`{command}`: {done.stderr.strip() or done.returncode}"
@@ -187,9 +202,13 @@ class Commands:
         for words, block, _ in blocks:
             if kind(words, block) == "long" and not words.startswith("text"):
                 joined = block.replace("\\\n", " ")
-                lines = [line[2:] for line in joined.split("\n")[:1]] if words.startswith("console") else joined.split("\n")
-                commands += [part for line in lines for part in re.split(r"\s+(?:&&|\|\||\||;)\s+", line) if part and not part.startswith("#")]
-        return [fault for command in commands for fault in (self.check(command) or self.start(command),) if fault]
+                lines = [line[2:]
+                         for line in joined.split("\n")[:1]] if words.startswith("console") else joined.split("\n")
+                commands += [
+                    part for line in lines for part in re.split(r"\s+(?:&&|\|\||\||;)\s+", line)
+                    if part and not part.startswith("#")
+                ]
+        return [fault for command in commands for fault in (self.check(command) or self.start(command), ) if fault]
 
 
 def main():
@@ -212,7 +231,7 @@ def main():
                 for part in LINKED:
                     (root / part).symlink_to(build if part == "build" else source / part)
                 stand_ins(root, commands.binaries)
-                printed, _ = run_commands(blocks, root, root, ("sh",), [commands.binaries])
+                printed, _ = run_commands(blocks, root, root, ("sh", ), [commands.binaries])
             ran += len(printed)
             new, count = compare(text, blocks, printed, update)
             compared += count
@@ -221,12 +240,16 @@ def main():
                 page.write_text(new, encoding="utf-8")
         except Failure as failure:
             wrong.append(f"{name}: {failure}")
-    for bad in ("trax-sim --no-such-option x", "build/bin/no-such-program x", "tests/none.py x", "ninja -C build no-such-target", "cmake --preset none"):
+    for bad in ("trax-sim --no-such-option x", "build/bin/no-such-program x", "tests/none.py x",
+                "ninja -C build no-such-target", "cmake --preset none"):
         if not commands.check(bad):
             wrong.append(f"`{bad}` is not noticed")
     for fault in wrong:
         print(fault)
-    print(f"{ran} blocks ran, {compared} texts compared, {commands.checked} commands whose options were looked up, {commands.started} started, {len(wrong)} faults")
+    print(
+        f"{ran} blocks ran, {compared} texts compared, {commands.checked} commands whose options were looked up, "
+        f"{commands.started} started, {len(wrong)} faults"
+    )
     return 1 if wrong or (not words[2:] and (ran < 10 or commands.checked < 100 or commands.started < 8)) else 0
 
 

@@ -1,15 +1,14 @@
 """The pages hang together: links_test.py SOURCE
 
-- Every link leads to a file, every #anchor and every quoted chapter (`[isa.md](isa.md), "Order"`) to a heading of it.
-- Every `docs/PAGE.md, "Chapter"` in the sources, too.
-- `folder/file` is a file of the sources, `trax_name` a word of them.
-- docs/index.md and README.md lead to every page, directly or by another page; docs/index.md names every page of docs/.
-- A page begins with a title and a sentence, and has at most LINES lines besides generated lists; pages of results and GENERATED
+- Every link leads to a file, every #anchor and every quoted chapter (`[isa.md](isa.md), "Order"`) to a heading of it. -
+Every `docs/PAGE.md, "Chapter"` in the sources, too. - `folder/file` is a file of the sources, `trax_name` a word of
+them. - docs/index.md and README.md lead to every page, directly or by another page; docs/index.md names every page of
+docs/. - A page begins with a title and a sentence, and has at most LINES lines besides generated lists; pages of
+results and GENERATED
   may have long tables.
-- A page of results says once, with `*Measured with ...*`, which versions measured it: those that stand above its tables.
-- What is code stands between backticks: an indented block has no kind, and no test runs it.
-- VERSION has a chapter in CHANGELOG.md.
-- Every picture in docs/ is shown by a page, is what its name says, and is small.
+- A page of results says once, with `*Measured with ...*`, which versions measured it: those that stand above its
+tables. - What is code stands between backticks: an indented block has no kind, and no test runs it. - VERSION has a
+chapter in CHANGELOG.md. - Every picture in docs/ is shown by a page, is what its name says, and is small.
 
 It also sees that it can fail."""
 
@@ -23,13 +22,17 @@ from blocks import kind, pages, read_blocks
 LINES = 250
 FOLDERS = ("emulator", "isa", "llvm-target", "raytracer", "runtime", "tests", "cmake")
 PICTURE = 300_000  # bytes of a PNG
-GENERATED = {"isa.md": "the manual", "isa-coverage.md": "the suite's cases", "timing-rules.md": "the rules of time", "trax-sim.md": "lists of options"}
+GENERATED = {
+    "isa.md": "the manual", "isa-coverage.md": "the suite's cases", "timing-rules.md": "the rules of time",
+    "trax-sim.md": "lists of options"
+}
 LINK = re.compile(r"!?\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^)\s]+)\)")
 QUOTED = re.compile(r"\]\(([^)\s#]+\.md)\)(?:,\s+|,? section )((?:\"[^\"]+\"(?:,? and |, )?)+)")
 IN_SOURCES = re.compile(r"\bdocs/([\w/-]+\.md)\b(?:,[\s/*#]*\"([^\"]+)\")?")
-FILE = re.compile(r"`(?:\./)?(\w[\w.+-]*(?:/[\w.+-]+)+\.(?:c|h|cpp|py|td|def|sh|cmake|json|cfg|md|patch|inc|txt))(?::\d+)?`")
+FILE = re.compile(
+    r"`(?:\./)?(\w[\w.+-]*(?:/[\w.+-]+)+\.(?:c|h|cpp|py|td|def|sh|cmake|json|cfg|md|patch|inc|txt))(?::\d+)?`")
 NAME = re.compile(r"`(_*(?:trax|TRAX)_\w+)(?:\([^`]*\))?`")
-OTHERS = ("docs/llvm-releases.md",)  # names files of LLVM
+OTHERS = ("docs/llvm-releases.md", )  # names files of LLVM
 SOURCES = (".c", ".h", ".cpp", ".py", ".td", ".txt", ".in", ".sh", ".cmake", ".s", ".S", ".inc", ".def")
 
 
@@ -83,8 +86,10 @@ class Pages:
     def __init__(self, source):
         self.source = pathlib.Path(source).resolve()
         self.texts = {page.resolve(): page.read_text(encoding="utf-8") for page in pages(self.source)}
-        self.files = [f"/{path.relative_to(self.source)}" for folder in (*FOLDERS, "docs")
-            for path in (self.source / folder).rglob("*") if path.is_file()]
+        self.files = [
+            f"/{path.relative_to(self.source)}" for folder in (*FOLDERS, "docs")
+            for path in (self.source / folder).rglob("*") if path.is_file()
+        ]
         self.words = {word for path, text in self.sources() for word in re.findall(r"\b_*(?:trax|TRAX)_\w+", text)}
 
     def name(self, page):
@@ -117,22 +122,26 @@ class Pages:
         return wrong, led
 
     def named(self, page, text):
-        """Files and names in a page that the sources lack. A word in capitals stands for another, out/ is the reader's."""
+        """Files and names in a page that the sources lack. A word in capitals stands for another, out/ is the
+        reader's."""
         wrong = []
         for found in () if str(self.name(page)) in OTHERS else FILE.finditer(text):
-            if not re.search(r"\b[A-Z]{2,}\b",
-                found[1]) and not found[1].startswith("out/") and not any(name.endswith("/" + found[1])
-                for name in self.files):
+            if not re.search(r"\b[A-Z]{2,}\b", found[1]) and not found[1].startswith("out/") and not any(
+                    name.endswith("/" + found[1]) for name in self.files):
                 wrong.append(f"{self.name(page)}: there is no {found[1]}")
-        return wrong + [f"{self.name(page)}: the sources have no {name}" for name in NAME.findall(text)
-            if name not in self.words]
+        return wrong + [
+            f"{self.name(page)}: the sources have no {name}" for name in NAME.findall(text) if name not in self.words
+        ]
 
     def versions(self, page, text):
         """What is wrong with what a page of results says of versions."""
         said = re.findall(r"^\*Measured with (.*)\*$", text, re.M)
         above = set(re.findall(r"trax (\d[\d.]*\d)", " ".join(re.findall(r"; measured with (.*):$", text, re.M))))
         if len(said) != 1 or above and set(re.findall(r"\d+\.\d+\.\d+", said[0])) != above:
-            return [f"{self.name(page)}: does not say once, with *Measured with ...*, which versions measured it ({', '.join(sorted(above)) or 'the version'})"]
+            return [
+                f"{self.name(page)}: does not say once, with *Measured with ...*, which versions measured it "
+                f"({', '.join(sorted(above)) or 'the version'})"
+            ]
         return []
 
     def form(self, page, text):
@@ -146,9 +155,11 @@ class Pages:
         count, generated = 0, False
         results = "results" in name.parts or page.name in GENERATED
         for line in lines:
-            generated = (generated or re.match(r"<!-- \S+.*: begin -->", line)) and not re.match(r"<!-- \S+.*: end -->", line)
+            generated = (generated or
+                         re.match(r"<!-- \S+.*: begin -->", line)) and not re.match(r"<!-- \S+.*: end -->", line)
             count += not generated and not (results and line.startswith("|"))
-        count -= sum(block.count("\n") for words, block, _ in read_blocks(text) if kind(words, block) == "help" or results)
+        count -= sum(
+            block.count("\n") for words, block, _ in read_blocks(text) if kind(words, block) == "help" or results)
         if count > LINES and page.name not in GENERATED:
             wrong.append(f"{name}: has {count} lines; {LINES} is what one reads in ten minutes")
         for words, block, line in read_blocks(text) if page.name != "isa.md" else ():
@@ -210,23 +221,26 @@ class Pages:
     def sources(self):
         for folder in FOLDERS:
             for path in sorted((self.source / folder).rglob("*")):
-                if path.suffix in SOURCES and "fuzz-corpus" not in path.parts and path != pathlib.Path(__file__).resolve():
+                if path.suffix in SOURCES and "fuzz-corpus" not in path.parts and path != pathlib.Path(
+                        __file__).resolve():
                     yield path.relative_to(self.source), path.read_text(encoding="utf-8", errors="replace")
 
     def unnoticed(self):
         """What is broken on purpose, and not noticed."""
         page = self.source / "docs/index.md"
-        for text in ("[x](none.md)", "[x](isa.md#none)", '[isa.md](isa.md), "No such chapter"', "[x](../README.md#none)", "![x](none.svg)"):
+        for text in ("[x](none.md)", "[x](isa.md#none)", '[isa.md](isa.md), "No such chapter"',
+                     "[x](../README.md#none)", "![x](none.svg)"):
             if not self.links(page, f"# T\n\nText {text}.\n")[0]:
                 yield f"{text} is not noticed"
-        for text in ("Text.\n", "# T\n\n| a |\n", "# T\n\nText.\n" + "x\n" * (LINES + 9), "# T\n\nText.\n\n```\nls\n```\n", "# T\n\nText.\n\n    ls\n"):
+        for text in ("Text.\n", "# T\n\n| a |\n", "# T\n\nText.\n" + "x\n" * (LINES + 9),
+                     "# T\n\nText.\n\n```\nls\n```\n", "# T\n\nText.\n\n    ls\n"):
             if not self.form(page, text):
                 yield f"a page that begins with {text[:20]!r} is not noticed"
         for text in ("`emulator/none.c`", "`clang/TraxBuiltins.def`", "`trax_no_such_name`", "`trax_no_such_name(x)`"):
             if not self.named(page, text):
                 yield f"{text} is not noticed"
         for text in ("", "*Measured with trax 0.1.0.*\n*Measured with trax 0.1.0.*\n",
-            "*Measured with trax 0.1.0.*\n\n`x`; measured with trax 0.2.0 (2026-01-01):\n"):
+                     "*Measured with trax 0.1.0.*\n\n`x`; measured with trax 0.2.0 (2026-01-01):\n"):
             if not self.versions(page, text):
                 yield f"a page of results with {text!r} is not noticed"
         for text in ("docs/none.md", 'docs/isa.md, "No such chapter"'):

@@ -1,9 +1,10 @@
 """README's figures and picture are those of this build: readme_test.py SOURCE BIN [--update]
 
-The forest is made by the program itself, so its row and its picture are rendered again, and must be the same to the digit and the
-pixel. The command of the picture's caption is run for a small picture. With TRAX_SCENES=DIR the rows of the other scenes are
-rendered, too. The picture of docs/explaining.md is of a run that takes as many cycles as its caption says. --update writes rows
-and pictures; the right half of README's, what each pixel cost, takes a minute of a core."""
+The forest is made by the program itself, so its row and its picture are rendered again, and must be the same to the
+digit and the pixel. The command of the picture's caption is run for a small picture. With TRAX_SCENES=DIR the rows of
+the other scenes are rendered, too. The picture of docs/explaining.md is of a run that takes as many cycles as its
+caption says. --update writes rows and pictures; the right half of README's, what each pixel cost, takes a minute of a
+core."""
 
 import base64
 import importlib
@@ -17,56 +18,22 @@ import tempfile
 import time
 import zlib
 
-SCENES = {"conference": ("conference.ply.xz", "conference"), "crytek-sponza": ("crytek-sponza.ply.xz", "crytek-sponza"),
-          "dragon": ("dragon.ply.xz dragon_box.obj", "dragon"), "sibenik": ("sibenik.ply.xz", "sibenik"), "forest": ("generate:forest", "forest")}
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from png_files import png_of, read_png  # noqa: E402
+
+SCENES = {
+    "conference": ("conference.ply.xz", "conference"), "crytek-sponza": ("crytek-sponza.ply.xz", "crytek-sponza"),
+    "dragon": ("dragon.ply.xz dragon_box.obj", "dragon"), "sibenik": ("sibenik.ply.xz", "sibenik"),
+    "forest": ("generate:forest", "forest")
+}
 PICTURE, SIZE, GAP = "docs/forest.png", "400x225", 8
 
 
-def unfilter(line, before, how):
-    """A row of RGB pixels of a PNG as it was before filter `how`."""
-    line = bytearray(line)
-    for i in range(len(line)):
-        left, up, corner = (line[i - 3] if i >= 3 else 0), before[i], (before[i - 3] if i >= 3 else 0)
-        guess = left + up - corner
-        paeth = min((left, up, corner), key=lambda value: abs(guess - value))
-        line[i] = (line[i] + (0, left, up, (left + up) // 2, paeth)[how]) & 255
-    return line
-
-
-def read_png(path):
-    """Rows of RGB pixels."""
-    data, at, packed = path.read_bytes(), 8, b""
-    while at < len(data):
-        size, name = int.from_bytes(data[at:at + 4], "big"), data[at + 4:at + 8]
-        if name == b"IHDR":
-            width, kind = int.from_bytes(data[at + 8:at + 12], "big"), tuple(data[at + 16:at + 18])
-        packed += data[at + 8:at + 8 + size] if name == b"IDAT" else b""
-        at += 12 + size
-    if kind != (8, 2):
-        sys.exit(f"{path}: no PNG of 8 bits RGB")
-    raw, rows, length = zlib.decompress(packed), [], 3 * width + 1
-    for y in range(len(raw) // length):
-        rows.append(unfilter(raw[y * length + 1:(y + 1) * length], rows[-1] if rows else bytes(3 * width), raw[y * length]))
-    return [bytes(row) for row in rows]
-
-
-def write_png(path, rows):
-    def chunk(name, content):
-        return len(content).to_bytes(4, "big") + name + content + zlib.crc32(name + content).to_bytes(4, "big")
-    lines, before = b"", bytes(len(rows[0]))
-    for row in rows:
-        filtered = (row, bytes((row[i] - (row[i - 3] if i >= 3 else 0)) & 255 for i in range(len(row))),
-                    bytes((a - b) & 255 for a, b in zip(row, before)))
-        how = min(range(3), key=lambda i: sum(min(value, 256 - value) for value in filtered[i]))
-        lines += bytes([how]) + filtered[how]
-        before = row
-    header = (len(rows[0]) // 3).to_bytes(4, "big") + len(rows).to_bytes(4, "big") + bytes([8, 2, 0, 0, 0])
-    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(lines, 9)) + chunk(b"IEND", b""))
-
-
-# Of a screen: the name of the text chunk in which the PNG has the cycles of the run that it shows, and the part of the page.
-SCREEN, CYCLES, CLIP = "docs/explore.png", b"tEXtcycles\0", {"x": 0, "y": 0, "width": 1400, "height": 1640,
-    "scale": 0.68}
+# Of a screen: the name of the text chunk in which the PNG has the cycles of the run that it shows, and the part of the
+# page.
+SCREEN, CYCLES, CLIP = "docs/explore.png", b"tEXtcycles\0", {
+    "x": 0, "y": 0, "width": 1400, "height": 1640, "scale": 0.68
+}
 
 
 def take_screen(page, path, cycles):
@@ -80,7 +47,7 @@ def take_screen(page, path, cycles):
         png = base64.b64decode(shown.call("Page.captureScreenshot", captureBeyondViewport=True, clip=CLIP)["data"])
     content = CYCLES + str(cycles).encode()
     path.write_bytes(png[:33] + (len(content) - 4).to_bytes(4, "big") + content +
-        zlib.crc32(content).to_bytes(4, "big") + png[33:])
+                     zlib.crc32(content).to_bytes(4, "big") + png[33:])
 
 
 def check_screen(source, binaries, folder, update):
@@ -99,8 +66,8 @@ def check_screen(source, binaries, folder, update):
         take_screen(folder / words[-1], source / SCREEN, cycles)
     shown = re.search(re.escape(CYCLES) + rb"(\d+)", (source / SCREEN).read_bytes())
     wrong = [] if caption[1] == f"{cycles:,}" else [f"docs/explaining.md: the page's run takes {cycles:,} cycles"]
-    return wrong + ([] if shown and int(shown[1]) == cycles
-        else [f"{SCREEN}: does not show the run of {cycles:,} cycles"])
+    return wrong + ([]
+                    if shown and int(shown[1]) == cycles else [f"{SCREEN}: does not show the run of {cycles:,} cycles"])
 
 
 def digits(value):
@@ -112,9 +79,13 @@ def row(scene, statistics, old):
     cells = old.strip("|\n ").split(" | ")
     rays, paper = statistics["rays"], cells[4]
     deviation = "-" if paper == "-" else f"{statistics['mrps'] / float(paper) * 100 - 100:+.1f} %"
-    return "| " + " | ".join([cells[0], f"{statistics['cycles']:,}", f"{rays:,}", digits(statistics["mrps"]), paper, deviation,
-                              digits(statistics["flops"] / rays), digits(statistics["memory"]["bytes"] / rays),
-                              digits(statistics["memory"]["bandwidth_gbps"])]) + " |\n"
+    return "| " + " | ".join([
+        cells[0], f"{statistics['cycles']:,}", f"{rays:,}",
+        digits(statistics["mrps"]), paper, deviation,
+        digits(statistics["flops"] / rays),
+        digits(statistics["memory"]["bytes"] / rays),
+        digits(statistics["memory"]["bandwidth_gbps"])
+    ]) + " |\n"
 
 
 def main():
@@ -125,8 +96,10 @@ def main():
         folder = pathlib.Path(name)
 
         def render(meshes, view, size, *words):
-            subprocess.run([binaries / "trax-render", *meshes, "--view", view, "--config", "4x32", "--size", size, "--quiet", "-o", folder / "picture.png",
-                            "--stats", folder / "stats.json", *words], check=True, stdout=subprocess.DEVNULL)
+            subprocess.run([
+                binaries / "trax-render", *meshes, "--view", view, "--config", "4x32", "--size", size, "--quiet", "-o",
+                folder / "picture.png", "--stats", folder / "stats.json", *words
+            ], check=True, stdout=subprocess.DEVNULL)
             return json.loads((folder / "stats.json").read_text())
 
         for scene, (files, view) in SCENES.items():
@@ -148,17 +121,21 @@ def main():
         caption = re.search(rf"^\(`(trax-render [^`]* --size {SIZE} [^`]*)`\)", text, re.M)
         words = caption[1].replace(SIZE, "40x22").split() if caption else []
         done = subprocess.run([binaries / words[0], *words[1:]], cwd=folder, capture_output=True, text=True,
-            check=False) if words else None
-        if not done or done.returncode or {len(row) // 3 for row in read_png(folder / words[-1])} != {40}:
-            wrong.append(f"README.md: the command of the picture's caption {'fails: ' + done.stderr if done else 'is not there'}")
+                              check=False) if words else None
+        if not done or done.returncode or read_png((folder / words[-1]).read_bytes())[0] != 40:
+            wrong.append(
+                f"README.md: the command of the picture's caption {'fails: ' + done.stderr if done else 'is not there'}"
+            )
         wrong += [] if update else check_screen(source, binaries, folder, False)
-        left = read_png(folder / "picture.png")
+        left = read_png((folder / "picture.png").read_bytes())[2]
         if update:
-            write_png(source / PICTURE, [a + b"\xff" * (3 * GAP) + b for a, b in zip(left, read_png(folder / "cost.png"))])
+            right = read_png((folder / "cost.png").read_bytes())[2]
+            rows = [a + b"\xff" * (3 * GAP) + b for a, b in zip(left, right)]
+            (source / PICTURE).write_bytes(png_of(rows, best=True))
             page.write_text(text)
             check_screen(source, binaries, folder, True)
             return 0
-        both = read_png(source / PICTURE)
+        both = read_png((source / PICTURE).read_bytes())[2]
         if len(both) != len(left) or any(b[:len(a)] != a or len(b) != 2 * len(a) + 3 * GAP for a, b in zip(left, both)):
             wrong.append(f"{PICTURE}: its left half is not what the program renders")
     for fault in wrong:

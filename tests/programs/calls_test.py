@@ -15,15 +15,12 @@ import sys
 import tempfile
 import time
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import checking  # noqa: E402
+from checking import check  # noqa: E402
+
 BIN, SOURCE = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
 SIM, ENGINES = BIN / "trax-sim", ("fast", "reference", "functional")
-failures = []
-
-
-def check(name, good, what=""):
-    if not good:
-        failures.append(name)
-        print(f"FAILED: {name}: {what}")
 
 
 class Place:
@@ -77,27 +74,27 @@ def same(place):
                 place.fresh()
                 done = place.run(*words, stdin=stdin, options=("--engine", engine, "--stats", "stats.json", *chip))
                 label = f"{name}, {engine} {' '.join(chip)}"
-                check(label, done.stdout == host.stdout and done.returncode == host.returncode,
+                check(done.stdout == host.stdout and done.returncode == host.returncode, label,
                       f"{done.stdout.decode(errors='replace')}\nnot\n{host.stdout.decode(errors='replace')}\n{done.stderr.decode(errors='replace')}")
-                check(label + ": files", place.files() == files, f"{place.files()} instead of {files}")
+                check(place.files() == files, label + ": files", f"{place.files()} instead of {files}")
                 statistics = json.loads((place.root / "stats.json").read_text())
                 if engine != "functional":
                     cycles.setdefault(chip, []).append((statistics["cycles"], statistics["dcache"]))
         for chip, figures in cycles.items():
-            check(f"{name}: cycles {chip}", figures[0] == figures[1], figures)
+            check(figures[0] == figures[1], f"{name}: cycles {chip}", figures)
 
 
 def arguments(place):
     done = place.run("arguments", "two words", "--report", "-", "")
-    check("arguments", (done.returncode, done.stdout) == (6, b"[files][arguments][two words][--report][-][] 1\n"), done)
+    check((done.returncode, done.stdout) == (6, b"[files][arguments][two words][--report][-][] 1\n"), "arguments", done)
     subprocess.run([BIN / "clang", "--target=trax", "-O2", "-x", "c", "-", "-o", place.root / "none"], input=b"int main(void) { return 0; }", check=True)
     done = subprocess.run([SIM, "none", "word"], cwd=place.root, capture_output=True, text=True, check=False)
-    check("no parameters", done.returncode == 1 and "main has no parameters" in done.stderr, done)
+    check(done.returncode == 1 and "main has no parameters" in done.stderr, "no parameters", done)
     done = subprocess.run([SIM, "none", "--report", "-"], cwd=place.root, capture_output=True, text=True, check=False)
-    check("options behind", done.returncode == 0 and "cycles" in done.stdout, done)
+    check(done.returncode == 0 and "cycles" in done.stdout, "options behind", done)
     subprocess.run([BIN / "clang", "--target=trax", "-mstack=global", "-O2", "-s", SOURCE / "files.c", "-o", place.root / "stripped"], check=True)
     done = subprocess.run([SIM, "stripped", "arguments"], cwd=place.root, capture_output=True, text=True, check=False)
-    check("stripped", done.returncode == 2 and done.stdout == "[stripped][arguments] 1\n", done)
+    check(done.returncode == 2 and done.stdout == "[stripped][arguments] 1\n", "stripped", done)
 
 
 def folders(place):
@@ -116,22 +113,22 @@ def folders(place):
         words += ["read", path]
     done = place.run(*words).stdout.decode()
     answers = re.findall(r"^read .*: (.*)$", done, re.M)
-    check("folders", answers == ["Operation not permitted", "Operation not permitted", "Operation not permitted", "Operation not permitted", "good",
-                                 "Too many levels of symbolic links", "No such file or directory", "No such file or directory",
-                                 "No such file or directory", "Not a directory", "Operation not permitted", "No such file or directory",
-                                 "File name too long", "Is a directory"], done)
+    check(answers == ["Operation not permitted", "Operation not permitted", "Operation not permitted", "Operation not permitted", "good",
+                      "Too many levels of symbolic links", "No such file or directory", "No such file or directory",
+                      "No such file or directory", "Not a directory", "Operation not permitted", "No such file or directory",
+                      "File name too long", "Is a directory"], "folders", done)
     done = place.run("write", "data/out", "write", "data/up/new", "remove", "data/../secret.txt", "rename", "data/old.txt", "data/up/y").stdout.decode()
-    check("no way out", done.count("Operation not permitted") == 4 and (place.root / "secret.txt").read_text() == "secret\n" and
-          not (place.root / "new").exists() and not (place.root / "y").exists(), done)
+    check(done.count("Operation not permitted") == 4 and (place.root / "secret.txt").read_text() == "secret\n" and
+          not (place.root / "new").exists() and not (place.root / "y").exists(), "no way out", done)
     done = place.run("read", "data/old.txt", folder=()).stdout.decode()
-    check("no folder", done == "read data/old.txt: No such file or directory\n", done)
+    check(done == "read data/old.txt: No such file or directory\n", "no folder", done)
     done = place.run("read", "/guest/name/old.txt", "read", "old.txt", "read", "/guest/names", folder=("--dir", "data::/guest/name")).stdout.decode()
-    check("name", re.findall(": (.*)", done) == ["good"] + 2 * ["No such file or directory"], done)
+    check(re.findall(": (.*)", done) == ["good"] + 2 * ["No such file or directory"], "name", done)
     done = place.run("read", "old.txt", "read", "./old.txt", folder=("--dir", "data::.")).stdout.decode()
-    check("here", re.findall(": (.*)", done) == 2 * ["good"], done)
+    check(re.findall(": (.*)", done) == 2 * ["good"], "here", done)
     for folder, message in (("missing", "missing: No such file or directory"), ("files", "files: Not a directory"), ("data::", "is not of the form")):
         done = place.run("input", folder=("--dir", folder))
-        check(f"--dir {folder}", done.returncode == 1 and message in done.stderr.decode() and not done.stdout, done)
+        check(done.returncode == 1 and message in done.stderr.decode() and not done.stdout, f"--dir {folder}", done)
 
 
 def read_only(place):
@@ -145,7 +142,7 @@ def read_only(place):
         os.chmod(place.root, 0o755)
         prefix = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"]
     done = place.run("write", "data/new.txt", "append", "data/fixed.txt", "read", "data/fixed.txt", "remove", "data/old.txt", prefix=prefix)
-    check("read-only", re.findall(": (.*)", done.stdout.decode()) == ["Permission denied", "Permission denied", "good", "Permission denied"], done)
+    check(re.findall(": (.*)", done.stdout.decode()) == ["Permission denied", "Permission denied", "good", "Permission denied"], "read-only", done)
     os.chmod(place.data, 0o755)
 
 
@@ -154,7 +151,7 @@ def whole(place):
     for name, words, options, status in (("fault", ["fault"], (), 1), ("limit", ["spin"], ("--max-cycles", "200000"), 124)):
         place.fresh()
         done = place.run("write", "data/closed.txt", "open", "data/left.txt", "open", "data/old.txt", *words, options=options)
-        check(name, done.returncode == status and place.files() == {"closed.txt": b"first\n", "old.txt": b"one\ntwo\n"}, (done, place.files()))
+        check(done.returncode == status and place.files() == {"closed.txt": b"first\n", "old.txt": b"one\ntwo\n"}, name, (done, place.files()))
     place.fresh()
     with subprocess.Popen([SIM, "--quiet", "--dir", "data", "files", "write", "data/closed.txt", "open", "data/old.txt", "input"], cwd=place.root,
                           stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
@@ -163,8 +160,8 @@ def whole(place):
             output += process.stdout.read1(100)
         process.send_signal(signal.SIGINT)
         _, message = process.communicate(timeout=60)
-    check("Ctrl-C", process.returncode == -signal.SIGINT and b"interrupted" in message and
-          place.files() == {"closed.txt": b"first\n", "old.txt": b"one\ntwo\n"}, (process.returncode, message, place.files()))
+    check(process.returncode == -signal.SIGINT and b"interrupted" in message and
+          place.files() == {"closed.txt": b"first\n", "old.txt": b"one\ntwo\n"}, "Ctrl-C", (process.returncode, message, place.files()))
 
 
 def checkpoints(place):
@@ -183,14 +180,14 @@ def checkpoints(place):
             second = place.run(*words, stdin=stdin, options=("--resume", "state", "--stats", "stats.json", *chip))
             again = json.loads((place.root / "stats.json").read_text())
             label = f"checkpoint at {part} of 10 {chip}"
-            check(label, first.returncode == 124 and second.returncode == 0 and first.stdout + second.stdout == whole_run.stdout and
-                  place.files() == files and again["cycles"] == statistics["cycles"], (first, second, place.files(), again["cycles"], statistics["cycles"]))
+            check(first.returncode == 124 and second.returncode == 0 and first.stdout + second.stdout == whole_run.stdout and
+                  place.files() == files and again["cycles"] == statistics["cycles"], label, (first, second, place.files(), again["cycles"], statistics["cycles"]))
     place.fresh()
     place.run(*words, stdin=stdin, options=(*limit, *chip))
     done = place.run(*words, stdin=b"other\n" * 20, options=("--resume", "state", *chip))
-    check("other input", done.returncode == 1 and b"standard input is not that" in done.stderr, done)
+    check(done.returncode == 1 and b"standard input is not that" in done.stderr, "other input", done)
     done = place.run(*words, stdin=b"", options=("--resume", "state", *chip))
-    check("no input", done.returncode == 1 and b"standard input is shorter" in done.stderr, done)
+    check(done.returncode == 1 and b"standard input is shorter" in done.stderr, "no input", done)
 
 
 def main_on(place):
@@ -200,9 +197,9 @@ def main_on(place):
         for options, lines in ((["--main-on", "0"], 1), (["--main-on", "all"], 8), ([], 8)):
             done = subprocess.run([SIM, "--quiet", "--engine", engine, "--set", "chip.tms=2", "--set", "chip.tps_per_tm=4", *options, "plain"], cwd=place.root,
                                   capture_output=True, check=False)
-            check(f"main on {options} {engine}", done.stdout == b"main\n" * lines + b"end\n" * lines and done.returncode == 3, done)
+            check(done.stdout == b"main\n" * lines + b"end\n" * lines and done.returncode == 3, f"main on {options} {engine}", done)
     done = subprocess.run([SIM, "--main-on", "1", "plain"], cwd=place.root, capture_output=True, check=False)
-    check("main on 1", done.returncode == 1 and b"is neither 0 nor all" in done.stderr, done)
+    check(done.returncode == 1 and b"is neither 0 nor all" in done.stderr, "main on 1", done)
 
 
 def picture(place):
@@ -215,14 +212,14 @@ def picture(place):
         subprocess.run([place.root / "native", samples, width, "data/host.ppm"], cwd=place.root, capture_output=True, check=True)
         done = subprocess.run([SIM, "--quiet", "--engine", engine, "--dir", "data", "trax", samples, width, "data/trax.ppm"], cwd=place.root,
                               capture_output=True, check=False, timeout=300)
-        check(f"picture, {engine}", done.returncode == 0 and done.stderr.endswith(b"100.00%") and
-              (place.data / "trax.ppm").read_bytes() == (place.data / "host.ppm").read_bytes(), done)
+        check(done.returncode == 0 and done.stderr.endswith(b"100.00%") and
+              (place.data / "trax.ppm").read_bytes() == (place.data / "host.ppm").read_bytes(), f"picture, {engine}", done)
 
 
 def errors(place):
     """Standard error is the host's; standard output is not held back behind it."""
     done = place.run("nothing", "x")
-    check("standard error", done.stdout == b"" and b"nothing: unknown" in done.stderr, done)
+    check(done.stdout == b"" and b"nothing: unknown" in done.stderr, "standard error", done)
 
 
 def main():
@@ -231,8 +228,8 @@ def main():
         place = Place(root)
         for part in (arguments, same, folders, read_only, whole, checkpoints, main_on, picture, errors):
             part(place)
-    print(f"{len(failures)} failed, {time.monotonic() - begun:.0f} s")
-    sys.exit(1 if failures else 0)
+    print(f"{checking.failures} failed, {time.monotonic() - begun:.0f} s")
+    sys.exit(1 if checking.failures else 0)
 
 
 main()

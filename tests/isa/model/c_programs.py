@@ -17,12 +17,18 @@ SOURCES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "
 SECONDS = 300  # of a program
 
 
-def options_of(source):
+def expected_of(build, source):
+    """The file of what a program prints: beside it, or made by the build."""
+    beside = source[:-2] + ".expected"
+    return beside if os.path.exists(beside) else os.path.join(build, "tests", "c", os.path.basename(beside))
+
+
+def options_of(build, source):
     """What the program's %run_c line says, or None if it has no expected output to compare."""
     with open(source, encoding="utf-8") as file:
         text = file.read().replace("\\\n// RUN:", "")
     line = re.search(r"RUN: %run_c %s %t(.*)", text)
-    if not line or not os.path.exists(source[:-2] + ".expected"):
+    if not line or not os.path.exists(expected_of(build, source)):
         return None
     words = shlex.split(line[1])
     if "--fault" in words or "--clang-only" in words:
@@ -48,7 +54,7 @@ def machine_of(flags):
 
 def check(options, source, directory):
     """None if the program ran well, or what went wrong; False if it was left out."""
-    asked = options_of(source)
+    asked = options_of(options.build, source)
     machine = machine_of(asked.get("--simflags", "")) if asked is not None else None
     if machine is None:
         return False
@@ -63,7 +69,7 @@ def check(options, source, directory):
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=SECONDS, check=False)
     except subprocess.TimeoutExpired:
         return f"it did not end in {SECONDS} s"
-    with open(source[:-2] + ".expected", "rb") as file:
+    with open(expected_of(options.build, source), "rb") as file:
         if result.stdout != file.read():
             return "it prints something else " + result.stderr.decode(errors="replace")
     status = int(asked.get("--status", "0"))

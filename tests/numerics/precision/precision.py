@@ -28,9 +28,11 @@ import subprocess
 import sys
 import tempfile
 import time
-import zlib
 
 HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parents[1]))
+import png_files  # noqa: E402
+
 BUNNY = "/usr/share/glmark2/models/bunny.obj"
 BEGIN, END = "<!-- precision.py: begin -->\n", "<!-- precision.py: end -->\n"
 COUNT = 4096  # results of a loop of loops.c
@@ -106,38 +108,8 @@ def render(bin_directory, meshes, bits, model, size, chip, scratch):
 
 
 def read_png(path):
-    """Width and the rows of an 8-bit RGB or RGBA picture, as bytes of three a pixel."""
-    data = pathlib.Path(path).read_bytes()
-    position, packed = 8, b""
-    while position < len(data):
-        length, kind = struct.unpack(">I4s", data[position : position + 8])
-        body = data[position + 8 : position + 8 + length]
-        if kind == b"IHDR":
-            width, height, depth, colour, _, _, interlaced = struct.unpack(">IIBBBBB", body)
-            if depth != 8 or colour not in (2, 6) or interlaced:
-                fail(f"{path}: not an 8-bit RGB or RGBA picture")
-        elif kind == b"IDAT":
-            packed += body
-        position += 12 + length
-    raw, size = zlib.decompress(packed), 3 if colour == 2 else 4
-    rows, above, line = [], bytes(width * size), 1 + width * size
-    for y in range(height):
-        method, row = raw[y * line], bytearray(raw[y * line + 1 : (y + 1) * line])
-        for i in range(width * size):
-            left, up, corner = row[i - size] if i >= size else 0, above[i], above[i - size] if i >= size else 0
-            if method == 1:
-                row[i] = row[i] + left & 255
-            elif method == 2:
-                row[i] = row[i] + up & 255
-            elif method == 3:
-                row[i] = row[i] + (left + up) // 2 & 255
-            elif method == 4:
-                p = left + up - corner
-                best = min((abs(p - left), 0, left), (abs(p - up), 1, up), (abs(p - corner), 2, corner))
-                row[i] = row[i] + best[2] & 255
-        above = row
-        rows.append([tuple(row[i : i + 3]) for i in range(0, width * size, size)])
-    return [pixel for row in rows for pixel in row]
+    """The pixels of a picture, as tuples of three."""
+    return [tuple(row[i:i + 3]) for row in png_files.read_png(pathlib.Path(path).read_bytes())[2] for i in range(0, len(row), 3)]
 
 
 BACKGROUND = (0x98, 0xA8, 0xB8)  # trax-render's
