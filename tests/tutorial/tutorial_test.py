@@ -16,25 +16,19 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import zlib
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "docs"))
-from blocks import Failure, check_parts, compare, read_blocks, run_commands
+TESTS = pathlib.Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(TESTS), str(TESTS / "docs")]
+from blocks import Failure, check_parts, compare, read_blocks, run_commands  # noqa: E402
+from png_files import read_png  # noqa: E402
 
 PAGES = ("docs/tutorial.md", "docs/extending.md")
 
 
 def same_picture(folder, source):
     """The picture of the page shows what the program makes."""
-    def pixels(path):
-        data, at, packed = path.read_bytes(), 8, b""
-        while at < len(data):
-            length = int.from_bytes(data[at:at + 4], "big")
-            if data[at + 4:at + 8] == b"IDAT":
-                packed += data[at + 8:at + 8 + length]
-            at += 12 + length
-        return zlib.decompress(packed)
-    if pixels(folder / "boxes.png") != pixels(source / "docs" / "tutorial.png"):
+    made, shown = (read_png(path.read_bytes()) for path in (folder / "boxes.png", source / "docs/tutorial.png"))
+    if made != shown:
         raise Failure("docs/tutorial.png is not the picture that the tutorial's program makes")
 
 
