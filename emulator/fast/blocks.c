@@ -35,7 +35,7 @@ void trax_fast_blocks_destroy(struct trax_fast_blocks *blocks) {
 }
 
 /* Rolls a TP back to what it has issued: undoes its burst, and executes the issued steps again. They give the same
-   results, since no block that they loaded from has been written yet. */
+   results, since no word that they loaded has been written since. */
 static void roll_back_tp(struct trax_fast *fast, struct trax_fast_tm *ftm, unsigned number) {
   const uint64_t bit = (uint64_t)1 << number;
   struct trax_fast_tp *ftp = &ftm->tp[number];

@@ -5,6 +5,7 @@
 #include "fast/pool.h"
 #include "fast/state.h"
 #include "fast/store_buffer.h"
+#include "fast/variant.h"
 #include "trax/grow.h"
 
 #include <assert.h>
@@ -184,9 +185,12 @@ static uint64_t submit_requests(struct trax_epochs *epochs, uint64_t t) {
   return next;
 }
 
-/* Called before the controller increments a word. */
+/* Called before the controller increments a word. Before an epoch, bursts that have loaded the word roll back, since
+   their issued steps may be executed again in the epoch. */
 static void record_increment(void *context, uint32_t address) {
   struct trax_epochs *epochs = context;
+  for (uint32_t i = 0; epochs->early && i < epochs->chip->tms; i++)
+    trax_fast_roll_back_readers(&epochs->chip->fast->tm[i], address);
   epochs->failed |= !record_writer(epochs, address, BY_CONTROLLER);
 }
 
@@ -207,8 +211,8 @@ static bool run_controller(struct trax_epochs *epochs, uint64_t t) {
   return write_up_to(epochs, epochs->end, &next_write);
 }
 
-/* Whether a TM has read a word that another TM or the controller wrote in this epoch. Bursts do not load such words
-   again. */
+/* Whether a TM has read a word that another TM or the controller wrote in this epoch. The blocks of such words are
+   SHARED from then on. */
 static bool has_conflict(const struct trax_epochs *epochs) {
   bool found = false;
   for (uint32_t i = 0; epochs->writers.count && i < epochs->chip->tms; i++) {
