@@ -1,8 +1,9 @@
 #include "fast/chip.h"
 
+#include "fast/epochs.h"
+#include "fast/fast.h"
 #include "fast/state.h"
 #include "fast/variant.h"
-#include "fast/epochs.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -57,7 +58,7 @@ static trax_status create(struct trax_run *run, trax_error *error) {
     if (trax_tm_create(&chip->tm[i], i, chip, run->options->output, error))
       return TRAX_ERROR;
   chip->variant = variant_of(run->engine);
-  if (chip->variant->create(chip, error))
+  if (trax_fast_create(chip, error))
     return TRAX_ERROR;
   return trax_epochs_create(chip, run->options->host_threads, error);
 }
@@ -67,8 +68,7 @@ static void destroy(void *context) {
   if (!chip)
     return;
   trax_epochs_destroy(chip->epochs);
-  if (chip->variant)
-    chip->variant->destroy(chip->fast);
+  trax_fast_destroy(chip->fast);
   for (uint32_t i = 0; chip->tm && i < chip->tms; i++)
     trax_tm_destroy(&chip->tm[i]);
   free(chip->tm);
@@ -136,14 +136,14 @@ static void commit(void *context) {
 
 static void collect(void *context) {
   const struct trax_chip *chip = context;
-  chip->variant->collect(chip->fast);
+  trax_fast_collect(chip->fast);
 }
 
 static void settle(void *context, uint64_t t) {
   struct trax_chip *chip = context;
   for (uint32_t i = 0; i < chip->tms && !chip->machine->fault.kind; i++)
     chip->machine->fault = chip->tm[i].fault;
-  chip->variant->settle(chip->fast);
+  trax_fast_settle(chip->fast);
   for (uint32_t i = 0; i < chip->tms; i++) {
     trax_tm_settle(&chip->tm[i], t);
     chip->tm[i].stats->queue_peak = chip->tm[i].queue.peak;
@@ -152,7 +152,7 @@ static void settle(void *context, uint64_t t) {
 
 static void export_state(void *context) {
   const struct trax_chip *chip = context;
-  chip->variant->export_state(chip->fast);
+  trax_fast_export(chip->fast);
 }
 
 static void import_state(void *context, uint64_t t) {
@@ -160,7 +160,7 @@ static void import_state(void *context, uint64_t t) {
   for (uint32_t i = 0; i < chip->tms; i++)
     for (uint32_t tp = 0; tp < chip->tm[i].tps; tp++)
       chip->tm[i].tp[tp].inst = trax_text_at(chip->text, chip->tm[i].tp[tp].pc);
-  chip->variant->import_state(chip->fast, t);
+  trax_fast_import(chip->fast, t);
 }
 
 static struct trax_thread thread(void *context, uint32_t number) {

@@ -1,6 +1,6 @@
 /* The five steps of a TM's cycle (docs/timing.md, "A cycle"), as operations on masks of its TPs. */
-#include "fast/store_buffer.h"
-#include "fast/head.h"
+#include "fast/issue.h"
+#include "fast/variant.h"
 
 #define ALWAYS_INLINE inline __attribute__((always_inline))
 
@@ -413,7 +413,7 @@ static bool is_any(const trax_fast_refusals *refusals) {
   return any != 0;
 }
 
-void trax_fast_count_log(struct trax_fast_refusal_counts *counts) {
+static void count_log(struct trax_fast_refusal_counts *counts) {
   const trax_fast_refusals none = {0};
   trax_fast_refusals carry = none;
   for (; counts->logged < TRAX_FAST_LOG; counts->logged++)
@@ -447,14 +447,15 @@ static ALWAYS_INLINE void issue(const struct tm_cycle *cycle, const bool wide) {
   const uint64_t quick = cycle->granted & ~cycle->slow, slow = cycle->granted & cycle->slow;
   trax_fast_pass_loads(&cycle->ftm->heads, quick & cycle->banks);
   if (slow)
-    trax_fast_issue(cycle->ftm, quick, slow, cycle->t);
+    issue_in_order(cycle->ftm, quick, slow, cycle->t);
   else
-    trax_fast_issue_quickly(cycle->ftm, wide, quick);
+    issue_quickly(cycle->ftm, wide, quick);
 }
 
 static ALWAYS_INLINE void end(const struct tm_cycle *cycle) {
   struct trax_fast_tm *const ftm = cycle->ftm;
-  trax_fast_count(&ftm->refusal_counts, &cycle->refused);
+  if (trax_fast_count(&ftm->refusal_counts, &cycle->refused))
+    count_log(&ftm->refusal_counts);
   if (__builtin_expect(ftm->tm->observer != NULL, false))
     trax_fast_notify_refusals(ftm, &cycle->refused);
   ftm->tm->next_cycle = ftm->tm->awake ? cycle->t + 1 : trax_tm_next_cycle(ftm->tm, cycle->t);
@@ -490,7 +491,7 @@ static void run_cycle(struct trax_fast_tm *ftm, uint64_t t) {
     run_cycles(cycle, cycle, false, false);
 }
 
-void trax_fast_cycle(struct trax_fast *fast, uint32_t tm, uint64_t t) {
+static void run_one(struct trax_fast *fast, uint32_t tm, uint64_t t) {
   run_cycle(&fast->tm[tm], t);
 }
 
@@ -504,7 +505,7 @@ static ALWAYS_INLINE void run_two(struct trax_fast_tm *one, struct trax_fast_tm 
                (struct tm_cycle){.ftm = other, .t = other->tm->next_cycle}, true, wide);
 }
 
-void trax_fast_run_epoch(struct trax_fast *fast, uint32_t first, uint32_t count, uint64_t end) {
+static void run_epoch(struct trax_fast *fast, uint32_t first, uint32_t count, uint64_t end) {
   struct trax_fast_tm *const one = &fast->tm[first], *const other = one + count - 1;
   for (struct trax_fast_tm *ftm = one; ftm <= other; ftm++)
     trax_fast_record_readers(ftm);
@@ -516,3 +517,13 @@ void trax_fast_run_epoch(struct trax_fast *fast, uint32_t first, uint32_t count,
     while (runs(ftm, end))
       run_cycle(ftm, ftm->tm->next_cycle);
 }
+
+#ifdef __AVX512BW__
+#define FOUR true
+#else
+#define FOUR false
+#endif
+#ifndef TRAX_FAST_VARIANT
+#define TRAX_FAST_VARIANT trax_fast_variant
+#endif
+const struct trax_fast_variant TRAX_FAST_VARIANT = {FOUR, run_one, run_epoch, count_log};

@@ -1,6 +1,7 @@
 #include "fast/fast.h"
 
 #include "fast/head.h"
+#include "fast/variant.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -66,7 +67,7 @@ static trax_status create_tm(struct trax_fast_tm *ftm, struct trax_fast *fast, s
   return TRAX_OK;
 }
 
-static trax_status create(struct trax_chip *chip, trax_error *error) {
+trax_status trax_fast_create(struct trax_chip *chip, trax_error *error) {
   struct trax_machine *machine = chip->machine;
   struct trax_fast *fast = chip->fast = calloc(1, sizeof *fast);
   if (!fast)
@@ -91,7 +92,7 @@ static trax_status create(struct trax_chip *chip, trax_error *error) {
   return TRAX_OK;
 }
 
-static void destroy(struct trax_fast *fast) {
+void trax_fast_destroy(struct trax_fast *fast) {
   if (!fast)
     return;
   fast->chip->machine->calls.before_write = NULL;
@@ -108,7 +109,7 @@ static void destroy(struct trax_fast *fast) {
   free(fast);
 }
 
-static void collect(struct trax_fast *fast) {
+void trax_fast_collect(struct trax_fast *fast) {
   for (uint32_t i = 0; i < fast->chip->tms; i++) {
     struct trax_fast_tm *ftm = &fast->tm[i];
     int64_t count = 0;
@@ -142,7 +143,7 @@ static const trax_cause refusal_causes[TRAX_FAST_REFUSALS] = {
 };
 
 static void charge_refusals(struct trax_fast_tm *ftm) {
-  trax_fast_count_log(&ftm->refusal_counts);
+  ftm->fast->chip->variant->count_log(&ftm->refusal_counts);
   for (unsigned bit = 0; bit < 64; bit++)
     for (unsigned refused = 0; refused < TRAX_FAST_REFUSALS; refused++)
       for (uint64_t tps = ftm->refusal_counts.planes[bit][refused]; tps; tps &= tps - 1)
@@ -209,7 +210,7 @@ static void report_fast_path(const struct trax_fast *fast) {
   }
 }
 
-static void settle(struct trax_fast *fast) {
+void trax_fast_settle(struct trax_fast *fast) {
   for (uint32_t i = 0; i < fast->chip->tms; i++) {
     struct trax_fast_tm *ftm = &fast->tm[i];
     for (unsigned tp = 0; tp < ftm->tm->tps; tp++)
@@ -217,18 +218,10 @@ static void settle(struct trax_fast *fast) {
     charge_refusals(ftm);
     count_unissued(ftm, -1);
   }
-  collect(fast);
+  trax_fast_collect(fast);
   report_fast_path(fast);
   for (uint32_t i = 0; i < fast->chip->tms; i++) {
     count_local(fast->tm[i].tm->stats);
     count_unissued(&fast->tm[i], 1);
   }
 }
-
-const struct trax_fast_variant
-#ifdef TRAX_FAST_VARIANT
-    TRAX_FAST_NAME(trax_fast_variant, TRAX_FAST_VARIANT)
-#else
-    trax_fast_variant
-#endif
-    = {create, destroy, trax_fast_cycle, trax_fast_run_epoch, collect, settle, trax_fast_export, trax_fast_import};

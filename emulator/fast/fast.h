@@ -11,40 +11,9 @@
 #ifndef TRAX_FAST_FAST_H
 #define TRAX_FAST_FAST_H
 
-#ifdef TRAX_FAST_VARIANT /* one of several compilations (variant.h): _v3 */
-#define TRAX_FAST_JOIN(NAME, VARIANT) NAME##VARIANT
-#define TRAX_FAST_NAME(NAME, VARIANT) TRAX_FAST_JOIN(NAME, VARIANT)
-#define trax_fast_program_create TRAX_FAST_NAME(trax_fast_program_create, TRAX_FAST_VARIANT)
-#define trax_fast_program_destroy TRAX_FAST_NAME(trax_fast_program_destroy, TRAX_FAST_VARIANT)
-#define trax_fast_burst TRAX_FAST_NAME(trax_fast_burst, TRAX_FAST_VARIANT)
-#define trax_fast_operations TRAX_FAST_NAME(trax_fast_operations, TRAX_FAST_VARIANT)
-#define trax_fast_advance TRAX_FAST_NAME(trax_fast_advance, TRAX_FAST_VARIANT)
-#define trax_fast_refill TRAX_FAST_NAME(trax_fast_refill, TRAX_FAST_VARIANT)
-#define trax_fast_export_head TRAX_FAST_NAME(trax_fast_export_head, TRAX_FAST_VARIANT)
-#define trax_fast_end_burst TRAX_FAST_NAME(trax_fast_end_burst, TRAX_FAST_VARIANT)
-#define trax_fast_line_arrived TRAX_FAST_NAME(trax_fast_line_arrived, TRAX_FAST_VARIANT)
-#define trax_fast_notify_refusals TRAX_FAST_NAME(trax_fast_notify_refusals, TRAX_FAST_VARIANT)
-#define trax_fast_run_epoch TRAX_FAST_NAME(trax_fast_run_epoch, TRAX_FAST_VARIANT)
-#define trax_fast_cycle TRAX_FAST_NAME(trax_fast_cycle, TRAX_FAST_VARIANT)
-#define trax_fast_count_log TRAX_FAST_NAME(trax_fast_count_log, TRAX_FAST_VARIANT)
-#define trax_fast_issue TRAX_FAST_NAME(trax_fast_issue, TRAX_FAST_VARIANT)
-#define trax_fast_blocks_create TRAX_FAST_NAME(trax_fast_blocks_create, TRAX_FAST_VARIANT)
-#define trax_fast_blocks_destroy TRAX_FAST_NAME(trax_fast_blocks_destroy, TRAX_FAST_VARIANT)
-#define trax_fast_word_written TRAX_FAST_NAME(trax_fast_word_written, TRAX_FAST_VARIANT)
-#define trax_fast_increment_outside TRAX_FAST_NAME(trax_fast_increment_outside, TRAX_FAST_VARIANT)
-#define trax_fast_roll_back_readers TRAX_FAST_NAME(trax_fast_roll_back_readers, TRAX_FAST_VARIANT)
-#define trax_fast_record_readers TRAX_FAST_NAME(trax_fast_record_readers, TRAX_FAST_VARIANT)
-#define trax_fast_range_written TRAX_FAST_NAME(trax_fast_range_written, TRAX_FAST_VARIANT)
-#define trax_fast_roll_back TRAX_FAST_NAME(trax_fast_roll_back, TRAX_FAST_VARIANT)
-#define trax_fast_schedule_check TRAX_FAST_NAME(trax_fast_schedule_check, TRAX_FAST_VARIANT)
-#define trax_fast_export TRAX_FAST_NAME(trax_fast_export, TRAX_FAST_VARIANT)
-#define trax_fast_import TRAX_FAST_NAME(trax_fast_import, TRAX_FAST_VARIANT)
-#endif
-
 #include "fast/chip.h"
 #include "fast/heads.h"
 #include "fast/masks.h"
-#include "fast/variant.h"
 
 enum {
   TRAX_BURST = 224,                      /* limit of a burst's instructions; fits in trax_fast_heads.at */
@@ -266,16 +235,15 @@ void trax_fast_end_burst(struct trax_fast_tm *ftm, unsigned tp, unsigned execute
 void trax_fast_line_arrived(struct trax_fast_tm *ftm, unsigned icache, uint32_t line);
 
 /* --- fast.c --- */
+/* Creates chip->fast. */
+trax_status trax_fast_create(struct trax_chip *chip, trax_error *error);
+void trax_fast_destroy(struct trax_fast *fast); /* fast may be NULL */
+/* Adds the instructions executed since the latest call to the TMs' statistics, with those that have not been issued. */
+void trax_fast_collect(struct trax_fast *fast);
+/* Completes statistics and charges for the cycles that are over. */
+void trax_fast_settle(struct trax_fast *fast);
 /* Notifies an observer of the refusals of the current cycle. */
 void trax_fast_notify_refusals(const struct trax_fast_tm *ftm, const struct trax_fast_refused *refused);
-
-/* --- cycle.c --- */
-void trax_fast_cycle(struct trax_fast *fast, uint32_t tm, uint64_t t);
-void trax_fast_run_epoch(struct trax_fast *fast, uint32_t first, uint32_t count, uint64_t end);
-
-/* --- issue.c --- */
-/* Step 5 for TPs with quick heads and TPs with slow heads (TRAX_STEP_SLOW). */
-void trax_fast_issue(struct trax_fast_tm *ftm, uint64_t quick, uint64_t slow, uint64_t t);
 
 /* --- blocks.c --- */
 trax_status trax_fast_blocks_create(struct trax_fast_blocks *blocks, const struct trax_space *space, trax_error *error);
@@ -295,8 +263,11 @@ void trax_fast_record_readers(struct trax_fast_tm *ftm);
 /* Rolls every TP back to what it has issued; all heads execute at issue then. */
 void trax_fast_roll_back(struct trax_fast *fast);
 
-/* --- transfer.c: export_state and import_state of trax_fast_variant --- */
+/* --- transfer.c --- */
+/* Between cycles: rolls every TP back to what it has issued, so that the structures of tm.h and tp.h hold all that the
+   run depends on. The run can be continued. */
 void trax_fast_export(struct trax_fast *fast);
+/* Continues the run before cycle t with the state in those structures. */
 void trax_fast_import(struct trax_fast *fast, uint64_t t);
 
 #endif

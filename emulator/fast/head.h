@@ -15,13 +15,6 @@ static inline void trax_fast_set_resident(struct trax_fast_tm *ftm, unsigned ica
 /* Makes the TP's next instruction its head, after a new burst if necessary; returns its pc. */
 uint32_t trax_fast_advance(struct trax_fast_tm *ftm, unsigned tp);
 
-/* Issues quick heads: the next steps of their TPs become the heads. */
-static inline __attribute__((always_inline)) void trax_fast_issue_quickly(struct trax_fast_tm *ftm, const bool wide,
-                                                                          uint64_t quick) {
-  trax_fast_move_on(&ftm->heads, wide, quick);
-  ftm->tm->holding &= ~quick;
-}
-
 /* Makes an instruction the TP's head, which executes at issue; its step is the only one. */
 static inline void trax_fast_execute_at_issue(struct trax_fast_tm *ftm, unsigned number, uint16_t step, uint32_t index,
                                               uint32_t address) {

@@ -54,9 +54,7 @@ static inline void trax_fast_set_head(struct trax_fast_heads *heads, unsigned tp
   heads->at[tp] = (uint8_t)at;
   heads->low[tp] = (uint8_t)*step;
   heads->high[tp] = (uint8_t)(*step >> 8);
-#ifdef __AVX512BW__
   memcpy(&heads->next[tp / 32 * 4 + tp % 4][tp % 32 / 4], step, sizeof **heads->next);
-#endif
 }
 
 #ifdef __AVX512BW__
@@ -128,7 +126,9 @@ static inline __attribute__((always_inline)) void trax_fast_move_on(struct trax_
   (void)wide;
   for (; who; who &= who - 1) {
     const unsigned tp = (unsigned)__builtin_ctzll(who);
-    trax_fast_set_head(heads, tp, heads->at[tp] + 1u);
+    const uint16_t step = heads->steps[heads->begin[tp] + ++heads->at[tp]];
+    heads->low[tp] = (uint8_t)step;
+    heads->high[tp] = (uint8_t)(step >> 8);
   }
 #endif
 }

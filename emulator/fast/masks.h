@@ -124,15 +124,10 @@ static inline uint64_t trax_fast_refuse_four(struct trax_fast_banks16 *banks, ui
 }
 #endif
 
-/* Returns the round-robin mask of a cache's bank. `wide`: the TM has more than 32 TPs. */
-static inline uint16_t *trax_fast_fetch_rr_mask(struct trax_fast_banks16 *banks, const bool wide, unsigned icache,
+/* Returns the round-robin mask of a cache's bank. `four`: trax_fast_refuse_four is used. */
+static inline uint16_t *trax_fast_fetch_rr_mask(struct trax_fast_banks16 *banks, bool four, unsigned icache,
                                                 unsigned bank) {
-#ifdef __AVX512BW__
-  if (wide)
-    return &banks->of_four[bank][icache];
-#endif
-  (void)wide;
-  return &banks->of_pair[icache / 2][bank][icache % 2];
+  return four ? &banks->of_four[bank][icache] : &banks->of_pair[icache / 2][bank][icache % 2];
 }
 
 /* The TPs that were refused a bank or unit in a cycle, by its kind: X(member, cause). */
@@ -157,18 +152,15 @@ struct trax_fast_refusal_counts {
   uint32_t logged;
 };
 
-/* Adds the log to the planes. */
-void trax_fast_count_log(struct trax_fast_refusal_counts *counts);
-
-static inline void trax_fast_count(struct trax_fast_refusal_counts *counts, const struct trax_fast_refused *refused) {
+/* Appends a cycle to the log. Returns whether the log is full. */
+static inline bool trax_fast_count(struct trax_fast_refusal_counts *counts, const struct trax_fast_refused *refused) {
   /* Words are stored singly: they are not read soon, and to assemble a vector would cost more. */
   typedef uint64_t word __attribute__((may_alias));
   word *log = (word *)&counts->log[counts->logged];
 #define LOG(MEMBER, CAUSE) *log++ = refused->MEMBER;
   TRAX_FAST_REFUSED(LOG)
 #undef LOG
-  if (++counts->logged == TRAX_FAST_LOG)
-    trax_fast_count_log(counts);
+  return ++counts->logged == TRAX_FAST_LOG;
 }
 
 /* Shared units of two kinds. `even`: both kinds have the same groups, one unit for each, and the groups' size

@@ -2,6 +2,7 @@
    in the structures of tm.h, tp.h and memory.h. While it simulates, the engine has its own form of bursts, of arbiters,
    and of data that follow from the rest. */
 #include "fast/head.h"
+#include "fast/variant.h"
 
 #include <string.h>
 
@@ -15,15 +16,19 @@ static uint64_t rr_mask_of(trax_arbiter pointer) {
   return pointer ? ~(uint64_t)0 << pointer : 0;
 }
 
+static bool is_four(const struct trax_fast_tm *ftm) {
+  return ftm->wide && ftm->fast->chip->variant->four;
+}
+
 static uint64_t get_fetch_rr_mask(struct trax_fast_tm *ftm, uint32_t icache, uint32_t bank) {
   if (ftm->simple_fetch)
-    return (uint64_t)*trax_fast_fetch_rr_mask(&ftm->fetch_rr_masks16, ftm->wide, icache, bank) << 16 * icache;
+    return (uint64_t)*trax_fast_fetch_rr_mask(&ftm->fetch_rr_masks16, is_four(ftm), icache, bank) << 16 * icache;
   return ((const uint64_t *)(ftm->fetch_rr_masks + icache * ftm->vectors))[bank];
 }
 
 static void set_fetch_rr_mask(struct trax_fast_tm *ftm, uint32_t icache, uint32_t bank, uint64_t rr_mask) {
   if (ftm->simple_fetch)
-    *trax_fast_fetch_rr_mask(&ftm->fetch_rr_masks16, ftm->wide, icache, bank) = (uint16_t)(rr_mask >> 16 * icache);
+    *trax_fast_fetch_rr_mask(&ftm->fetch_rr_masks16, is_four(ftm), icache, bank) = (uint16_t)(rr_mask >> 16 * icache);
   else
     ((uint64_t *)(ftm->fetch_rr_masks + icache * ftm->vectors))[bank] = rr_mask;
 }

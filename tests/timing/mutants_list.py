@@ -112,8 +112,8 @@ MUTANTS = [
     ("fast/cycle.c", "*hits = way0_hits & ~ftm->executes_at_issue;", "*hits = way0_hits;"),
     ("fast/cycle.c", "    hits = 0; /* serve() handles them */", "    hits += 0; /* serve sees to that */"),
     # --- step 5 and the heads ---
-    ("fast/issue.c", "if (latency > 1) {", "if (latency > 2) {"),
-    ("fast/issue.c", "ftp->atomics |= (uint64_t)1 << inst->rd;", "ftp->atomics |= (uint64_t)1 << inst->ra;"),
+    ("fast/issue.h", "if (latency > 1) {", "if (latency > 2) {"),
+    ("fast/issue.h", "ftp->atomics |= (uint64_t)1 << inst->rd;", "ftp->atomics |= (uint64_t)1 << inst->ra;"),
     ("fast/head.c", "if (!ftp->atomics) {", "if (1) {"),
     ("fast/fast.c", "machine->calls.before_write = trax_fast_range_written;", "machine->calls.before_write = NULL;"),
     ("fast/blocks.c", "if (trax_fast_is_loaded(&fast->blocks, address)) {", "if (0) {"),
@@ -277,19 +277,19 @@ MUTANTS = [
     ("fast/masks.h", "(requested_groups & ~(winners | (winners - first)))",
      "(requested_groups & ~(winners - first))"),
     # The bubble after a taken branch.
-    ("fast/issue.c", "t + 1 + bubble, TRAX_CAUSE_BRANCH",
+    ("fast/issue.h", "t + 1 + bubble, TRAX_CAUSE_BRANCH",
      "t + bubble, TRAX_CAUSE_BRANCH"),
     # Effects happen in the TPs' order.
-    ("fast/issue.c", "(effects = slow & ftm->executes_at_issue) != 0",
+    ("fast/issue.h", "(effects = slow & ftm->executes_at_issue) != 0",
      "(effects = 0) != 0"),
     # The latency of local memory.
-    ("fast/issue.c", "latency = ftm->tm->config->tp.local_latency_cycles;\n    cause",
+    ("fast/issue.h", "latency = ftm->tm->config->tp.local_latency_cycles;\n    cause",
      "latency = 1;\n    cause"),
     # Stores are noted before others may see them.
-    ("fast/issue.c", "if (!ftm->tm->buffer)\n      trax_fast_word_written",
+    ("fast/issue.h", "if (!ftm->tm->buffer)\n      trax_fast_word_written",
      "if (!ftm->tm->buffer && inst->bytes > 1)\n      trax_fast_word_written"),
     # A store of the TM itself calls back the bursts that have loaded the word.
-    ("fast/issue.c", "else if (inst->is_store)\n      trax_fast_roll_back_readers",
+    ("fast/issue.h", "else if (inst->is_store)\n      trax_fast_roll_back_readers",
      "else if (inst->is_store && 0)\n      trax_fast_roll_back_readers"),
     # Arrived increments are forgotten.
     ("fast/head.c", "ftp->atomics &= ~(rest & -rest);",

@@ -1,4 +1,7 @@
-/* Step 5: the TPs that were granted all that they need issue, in order. */
+/* Step 5: the TPs that were granted all that they need issue, in order. Included by cycle.c. */
+#ifndef TRAX_FAST_ISSUE_H
+#define TRAX_FAST_ISSUE_H
+
 #include "fast/head.h"
 #include "fast/store_buffer.h"
 
@@ -81,20 +84,28 @@ static void issue_slowly(struct trax_fast_tm *ftm, unsigned number, uint64_t t) 
     trax_tm_sleep_until(tm, number, t, t + 1, t + 1 + bubble, TRAX_CAUSE_BRANCH);
 }
 
-static void issue_quickly(struct trax_fast_tm *ftm, uint64_t quick) {
-  if (ftm->wide)
-    trax_fast_issue_quickly(ftm, true, quick);
-  else
-    trax_fast_issue_quickly(ftm, false, quick);
+/* Issues quick heads: the next steps of their TPs become the heads. */
+static inline __attribute__((always_inline)) void issue_quickly(struct trax_fast_tm *ftm, const bool wide,
+                                                                uint64_t quick) {
+  trax_fast_move_on(&ftm->heads, wide, quick);
+  ftm->tm->holding &= ~quick;
 }
 
-void trax_fast_issue(struct trax_fast_tm *ftm, uint64_t quick, uint64_t slow, uint64_t t) {
+static void issue_all_quickly(struct trax_fast_tm *ftm, uint64_t quick) {
+  if (ftm->wide)
+    issue_quickly(ftm, true, quick);
+  else
+    issue_quickly(ftm, false, quick);
+}
+
+/* Issues the TPs with quick heads and those with slow heads (TRAX_STEP_SLOW). */
+static void issue_in_order(struct trax_fast_tm *ftm, uint64_t quick, uint64_t slow, uint64_t t) {
   /* Heads that execute at issue may affect other TPs, so the order of TPs matters: TPs before such a head issue first.
      TPs after it may roll back, and their heads then execute at issue (blocks.c). */
   uint64_t effects;
   while (__builtin_expect((effects = slow & ftm->executes_at_issue) != 0, false)) {
     const uint64_t up_to = effects ^ (effects - 1);
-    issue_quickly(ftm, quick & up_to);
+    issue_all_quickly(ftm, quick & up_to);
     quick &= ~up_to;
     for (uint64_t rest = slow & up_to; rest; rest &= rest - 1)
       issue_slowly(ftm, trax_first(rest), t);
@@ -102,7 +113,9 @@ void trax_fast_issue(struct trax_fast_tm *ftm, uint64_t quick, uint64_t slow, ui
     quick ^= back;
     slow = (slow & ~up_to) | back;
   }
-  issue_quickly(ftm, quick);
+  issue_all_quickly(ftm, quick);
   for (; slow; slow &= slow - 1)
     issue_slowly(ftm, trax_first(slow), t);
 }
+
+#endif
