@@ -1,12 +1,9 @@
 #include "fast/chip.h"
 
+#include "fast/chip.h"
 #include "fast/epochs.h"
-#include "fast/fast.h"
 #include "fast/state.h"
-#include "fast/variant.h"
-
-#include <stdlib.h>
-#include <string.h>
+#include "fast/time/variant.h"
 
 /* --- the variants --- */
 
@@ -35,46 +32,8 @@ static const struct trax_fast_variant *variant_of(const struct trax_engine *engi
   return &trax_fast_variant;
 }
 
-/* --- creation and destruction --- */
-
 static trax_status create(struct trax_run *run, trax_error *error) {
-  struct trax_machine *machine = run->machine;
-  struct trax_chip *chip = run->chip = calloc(1, sizeof *chip);
-  if (!chip)
-    return trax_fail(error, "out of memory");
-  chip->machine = machine;
-  chip->text = &run->text;
-  chip->tms = machine->config.chip.tms;
-  if (trax_memory_create(&chip->memory, &machine->config, &machine->stats.memory, error))
-    return TRAX_ERROR;
-  chip->transfers.to = machine->transfers;
-  if (machine->transfers)
-    chip->memory.transfers = &chip->transfers;
-  chip->tm = aligned_alloc(_Alignof(struct trax_tm), chip->tms * sizeof *chip->tm);
-  if (!chip->tm)
-    return trax_fail(error, "out of memory");
-  memset(chip->tm, 0, chip->tms * sizeof *chip->tm);
-  for (uint32_t i = 0; i < chip->tms; i++)
-    if (trax_tm_create(&chip->tm[i], i, chip, run->options->output, error))
-      return TRAX_ERROR;
-  chip->variant = variant_of(run->engine);
-  if (trax_fast_create(chip, error))
-    return TRAX_ERROR;
-  return trax_epochs_create(chip, run->options->host_threads, error);
-}
-
-static void destroy(void *context) {
-  struct trax_chip *chip = context;
-  if (!chip)
-    return;
-  trax_epochs_destroy(chip->epochs);
-  trax_fast_destroy(chip->fast);
-  for (uint32_t i = 0; chip->tm && i < chip->tms; i++)
-    trax_tm_destroy(&chip->tm[i]);
-  free(chip->tm);
-  trax_memory_destroy(&chip->memory);
-  trax_transfer_log_destroy(&chip->transfers);
-  free(chip);
+  return trax_chip_create(run, variant_of(run->engine), error);
 }
 
 /* --- cycles --- */
@@ -84,7 +43,7 @@ static enum trax_advance run_cycle(struct trax_chip *chip, uint64_t *t) {
   bool faulted = false;
   for (uint32_t i = 0; i < chip->tms; i++)
     if (chip->tm[i].next_cycle <= *t) {
-      chip->variant->cycle(chip->fast, i, *t);
+      chip->variant->cycle(chip, i, *t);
       faulted |= chip->tm[i].fault.kind != TRAX_FAULT_NONE;
     }
   trax_memory_cycle(&chip->memory, chip->tm, &chip->machine->space, *t);
@@ -135,15 +94,14 @@ static void commit(void *context) {
 /* --- between cycles --- */
 
 static void collect(void *context) {
-  const struct trax_chip *chip = context;
-  trax_fast_collect(chip->fast);
+  trax_fast_collect(context);
 }
 
 static void settle(void *context, uint64_t t) {
   struct trax_chip *chip = context;
   for (uint32_t i = 0; i < chip->tms && !chip->machine->fault.kind; i++)
     chip->machine->fault = chip->tm[i].fault;
-  trax_fast_settle(chip->fast);
+  trax_fast_settle(chip);
   for (uint32_t i = 0; i < chip->tms; i++) {
     trax_tm_settle(&chip->tm[i], t);
     chip->tm[i].stats->queue_peak = chip->tm[i].queue.peak;
@@ -151,8 +109,7 @@ static void settle(void *context, uint64_t t) {
 }
 
 static void export_state(void *context) {
-  const struct trax_chip *chip = context;
-  trax_fast_export(chip->fast);
+  trax_fast_export(context);
 }
 
 static void import_state(void *context, uint64_t t) {
@@ -160,7 +117,7 @@ static void import_state(void *context, uint64_t t) {
   for (uint32_t i = 0; i < chip->tms; i++)
     for (uint32_t tp = 0; tp < chip->tm[i].tps; tp++)
       chip->tm[i].tp[tp].inst = trax_text_at(chip->text, chip->tm[i].tp[tp].pc);
-  trax_fast_import(chip->fast, t);
+  trax_fast_import(chip, t);
 }
 
 static struct trax_thread thread(void *context, uint32_t number) {
@@ -202,8 +159,8 @@ static uint32_t queued(const void *context, uint32_t tm, uint64_t t) {
 #define ENGINE(NAME, MEANING, IS_POSSIBLE)                                                                             \
   {                                                                                                                    \
     .name = NAME, .meaning = MEANING, .is_possible = IS_POSSIBLE, .is_timed = true, .is_observed = true,               \
-    .create = create, .destroy = destroy, .advance = advance, .commit = commit, .collect = collect, .settle = settle,  \
-    .export_state = export_state, .import_state = import_state, .thread = thread, .set_pc = set_pc,                    \
+    .create = create, .destroy = trax_chip_destroy, .advance = advance, .commit = commit, .collect = collect,          \
+    .settle = settle, .export_state = export_state, .import_state = import_state, .thread = thread, .set_pc = set_pc,  \
     .progressed = progressed, .queued = queued, .visit = trax_state_visit, .check = trax_state_check                   \
   }
 
