@@ -64,31 +64,71 @@ static enum trax_advance run_cycle(struct trax_chip *chip, uint64_t *t) {
   return TRAX_GOES_ON;
 }
 
+/* Simulates cycles from *t on in which one TM alone does anything. False: there are none. */
+static bool run_ahead(struct trax_chip *chip, uint64_t *t, uint64_t until) {
+  struct trax_tm *tm = NULL;
+  for (uint32_t i = 0; i < chip->tms; i++)
+    if (chip->tm[i].next_cycle > *t)
+      until = chip->tm[i].next_cycle < until ? chip->tm[i].next_cycle : until;
+    else if (tm)
+      return false;
+    else
+      tm = &chip->tm[i];
+  if (!tm || !*t || !trax_tm_has_one_awake(tm))
+    return false;
+  const uint64_t transfer = trax_memory_next_cycle(&chip->memory, *t - 1);
+  if (!trax_fast_run_alone(tm, *t, transfer < until ? transfer : until))
+    return false;
+  *t = tm->next_cycle;
+  return true;
+}
+
+/* Whether one thread is left, and no increment of another one is under way. */
+static bool has_one_thread(const struct trax_chip *chip) {
+  uint32_t increments = 0;
+  if (chip->burst == 1 || trax_chip_running(chip) != 1)
+    return false;
+  for (uint32_t i = 0; i < chip->tms; i++)
+    for (uint32_t tp = 0; tp < chip->tm[i].tps; tp++)
+      increments += chip->tm[i].tp[tp].increments;
+  return !increments;
+}
+
+static void commit(void *context) {
+  struct trax_chip *chip = context;
+  if (chip->epochs)
+    trax_epochs_commit(chip->epochs);
+  if (chip->alone) /* bursts may have stored */
+    trax_fast_roll_back(chip);
+}
+
 static enum trax_advance advance(void *context, uint64_t *t, uint64_t until) {
   enum { CYCLES = 1024 }; /* the most cycles outside epochs in one call */
   struct trax_chip *chip = context;
+  if (!chip->alone && has_one_thread(chip)) {
+    commit(chip);
+    chip->alone = true;
+  }
   for (unsigned cycles = 0; cycles < CYCLES && *t < until && !chip->end; cycles++) {
-    if (chip->epochs && trax_epochs_advance(chip->epochs, t, until))
+    if (chip->epochs && !chip->alone && trax_epochs_advance(chip->epochs, t, until))
       return TRAX_GOES_ON;
+    if (run_ahead(chip, t, until))
+      continue;
     const uint64_t before = *t;
     if (run_cycle(chip, t) == TRAX_HAS_FAULTED)
       return TRAX_HAS_FAULTED;
     if (chip->end)
       break;
     *t = *t < until ? *t : until;
-    chip->machine->fast_path.single_cycles += chip->tms > 1 ? *t - before : 0;
+    chip->machine->fast_path.single_cycles += chip->tms > 1 && !chip->alone ? *t - before : 0;
   }
+  if (chip->alone && *t >= until)
+    commit(chip);
   if (!chip->end)
     return TRAX_GOES_ON;
   /* Only the last transfers are under way. */
   *t = chip->end < until ? chip->end : until;
   return *t == chip->end ? TRAX_HAS_ENDED : TRAX_GOES_ON;
-}
-
-static void commit(void *context) {
-  const struct trax_chip *chip = context;
-  if (chip->epochs)
-    trax_epochs_commit(chip->epochs);
 }
 
 /* --- between cycles --- */

@@ -26,6 +26,8 @@ struct trax_chip {
   struct trax_fast_program program;
   struct trax_fast_blocks blocks;
   unsigned burst; /* limit of a burst's instructions; 1 with an observer, which must see the state at each issue */
+  /* One thread is left, and no increment is under way: nobody else accesses memory, so that bursts may store. */
+  bool alone;
   struct trax_epochs *epochs; /* if its TMs run ahead of each other; else NULL */
   uint64_t end;                 /* when all threads have ended: the cycle in which the last transfer is over; else 0 */
 };
@@ -48,11 +50,18 @@ void trax_fast_settle(struct trax_chip *chip);
 /* Notifies an observer of the refusals of the current cycle. */
 void trax_fast_notify_refusals(const struct trax_tm *tm, const struct trax_fast_refused *refused);
 
+/* Simulates cycles from t on, before `end`, of a TM in which one TP is awake, as long as it issues a step in each, and
+   makes no request. Requires that no transfer starts before `end`. False: there are no such cycles; else next_cycle is
+   set. */
+bool trax_fast_run_alone(struct trax_tm *tm, uint64_t t, uint64_t end);
+
 /* Between cycles: rolls every TP back to what it has issued, so that the structures of tm.h and tp.h hold all that the
    run depends on. The run can be continued. */
 void trax_fast_export(struct trax_chip *chip);
 /* Continues the run before cycle t with the state in those structures. */
 void trax_fast_import(struct trax_chip *chip, uint64_t t);
+/* Sets the round-robin mask of a bank of an instruction cache. */
+void trax_fast_set_fetch_rr_mask(struct trax_tm *tm, uint32_t icache, uint32_t bank, uint64_t rr_mask);
 
 /* The engine with the best variant that the host can run, and the engines of single variants. */
 extern const struct trax_engine trax_fast_engine, trax_fast_any_engine;

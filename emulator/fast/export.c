@@ -26,7 +26,7 @@ static uint64_t get_fetch_rr_mask(struct trax_tm *tm, uint32_t icache, uint32_t 
   return ((const uint64_t *)(tm->fetch_rr_masks + icache * tm->vectors))[bank];
 }
 
-static void set_fetch_rr_mask(struct trax_tm *tm, uint32_t icache, uint32_t bank, uint64_t rr_mask) {
+void trax_fast_set_fetch_rr_mask(struct trax_tm *tm, uint32_t icache, uint32_t bank, uint64_t rr_mask) {
   if (tm->simple_fetch)
     *trax_fast_fetch_rr_mask(&tm->fetch_rr_masks16, is_four(tm), icache, bank) = (uint16_t)(rr_mask >> 16 * icache);
   else
@@ -63,7 +63,7 @@ static void import_arbiters(struct trax_tm *tm) {
   import_units(&tm->int_mul, 0, &tm->unit[TRAX_SHARED_INT_MUL]);
   for (uint32_t i = 0; i < tm->icaches; i++)
     for (uint32_t bank = 0; bank < tm->config->icache.banks; bank++)
-      set_fetch_rr_mask(tm, i, bank, rr_mask_of(tm->icache[i].bank[bank]));
+      trax_fast_set_fetch_rr_mask(tm, i, bank, rr_mask_of(tm->icache[i].bank[bank]));
   for (uint32_t bank = 0; bank < tm->data_banks; bank++)
     ((uint64_t *)tm->data_bank_rr_masks)[bank] = rr_mask_of(tm->dcache.bank[bank]);
 }
@@ -119,6 +119,7 @@ static void import_tp(struct trax_tm *tm, unsigned number, uint64_t t) {
 }
 
 void trax_fast_import(struct trax_chip *chip, uint64_t t) {
+  chip->alone = false;
   for (uint32_t i = 0; i < chip->tms; i++) {
     for (unsigned tp = 0; tp < chip->tm[i].tps; tp++)
       chip->tm[i].tp[tp].atomics = 0;

@@ -336,8 +336,7 @@ MUTANTS = [
     ("fast/function/blocks.c", "  for (uint32_t i = 0; i < chip->tms; i++)\n    trax_fast_roll_back_readers", "  for (uint32_t i = 0; i < 1; i++)\n    trax_fast_roll_back_readers"),
     ("fast/time/cycle.c", "    trax_fast_record_readers(tm);", "    (void)tm;"),
     # Local memory is as it was.
-    ("fast/function/blocks.c", "memcpy(tp->local + undo->offset, &undo->word, sizeof undo->word);",
-     "memcpy(tp->local + undo->offset, &undo->word, 2);"),
+    ("fast/function/blocks.c", ": tp->local + (undo->address - TRAX_LOCAL_BASE),", ": (uint8_t *)&tp->begin_reg[TRAX_NO_REGISTER],"),
     # A misaligned load ends a burst.
     ("fast/function/burst_steps.h", "    if (address & (BYTES - 1))",
      "    if (0)"),
@@ -345,7 +344,7 @@ MUTANTS = [
     ("fast/function/burst_steps.h", "if (state > last_loadable)",
      "if (state > last_loadable && 0)"),
     # A burst that is executed again loads from blocks that are shared meanwhile.
-    ("fast/function/burst_steps.h", "EXACTLY ? TRAX_BLOCK_SHARED : TRAX_BLOCK_WRITTEN", "TRAX_BLOCK_WRITTEN"),
+    ("fast/function/burst_steps.h", "EXACTLY || alone ? TRAX_BLOCK_SHARED : TRAX_BLOCK_WRITTEN", "TRAX_BLOCK_WRITTEN"),
     # A jump with a bubble is not quick.
     ("fast/function/burst_steps.h", "config->tp.branch_bubble_cycles > 0 ? TRAX_STEP_SLOW : 0",
      "config->tp.branch_bubble_cycles > 1 ? TRAX_STEP_SLOW : 0"),
@@ -422,4 +421,20 @@ MUTANTS = [
     ("fast/tm/dcache.c", "i < words && i < dcache->banks; i++", "i < dcache->banks; i++"),
     ("fast/time/cycle.c", "tm->dcache.fills_end[bank] > t", "tm->dcache.fills_end[bank] > t + 1"),
     ("reference/data_cache.c", "filling ? -1 : ", "filling && !filling ? -1 : "),
+    # --- One TP, one thread ---
+    ("fast/time/alone.c", "used.data_banks |= (uint64_t)1 << (step >> TRAX_STEP_BANK_SHIFT & 63);", ";"),
+    ("fast/time/alone.c", "used.fetch_banks |= (uint64_t)1 << (step >> TRAX_STEP_FETCH_SHIFT);", ";"),
+    ("fast/time/alone.c", "used.kinds |= 1u << (kind >> 1);", ";"),
+    ("fast/time/alone.c", "completion < end)\n    end =", "completion < end)\n    end +="),
+    ("fast/time/alone.c", "if (t + trax_first(rotated) < end)", "if (0)"),
+    ("fast/time/alone.c", "    last = tm->heads.check_at[number];", "    last = tm->heads.last[number];"),
+    ("fast/time/alone.c", "tm->dcache.all_fills_end > t ||", "0 ||"),
+    ("fast/time/alone.c", "(tp->run_begin != tp->run_end && !trax_tp_combines(", "(0 && !trax_tp_combines("),
+    ("fast/time/head.c", "|| kind == TRAX_STEP_QUEUE;", ";"),
+    ("fast/function/blocks.c", "undo->address < TRAX_LOCAL_BASE ? chip->machine->space.bytes + undo->address",
+     "undo->address < TRAX_LOCAL_BASE ? tp->local"),
+    ("fast/function/burst.c", "trax_space_check(space, address, bytes, true) ||", "(address & (bytes - 1)) ||"),
+    ("fast/chip.c", "  if (chip->alone) /* bursts may have stored */\n    trax_fast_roll_back(chip);", ""),
+    ("fast/chip.c", "return !increments;", "return true;"),
+    ("fast/chip.c", "transfer < until ? transfer : until", "until"),
 ]

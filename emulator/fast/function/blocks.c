@@ -44,7 +44,9 @@ static void roll_back_tp(struct trax_chip *chip, struct trax_tm *tm, unsigned nu
     return;
   while (tp->undo_count) {
     const struct trax_fast_undo *undo = &tp->undo[--tp->undo_count];
-    memcpy(tp->local + undo->offset, &undo->word, sizeof undo->word);
+    memcpy(undo->address < TRAX_LOCAL_BASE ? chip->machine->space.bytes + undo->address
+                                           : tp->local + (undo->address - TRAX_LOCAL_BASE),
+           &undo->word, sizeof undo->word);
   }
   memcpy(tp->reg, tp->begin_reg, sizeof tp->begin_reg);
   const unsigned issued = tm->heads.at[number];

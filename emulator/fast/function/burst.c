@@ -1,7 +1,7 @@
 /* Bursts: instructions that are executed before their issue. A burst ends before an instruction whose effect is visible
-   to other TPs or whose result depends on time: atomic increments, stores to global memory, loads from shared
-   blocks, loads and stores past the cache, fences, reads of the cycle counter, traps, ends of threads,
-   and all instructions that fault. */
+   to other TPs or whose result depends on time: atomic increments, stores to global memory unless the thread is alone,
+   loads from shared blocks, loads and stores past the cache, fences, reads of the cycle counter, traps, ends of
+   threads, and all instructions that fault. */
 #include "fast/chip.h"
 #include "trax/semantics.h"
 
@@ -29,6 +29,19 @@ static __attribute__((noinline, cold)) uint32_t load_written(struct trax_tm *tm,
                                                              unsigned bytes) {
   tm->watched[number] |= trax_fast_word_bit(address);
   return trax_tm_load(tm, address, bytes);
+}
+
+/* Stores to global memory ahead of the issue: the thread is alone. False: the store must execute at issue. */
+static __attribute__((noinline)) bool store_ahead(const struct trax_chip *chip, struct trax_tp *tp, uint32_t address,
+                                                  uint32_t value, unsigned bytes) {
+  const struct trax_space *space = &chip->machine->space;
+  if (trax_space_check(space, address, bytes, true) || address - chip->blocks.input < chip->blocks.input_bytes)
+    return false;
+  struct trax_fast_undo *const undo = &tp->undo[tp->undo_count++];
+  undo->address = address & ~3u;
+  memcpy(&undo->word, space->bytes + undo->address, sizeof undo->word);
+  memcpy(space->bytes + address, &value, bytes);
+  return true;
 }
 
 #define BURST burst_whole

@@ -29,7 +29,8 @@ static unsigned BURST(struct trax_chip *chip, struct trax_tm *tm, unsigned numbe
   int64_t *const count_deltas = tm->count_deltas;
   uint64_t lines = 0;
   /* A burst that is executed again may have loaded from a block before it was SHARED. */
-  const uint8_t last_loadable = EXACTLY ? TRAX_BLOCK_SHARED : TRAX_BLOCK_WRITTEN;
+  const bool alone = tp->alone;
+  const uint8_t last_loadable = EXACTLY || alone ? TRAX_BLOCK_SHARED : TRAX_BLOCK_WRITTEN;
   tp->undo_count = 0;
   tm->watched[number] = 0;
   /* The number of inst's step is its distance from `begin`, which changes with each jump. */
@@ -58,9 +59,9 @@ static unsigned BURST(struct trax_chip *chip, struct trax_tm *tm, unsigned numbe
         if (state != TRAX_BLOCK_LOADED) {                                                                              \
           if (state > last_loadable)                                                                                   \
             goto stop;                                                                                                 \
-          if (!state) {                                                                                                \
+          if (!state && !alone) {                                                                                      \
             __atomic_store_n(block, TRAX_BLOCK_LOADED, __ATOMIC_RELAXED);                                              \
-          } else {                                                                                                     \
+          } else if (!alone) {                                                                                         \
             word = load_written(tm, number, address, BYTES);                                                           \
           }                                                                                                            \
         }                                                                                                              \
@@ -78,15 +79,22 @@ static unsigned BURST(struct trax_chip *chip, struct trax_tm *tm, unsigned numbe
 #define STORE(ADDRESS, VALUE, BYTES)                                                                                   \
   do {                                                                                                                 \
     address = (ADDRESS);                                                                                               \
+    word = (VALUE);                                                                                                    \
     if (EXACTLY)                                                                                                       \
       tp->loads[loads] = address; /* for an observer */                                                                \
-    if (address < TRAX_LOCAL_BASE || (address & (BYTES - 1)))                                                          \
+    if (address >= TRAX_LOCAL_BASE && !(address & (BYTES - 1))) {                                                      \
+      struct trax_fast_undo *const undo = &tp->undo[tp->undo_count++];                                                 \
+      uint8_t *const place = local + ((address - TRAX_LOCAL_BASE) & ~3u);                                              \
+      undo->address = address & ~3u;                                                                                   \
+      memcpy(&undo->word, place, sizeof undo->word);                                                                   \
+      memcpy(place + (address & 3), &word, BYTES);                                                                     \
+    } else if (alone && store_ahead(chip, tp, address, word, BYTES)) {                                                 \
+      at = AT;                                                                                                         \
+      tp->loads[loads++] = address;                                                                                    \
+      tp->step[at] |= TRAX_STEP_QUEUE | TRAX_STEP_SLOW;                                                                \
+    } else {                                                                                                           \
       goto stop;                                                                                                       \
-    struct trax_fast_undo *const undo = &tp->undo[tp->undo_count++];                                                   \
-    undo->offset = (address - TRAX_LOCAL_BASE) & ~3u;                                                                  \
-    memcpy(&undo->word, local + undo->offset, sizeof undo->word);                                                      \
-    word = (VALUE);                                                                                                    \
-    memcpy(local + (address - TRAX_LOCAL_BASE), &word, BYTES);                                                         \
+    }                                                                                                                  \
   } while (0)
 #define ATOMIC_INC(ADDRESS)                                                                                            \
   (__extension__({                                                                                                     \

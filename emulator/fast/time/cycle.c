@@ -274,7 +274,8 @@ static bool load_hits(struct trax_tm *tm, unsigned number, uint64_t t) {
 }
 
 static bool serve(struct trax_tm *tm, unsigned number, uint64_t t) {
-  if (!(tm->executes_at_issue >> number & 1) && load_hits(tm, number, t))
+  if (!(tm->executes_at_issue >> number & 1) && (tm->heads.low[number] & TRAX_STEP_KIND) == TRAX_STEP_BANK &&
+      load_hits(tm, number, t))
     return true;
   trax_fast_export_head(tm, number);
   const trax_cause refused = trax_tm_serve(tm, number, t);
@@ -282,7 +283,8 @@ static bool serve(struct trax_tm *tm, unsigned number, uint64_t t) {
     trax_tm_charge(tm, number, refused);
     return false;
   }
-  trax_fast_set_busy(tm, number, tm->tp[number].inst->rd);
+  if (!tm->tp[number].inst->is_store)
+    trax_fast_set_busy(tm, number, tm->tp[number].inst->rd);
   return true;
 }
 
@@ -504,7 +506,8 @@ static void run_epoch(struct trax_chip *chip, uint32_t first, uint32_t count, ui
     run_two(one, other, end, false);
   for (struct trax_tm *tm = one; tm <= other; tm++)
     while (runs(tm, end))
-      run_cycle(tm, tm->next_cycle);
+      if (!trax_tm_has_one_awake(tm) || !trax_fast_run_alone(tm, tm->next_cycle, end))
+        run_cycle(tm, tm->next_cycle);
 }
 
 #ifdef __AVX512BW__

@@ -56,6 +56,7 @@ void trax_fast_refill(struct trax_tm *tm, unsigned number) {
   unsigned count = 0;
   if (!tp->atomics) { /* else it might read or overwrite a register that an increment will write */
     tp->begin = tp->resume;
+    tp->alone = tm->chip->alone;
     memcpy(tp->begin_reg, tp->reg, sizeof tp->begin_reg);
     count = trax_fast_burst(tm->chip, tm, number, tm->chip->burst);
   }
@@ -81,7 +82,8 @@ uint32_t trax_fast_advance(struct trax_tm *tm, unsigned number) {
   if (tm->heads.at[number] == tm->heads.last[number]) {
     trax_fast_refill(tm, number);
   } else {
-    tm->heads.load[number] += (tm->heads.low[number] & TRAX_STEP_KIND) == TRAX_STEP_BANK;
+    const unsigned kind = tm->heads.low[number] & TRAX_STEP_KIND;
+    tm->heads.load[number] += kind == TRAX_STEP_BANK || kind == TRAX_STEP_QUEUE;
     trax_fast_set_head(&tm->heads, number, tm->heads.at[number] + 1u);
   }
   return tm->executes_at_issue & bit ? tm->tp[number].pc : trax_fast_head_timing(tm, number)->pc;

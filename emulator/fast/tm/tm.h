@@ -96,6 +96,10 @@ struct trax_tm {
 /* Charges sleeping TPs for the cycles before `t`, which are over. */
 void trax_tm_settle(struct trax_tm *tm, uint64_t t);
 
+static inline bool trax_tm_has_one_awake(const struct trax_tm *tm) {
+  return tm->awake && !(tm->awake & (tm->awake - 1));
+}
+
 /* Notifies an observer of a charge. */
 static inline void trax_tm_notify_charge(const struct trax_tm *tm, unsigned tp, trax_cause cause, uint64_t since,
                                          uint64_t cycles) {

@@ -10,7 +10,7 @@
 #include "machine/watch.h" /* TRAX_NEVER: also of a register that becomes usable with an arrival */
 
 struct trax_fast_undo {
-  uint32_t offset, word; /* a word of local memory before a store */
+  uint32_t address, word; /* a word of local memory, or of global memory if the thread is alone, before a store */
 };
 
 /* run_begin, run_end: the run of bytes in the write-combining buffer, within one 64-byte block; equal: empty.
@@ -40,7 +40,8 @@ struct trax_tp {
   uint64_t atomics;                    /* mask of registers that atomic increments under way will write */
 
   uint64_t issued, jumps; /* instructions and taken jumps that were issued in earlier bursts */
-  uint32_t load_count;    /* loads of global memory of the current burst */
+  bool alone;             /* the current burst may store to global memory (trax_chip.alone) */
+  uint32_t load_count;    /* loads of global memory of the current burst, and stores to it */
   uint32_t burst_jumps;   /* taken jumps of the current burst, that of its last step included */
   uint64_t burst_lines;   /* bit line % 64: a superset of the lines of the burst's steps */
 
@@ -48,7 +49,7 @@ struct trax_tp {
      are not part of the burst. */
   _Alignas(64) uint16_t step[TRAX_BURST + TRAX_CHUNK];
   uint8_t segment[TRAX_BURST + TRAX_CHUNK]; /* [step]: the number of its segment */
-  uint32_t loads[TRAX_BURST];               /* the addresses of the burst's loads of global memory, in order */
+  uint32_t loads[TRAX_BURST];               /* the addresses of the burst's loads and stores of global memory */
   uint32_t origin[TRAX_BURST + 1];          /* [segment]: its first instruction's index minus its first step */
 
   /* The state at the beginning of the burst, for a roll back (blocks.c). */
