@@ -1,11 +1,9 @@
 #include "fast/chip.h"
 
-#include "fast/state.h"
-#include "fast/variant.h"
+#include "fast/chip.h"
 #include "fast/epochs.h"
-
-#include <stdlib.h>
-#include <string.h>
+#include "fast/state.h"
+#include "fast/time/variant.h"
 
 /* --- the variants --- */
 
@@ -34,47 +32,8 @@ static const struct trax_fast_variant *variant_of(const struct trax_engine *engi
   return &trax_fast_variant;
 }
 
-/* --- creation and destruction --- */
-
 static trax_status create(struct trax_run *run, trax_error *error) {
-  struct trax_machine *machine = run->machine;
-  struct trax_chip *chip = run->chip = calloc(1, sizeof *chip);
-  if (!chip)
-    return trax_fail(error, "out of memory");
-  chip->machine = machine;
-  chip->text = &run->text;
-  chip->tms = machine->config.chip.tms;
-  if (trax_memory_create(&chip->memory, &machine->config, &machine->stats.memory, error))
-    return TRAX_ERROR;
-  chip->transfers.to = machine->transfers;
-  if (machine->transfers)
-    chip->memory.transfers = &chip->transfers;
-  chip->tm = aligned_alloc(_Alignof(struct trax_tm), chip->tms * sizeof *chip->tm);
-  if (!chip->tm)
-    return trax_fail(error, "out of memory");
-  memset(chip->tm, 0, chip->tms * sizeof *chip->tm);
-  for (uint32_t i = 0; i < chip->tms; i++)
-    if (trax_tm_create(&chip->tm[i], i, chip, run->options->output, error))
-      return TRAX_ERROR;
-  chip->variant = variant_of(run->engine);
-  if (chip->variant->create(chip, error))
-    return TRAX_ERROR;
-  return trax_epochs_create(chip, run->options->host_threads, error);
-}
-
-static void destroy(void *context) {
-  struct trax_chip *chip = context;
-  if (!chip)
-    return;
-  trax_epochs_destroy(chip->epochs);
-  if (chip->variant)
-    chip->variant->destroy(chip->fast);
-  for (uint32_t i = 0; chip->tm && i < chip->tms; i++)
-    trax_tm_destroy(&chip->tm[i]);
-  free(chip->tm);
-  trax_memory_destroy(&chip->memory);
-  trax_transfer_log_destroy(&chip->transfers);
-  free(chip);
+  return trax_chip_create(run, variant_of(run->engine), error);
 }
 
 /* --- cycles --- */
@@ -84,7 +43,7 @@ static enum trax_advance run_cycle(struct trax_chip *chip, uint64_t *t) {
   bool faulted = false;
   for (uint32_t i = 0; i < chip->tms; i++)
     if (chip->tm[i].next_cycle <= *t) {
-      chip->variant->cycle(chip->fast, i, *t);
+      chip->variant->cycle(chip, i, *t);
       faulted |= chip->tm[i].fault.kind != TRAX_FAULT_NONE;
     }
   trax_memory_cycle(&chip->memory, chip->tm, &chip->machine->space, *t);
@@ -105,20 +64,66 @@ static enum trax_advance run_cycle(struct trax_chip *chip, uint64_t *t) {
   return TRAX_GOES_ON;
 }
 
+/* Simulates cycles from *t on in which one TM alone does anything. False: there are none. */
+static bool run_ahead(struct trax_chip *chip, uint64_t *t, uint64_t until) {
+  struct trax_tm *tm = NULL;
+  for (uint32_t i = 0; i < chip->tms; i++)
+    if (chip->tm[i].next_cycle > *t)
+      until = chip->tm[i].next_cycle < until ? chip->tm[i].next_cycle : until;
+    else if (tm)
+      return false;
+    else
+      tm = &chip->tm[i];
+  if (!tm || !*t || !trax_tm_has_one_awake(tm))
+    return false;
+  const uint64_t transfer = trax_memory_next_cycle(&chip->memory, *t - 1);
+  if (!trax_fast_run_alone(tm, *t, transfer < until ? transfer : until))
+    return false;
+  *t = tm->next_cycle;
+  return true;
+}
+
+/* Whether one thread is left, and no increment of another one is under way. */
+static bool has_one_thread(const struct trax_chip *chip) {
+  uint32_t increments = 0;
+  if (chip->burst == 1 || trax_chip_running(chip) != 1)
+    return false;
+  for (uint32_t i = 0; i < chip->tms; i++)
+    for (uint32_t tp = 0; tp < chip->tm[i].tps; tp++)
+      increments += chip->tm[i].tp[tp].increments;
+  return !increments;
+}
+
+static void commit(void *context) {
+  struct trax_chip *chip = context;
+  if (chip->epochs)
+    trax_epochs_commit(chip->epochs);
+  if (chip->alone) /* bursts may have stored */
+    trax_fast_roll_back(chip);
+}
+
 static enum trax_advance advance(void *context, uint64_t *t, uint64_t until) {
   enum { CYCLES = 1024 }; /* the most cycles outside epochs in one call */
   struct trax_chip *chip = context;
+  if (!chip->alone && has_one_thread(chip)) {
+    commit(chip);
+    chip->alone = true;
+  }
   for (unsigned cycles = 0; cycles < CYCLES && *t < until && !chip->end; cycles++) {
-    if (chip->epochs && trax_epochs_advance(chip->epochs, t, until))
+    if (chip->epochs && !chip->alone && trax_epochs_advance(chip->epochs, t, until))
       return TRAX_GOES_ON;
+    if (run_ahead(chip, t, until))
+      continue;
     const uint64_t before = *t;
     if (run_cycle(chip, t) == TRAX_HAS_FAULTED)
       return TRAX_HAS_FAULTED;
     if (chip->end)
       break;
     *t = *t < until ? *t : until;
-    chip->machine->fast_path.single_cycles += chip->tms > 1 ? *t - before : 0;
+    chip->machine->fast_path.single_cycles += chip->tms > 1 && !chip->alone ? *t - before : 0;
   }
+  if (chip->alone && *t >= until)
+    commit(chip);
   if (!chip->end)
     return TRAX_GOES_ON;
   /* Only the last transfers are under way. */
@@ -126,24 +131,17 @@ static enum trax_advance advance(void *context, uint64_t *t, uint64_t until) {
   return *t == chip->end ? TRAX_HAS_ENDED : TRAX_GOES_ON;
 }
 
-static void commit(void *context) {
-  const struct trax_chip *chip = context;
-  if (chip->epochs)
-    trax_epochs_commit(chip->epochs);
-}
-
 /* --- between cycles --- */
 
 static void collect(void *context) {
-  const struct trax_chip *chip = context;
-  chip->variant->collect(chip->fast);
+  trax_fast_collect(context);
 }
 
 static void settle(void *context, uint64_t t) {
   struct trax_chip *chip = context;
   for (uint32_t i = 0; i < chip->tms && !chip->machine->fault.kind; i++)
     chip->machine->fault = chip->tm[i].fault;
-  chip->variant->settle(chip->fast);
+  trax_fast_settle(chip);
   for (uint32_t i = 0; i < chip->tms; i++) {
     trax_tm_settle(&chip->tm[i], t);
     chip->tm[i].stats->queue_peak = chip->tm[i].queue.peak;
@@ -151,8 +149,7 @@ static void settle(void *context, uint64_t t) {
 }
 
 static void export_state(void *context) {
-  const struct trax_chip *chip = context;
-  chip->variant->export_state(chip->fast);
+  trax_fast_export(context);
 }
 
 static void import_state(void *context, uint64_t t) {
@@ -160,7 +157,7 @@ static void import_state(void *context, uint64_t t) {
   for (uint32_t i = 0; i < chip->tms; i++)
     for (uint32_t tp = 0; tp < chip->tm[i].tps; tp++)
       chip->tm[i].tp[tp].inst = trax_text_at(chip->text, chip->tm[i].tp[tp].pc);
-  chip->variant->import_state(chip->fast, t);
+  trax_fast_import(chip, t);
 }
 
 static struct trax_thread thread(void *context, uint32_t number) {
@@ -202,8 +199,8 @@ static uint32_t queued(const void *context, uint32_t tm, uint64_t t) {
 #define ENGINE(NAME, MEANING, IS_POSSIBLE)                                                                             \
   {                                                                                                                    \
     .name = NAME, .meaning = MEANING, .is_possible = IS_POSSIBLE, .is_timed = true, .is_observed = true,               \
-    .create = create, .destroy = destroy, .advance = advance, .commit = commit, .collect = collect, .settle = settle,  \
-    .export_state = export_state, .import_state = import_state, .thread = thread, .set_pc = set_pc,                    \
+    .create = create, .destroy = trax_chip_destroy, .advance = advance, .commit = commit, .collect = collect,          \
+    .settle = settle, .export_state = export_state, .import_state = import_state, .thread = thread, .set_pc = set_pc,  \
     .progressed = progressed, .queued = queued, .visit = trax_state_visit, .check = trax_state_check                   \
   }
 

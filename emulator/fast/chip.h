@@ -1,10 +1,19 @@
-/* The chip of the fast engine: TMs, the memory controller, and the variant and epochs that simulate them. */
+/* The fast engine (docs/fast-engine.md has its words): it gives the cycles, counts and bytes of emulator/reference.
+
+   Instructions are executed before their time: a TP executes a burst at once, up to the first instruction whose effect
+   or result depends on time, and the timing of the burst's steps follows one by one (function/). Timing works on masks
+   of a TM's TPs: the resources that an instruction needs are recorded when it becomes its TP's head (time/).
+
+   Rare events are simulated one by one in plain structures (tm/, memory/): arrivals, misses, requests, faults, traps,
+   and instructions that execute at issue. A TM accesses data of another TM only through blocks.c and the memory
+   controller. Epochs and threads are above these folders. */
 #ifndef TRAX_FAST_CHIP_H
 #define TRAX_FAST_CHIP_H
 
 #include "engine/run.h"
-#include "fast/memory.h"
-#include "fast/tm.h"
+#include "fast/function/blocks.h"
+#include "fast/memory/memory.h"
+#include "fast/tm/tm.h"
 
 struct trax_chip {
   struct trax_machine *machine;
@@ -14,7 +23,11 @@ struct trax_chip {
   struct trax_memory memory;
   struct trax_transfer_log transfers; /* no roll back changes it */
   const struct trax_fast_variant *variant;
-  struct trax_fast *fast;     /* the variant's data */
+  struct trax_fast_program program;
+  struct trax_fast_blocks blocks;
+  unsigned burst; /* limit of a burst's instructions; 1 with an observer, which must see the state at each issue */
+  /* One thread is left, and no increment is under way: nobody else accesses memory, so that bursts may store. */
+  bool alone;
   struct trax_epochs *epochs; /* if its TMs run ahead of each other; else NULL */
   uint64_t end;                 /* when all threads have ended: the cycle in which the last transfer is over; else 0 */
 };
@@ -27,8 +40,28 @@ static inline uint32_t trax_chip_running(const struct trax_chip *chip) {
   return running;
 }
 
-void trax_chip_export(struct trax_chip *chip);
-void trax_chip_import(struct trax_chip *chip, uint64_t t);
+trax_status trax_chip_create(struct trax_run *run, const struct trax_fast_variant *variant, trax_error *error);
+void trax_chip_destroy(void *chip); /* may be NULL */
+
+/* Adds the instructions executed since the latest call to the TMs' statistics, with those that have not been issued. */
+void trax_fast_collect(struct trax_chip *chip);
+/* Completes statistics and charges for the cycles that are over. */
+void trax_fast_settle(struct trax_chip *chip);
+/* Notifies an observer of the refusals of the current cycle. */
+void trax_fast_notify_refusals(const struct trax_tm *tm, const struct trax_fast_refused *refused);
+
+/* Simulates cycles from t on, before `end`, of a TM in which one TP is awake, as long as it issues a step in each, and
+   makes no request. Requires that no transfer starts before `end`. False: there are no such cycles; else next_cycle is
+   set. */
+bool trax_fast_run_alone(struct trax_tm *tm, uint64_t t, uint64_t end);
+
+/* Between cycles: rolls every TP back to what it has issued, so that the structures of tm.h and tp.h hold all that the
+   run depends on. The run can be continued. */
+void trax_fast_export(struct trax_chip *chip);
+/* Continues the run before cycle t with the state in those structures. */
+void trax_fast_import(struct trax_chip *chip, uint64_t t);
+/* Sets the round-robin mask of a bank of an instruction cache. */
+void trax_fast_set_fetch_rr_mask(struct trax_tm *tm, uint32_t icache, uint32_t bank, uint64_t rr_mask);
 
 /* The engine with the best variant that the host can run, and the engines of single variants. */
 extern const struct trax_engine trax_fast_engine, trax_fast_any_engine;

@@ -1,10 +1,10 @@
 #include "fast/epochs.h"
 
 #include "fast/chip.h"
-#include "fast/fast.h"
 #include "fast/pool.h"
 #include "fast/state.h"
 #include "fast/store_buffer.h"
+#include "fast/time/variant.h"
 #include "trax/grow.h"
 
 #include <assert.h>
@@ -135,10 +135,10 @@ static const struct trax_map_entry *record_writer(struct trax_epochs *epochs, ui
 /* Performs a store of a TM, or prepares the block of an atomic increment. False: the epoch must be given up, since a
    burst has loaded from the block, or the controller has incremented the word too early, or memory ran out. */
 static bool perform(struct trax_epochs *epochs, const struct trax_store_buffer_write *write, uint32_t tm) {
-  struct trax_fast *fast = epochs->chip->fast;
-  if (trax_fast_is_loaded(&fast->blocks, write->address))
+  struct trax_chip *chip = epochs->chip;
+  if (trax_fast_is_loaded(&chip->blocks, write->address))
     return false;
-  trax_fast_set_written(&fast->blocks, write->address, write->bytes ? TRAX_BLOCK_WRITTEN : TRAX_BLOCK_SHARED);
+  trax_fast_set_written(&chip->blocks, write->address, write->bytes ? TRAX_BLOCK_WRITTEN : TRAX_BLOCK_SHARED);
   if (!write->bytes)
     return true;
   const struct trax_map_entry *writer = record_writer(epochs, write->address, tm);
@@ -184,9 +184,12 @@ static uint64_t submit_requests(struct trax_epochs *epochs, uint64_t t) {
   return next;
 }
 
-/* Called before the controller increments a word. */
+/* Called before the controller increments a word. Before an epoch, bursts that have loaded the word roll back, since
+   their issued steps may be executed again in the epoch. */
 static void record_increment(void *context, uint32_t address) {
   struct trax_epochs *epochs = context;
+  for (uint32_t i = 0; epochs->early && i < epochs->chip->tms; i++)
+    trax_fast_roll_back_readers(&epochs->chip->tm[i], address);
   epochs->failed |= !record_writer(epochs, address, BY_CONTROLLER);
 }
 
@@ -207,8 +210,8 @@ static bool run_controller(struct trax_epochs *epochs, uint64_t t) {
   return write_up_to(epochs, epochs->end, &next_write);
 }
 
-/* Whether a TM has read a word that another TM or the controller wrote in this epoch. Bursts do not load such words
-   again. */
+/* Whether a TM has read a word that another TM or the controller wrote in this epoch. The blocks of such words are
+   SHARED from then on. */
 static bool has_conflict(const struct trax_epochs *epochs) {
   bool found = false;
   for (uint32_t i = 0; epochs->writers.count && i < epochs->chip->tms; i++) {
@@ -216,7 +219,7 @@ static bool has_conflict(const struct trax_epochs *epochs) {
     for (size_t j = 0; j < buffer->read_count; j++) {
       const struct trax_map_entry *writer = trax_map_find(&epochs->writers, sizeof *writer, buffer->reads[j]);
       if (writer && (writer->value & ~EARLY) != i) {
-        trax_fast_set_written(&epochs->chip->fast->blocks, buffer->reads[j], TRAX_BLOCK_SHARED);
+        trax_fast_set_written(&epochs->chip->blocks, buffer->reads[j], TRAX_BLOCK_SHARED);
         found = true;
       }
     }
@@ -240,9 +243,9 @@ static bool end_epoch(struct trax_epochs *epochs, uint64_t begin) {
 
 static void run_tms(void *context, uint32_t group) {
   const struct trax_epochs *epochs = context;
-  const struct trax_chip *chip = epochs->chip;
+  struct trax_chip *chip = epochs->chip;
   const uint32_t first = group * epochs->interleaved, left = chip->tms - first;
-  chip->variant->run_epoch(chip->fast, first, left < epochs->interleaved ? left : epochs->interleaved, epochs->end);
+  chip->variant->run_epoch(chip, first, left < epochs->interleaved ? left : epochs->interleaved, epochs->end);
 }
 
 /* Begins an epoch. Starts the transfers that do not depend on the epoch's requests, and sets the end of the epoch to
@@ -295,7 +298,7 @@ bool trax_epochs_advance(struct trax_epochs *epochs, uint64_t *t, uint64_t until
     chip->tm[i].buffer = NULL;
   const bool ended = end_epoch(epochs, *t);
   chip->memory.before_increment = increment_outside;
-  chip->memory.context = chip->fast;
+  chip->memory.context = chip;
   if (ended) {
     *t = epochs->end;
     return true;

@@ -1,7 +1,7 @@
 #include "fast/state.h"
 
-#include "fast/fast.h"
-#include "fast/l2.h"
+#include "fast/chip.h"
+#include "fast/memory/l2.h"
 
 struct visitor {
   trax_section_visitor *visit;
@@ -122,6 +122,11 @@ static void visit_tm(const struct visitor *visitor, struct trax_tm *tm) {
   VISIT_ALL(trax_tm_stats, tm->stats, 1);
   VISIT_ALL(trax_tp_stats, tm->tp_stats, tm->tps);
   VISIT_NUMBERS(int32_t, tm->exit_statuses, tm->tps);
+  /* The program and the states of blocks are not visited: they stay valid after a roll back. */
+  VISIT_DERIVED(tm->count_deltas, tm->chip->program.inst_count + 1);
+  VISIT_DERIVED(tm->resident, tm->icaches);
+  VISIT_DERIVED(tm->resident_lines, tm->icaches);
+  VISIT_DERIVED(tm->fetch_rr_masks, (size_t)tm->icaches * tm->vectors);
 }
 
 static void visit_l2(const struct visitor *visitor, struct trax_l2 *l2) {
@@ -157,18 +162,6 @@ static void visit_memory(const struct visitor *visitor, struct trax_memory *memo
     visit_l2(visitor, memory->l2);
 }
 
-/* The fast engine's own form of a TM. The program and the states of blocks are not visited: they stay valid after a
-   roll back. */
-static void visit_fast_tm(const struct visitor *visitor, struct trax_fast_tm *ftm) {
-  const struct trax_tm *tm = ftm->tm;
-  VISIT_DERIVED(ftm, 1);
-  VISIT_DERIVED(ftm->tp, tm->tps);
-  VISIT_DERIVED(ftm->count_deltas, ftm->fast->program.inst_count + 1);
-  VISIT_DERIVED(ftm->resident, tm->icaches);
-  VISIT_DERIVED(ftm->resident_lines, tm->icaches);
-  VISIT_DERIVED(ftm->fetch_rr_masks, (size_t)tm->icaches * ftm->vectors);
-}
-
 void trax_state_visit(void *state, trax_section_visitor *visit, void *context) {
   struct trax_chip *chip = state;
   const struct visitor the_visitor = {visit, context}, *visitor = &the_visitor;
@@ -179,6 +172,4 @@ void trax_state_visit(void *state, trax_section_visitor *visit, void *context) {
   for (uint32_t i = 0; i < chip->tms; i++)
     visit_tm(visitor, &chip->tm[i]);
   visit_memory(visitor, &chip->memory);
-  for (uint32_t i = 0; i < chip->tms; i++)
-    visit_fast_tm(visitor, &chip->fast->tm[i]);
 }

@@ -3,7 +3,7 @@
    tags and counts may have any value, since a program could have produced it. */
 #include "fast/state_check.h"
 
-#include "fast/l2.h"
+#include "fast/memory/l2.h"
 
 #include <inttypes.h>
 #include <stdarg.h>

@@ -1,5 +1,5 @@
 /* Replacement policies, which choose the place of an arriving line in its set (docs/timing.md, "Data cache").
-   Configurations, their errors and --help-config follow from these rows. fast/cache_tags.h and reference/lines.c
+   Configurations, their errors and --help-config follow from these rows. fast/tm/cache_tags.h and reference/lines.c
    implement each policy independently. */
 #ifndef TRAX_MACHINE_REPLACEMENT_H
 #define TRAX_MACHINE_REPLACEMENT_H

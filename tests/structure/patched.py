@@ -35,7 +35,7 @@ def add_fields(scratch):
     different."""
     generator = random.Random(int(os.environ.get("TRAX_RANDOM_SEED", "1")))
     lists = []
-    for path in sorted(glob.glob(os.path.join(scratch, "emulator", "fast", "*.h"))):
+    for path in sorted(glob.glob(os.path.join(scratch, "emulator", "fast", "**", "*.h"), recursive=True)):
         with open(path, encoding="utf-8") as file:
             names = re.findall(r"^#define (TRAX_\w+)_STATE\(X, S\)", file.read(), re.M)
         lists += [(path, name.lower()) for name in names if name.lower() not in NESTED]

@@ -12,7 +12,7 @@ FOLDER = pathlib.Path(sys.argv[1], "emulator")
 
 
 def hash_of(folder):
-    sources = ",".join(str(path) for path in sorted(folder.glob("*/*.h")))
+    sources = ",".join(str(path) for path in sorted(folder.glob("*/**/*.h")))
     words = ["-D", f"OUTPUT={folder}/out.h", "-D", f"SOURCES={sources}", "-P", FOLDER / "engine/state_sources.cmake"]
     subprocess.run(["cmake", *words], check=True)
     return (folder / "out.h").read_text()
@@ -22,15 +22,16 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         copy = pathlib.Path(name)
         for room in ("machine", "fast", "engine", "dram", "calls"):
-            (copy / room).mkdir()
-            for header in (FOLDER / room).glob("*.h"):
-                shutil.copy(header, copy / room)
+            for header in (FOLDER / room).rglob("*.h"):
+                (copy / header.relative_to(FOLDER)).parent.mkdir(parents=True, exist_ok=True)
+                shutil.copy(header, copy / header.relative_to(FOLDER))
         first = hash_of(copy)
         if hash_of(copy) != first:
             return print("the same sources have another hash") or 1
-        header = copy / "fast/fast.h"
+        header = copy / "fast/function/blocks.h"
         text = header.read_text()
-        swapped = text.replace("TRAX_BLOCK_WRITTEN, TRAX_BLOCK_SHARED", "TRAX_BLOCK_SHARED, TRAX_BLOCK_WRITTEN")
+        swapped = text.replace("TRAX_BLOCK_LOADED = 1, TRAX_BLOCK_WRITTEN,",
+                               "TRAX_BLOCK_WRITTEN = 1, TRAX_BLOCK_LOADED,")
         header.write_text(swapped)
         if swapped == text or hash_of(copy) == first:
             return print("another order of an enumeration has the same hash") or 1

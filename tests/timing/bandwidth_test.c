@@ -1,7 +1,7 @@
 /* The bandwidth is reached, by each engine, with and without a second-level cache, and the least latency of memory. */
 #include "compare.h"
 
-#include "fast/memory.h"
+#include "fast/memory/memory.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -124,7 +124,7 @@ static void end_thread(struct program *program) {
 
 struct scenario {
   const char *name;
-  bool written;  /* the block has been written before, so that nobody loads it ahead */
+  bool written;  /* the block has been written before, so that loads ahead from it are watched */
   action *of[3]; /* TM 0, 1, 2 */
 };
 
@@ -148,6 +148,9 @@ static const struct scenario scenarios[] = {
     {"a store of what has been loaded ahead", false, {add_up, store_word}},
     {"a store of what has been loaded ahead by itself and another", false, {add_up, add_up, store_word}},
     {"a store of what has been loaded ahead between stores to local memory", false, {add_up_locally, store_word}},
+    {"a store of what has been loaded ahead since a first write", true, {add_up, store_word}},
+    {"an increment of what has been loaded ahead since a first write", true, {increment, add_up}},
+    {"a store of it by itself and another, between stores to local memory", true, {add_up_locally, add_up, store_word}},
     {"output", false, {print, print, print}},
     {"a fault, and stores that must not happen", false, {fault, store_for_long}},
     {"a fault of a higher TM, and stores", false, {store_for_long, fault}},

@@ -5,7 +5,7 @@
    latency. */
 #include "generate.h"
 
-#include "fast/memory.h"
+#include "fast/memory/memory.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -7,7 +7,7 @@
 #include "temporary.h"
 
 #include "engine/layout.h"
-#include "fast/fast.h"
+#include "fast/chip.h"
 #include "fast/state.h"
 #include "host/checkpoint.h"
 
@@ -76,17 +76,10 @@ static void leave_out(const void *bytes) {
 /* What holds whatever cycle it is: the program as it was noted so far; what has ever been loaded and written; the
    structures of those who go back. */
 static void find_state(const struct trax_chip *chip, struct trax_machine *machine, size_t before_epochs) {
-  const struct trax_fast_program *program = &chip->fast->program;
+  const struct trax_fast_program *program = &chip->program;
   block_count = before_epochs;
-  const void *const others[] = {chip,
-                                chip->fast,
-                                chip->fast->blocks.state,
-                                program->sections,
-                                program->inst,
-                                program->step,
-                                program->timing,
-                                program->line,
-                                program->chunk_lines};
+  const void *const others[] = {chip,          chip->blocks.state, program->sections, program->inst,
+                                program->step, program->timing,    program->line,     program->chunk_lines};
   for (size_t i = 0; i < sizeof others / sizeof *others; i++)
     leave_out(others[i]);
   blocks[block_count++] = (struct block){(uint8_t *)&machine->stats.memory, sizeof machine->stats.memory};

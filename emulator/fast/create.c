@@ -1,0 +1,164 @@
+/* The creation of a chip and its TMs. */
+#include "fast/chip.h"
+#include "fast/epochs.h"
+#include "fast/time/head.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static void *create_aligned(size_t count, size_t size) {
+  void *array = aligned_alloc(64, (count * size + 63) / 64 * 64);
+  return array ? memset(array, 0, count * size) : NULL;
+}
+
+static void prepare_units(struct trax_fast_units *unit, const struct trax_shared_unit *first,
+                          const struct trax_shared_unit *second) {
+  const struct trax_shared_kind *const kinds[2] = {&first->kind, &second->kind};
+  unit->group_size = first->kind.group_size;
+  unit->even = 64 % unit->group_size == 0 && kinds[1]->group_size == unit->group_size && kinds[0]->per_group == 1 &&
+               kinds[1]->per_group == 1;
+  for (unsigned kind = 0; kind < 2; kind++) {
+    unit->uneven[kind].groups = kinds[kind]->groups;
+    unit->uneven[kind].per_group = kinds[kind]->per_group;
+    for (uint32_t i = 0; i < kinds[kind]->groups; i++)
+      unit->uneven[kind].group[i] = trax_group_mask(i, kinds[kind]->group_size);
+  }
+  for (uint32_t i = unit->group_size - 1; unit->even && i < 64; i += unit->group_size)
+    unit->top |= (uint64_t)1 << i;
+  unit->below_top = ~unit->top;
+}
+
+static bool create_fetch(struct trax_tm *tm) {
+  const uint32_t tps = tm->config->icache.tps_per_cache, banks = tm->config->icache.banks;
+  tm->icaches = (tm->tps + tps - 1) / tps;
+  tm->icache = calloc(tm->icaches, sizeof *tm->icache);
+  tm->simple_fetch = tps == 16 && banks <= 16 && tm->config->icache.ports_per_bank == 1;
+  tm->vectors = (banks + TRAX_FAST_LANES - 1) / TRAX_FAST_LANES;
+  tm->fetch_rr_masks = create_aligned((size_t)tm->icaches * tm->vectors, sizeof *tm->fetch_rr_masks);
+  tm->resident = calloc(tm->icaches, sizeof *tm->resident);
+  tm->resident_lines = calloc(tm->icaches, sizeof *tm->resident_lines);
+  for (unsigned i = 0; i < tm->tps; i++)
+    tm->icache_of[i] = (uint8_t)(i / tps);
+  bool complete = tm->icache && tm->fetch_rr_masks && tm->resident && tm->resident_lines;
+  for (uint32_t i = 0; complete && i < tm->icaches; i++)
+    complete = trax_icache_create(&tm->icache[i], i, tm);
+  return complete;
+}
+
+static bool create_data(struct trax_tm *tm) {
+  if (!trax_queue_create(&tm->queue, tm->config->memory.queue_depth, trax_memory_keeps_order(tm->config)) ||
+      !trax_dcache_create(&tm->dcache, tm))
+    return false;
+  tm->data_banks = tm->dcache.banks;
+  while (1u << tm->data_bank_bits < tm->data_banks)
+    tm->data_bank_bits++;
+  tm->serial_hits = tm->config->dcache.hit_latency_cycles > 1 || tm->dcache.tags.by_use;
+  return true;
+}
+
+static bool create_units(struct trax_tm *tm) {
+  for (trax_shared unit = 0; unit < TRAX_SHARED_COUNT; unit++)
+    if (!trax_shared_unit_create(&tm->unit[unit], unit, tm->config))
+      return false;
+  prepare_units(&tm->fp, &tm->unit[TRAX_SHARED_FP_ADD], &tm->unit[TRAX_SHARED_FP_MUL]);
+  prepare_units(&tm->int_mul, &tm->unit[TRAX_SHARED_INT_MUL], &tm->unit[TRAX_SHARED_INT_MUL]);
+  return true;
+}
+
+static trax_status create_tm(struct trax_tm *tm, uint32_t number, struct trax_chip *chip, FILE *output,
+                             trax_error *error) {
+  struct trax_machine *machine = chip->machine;
+  const uint32_t tps = machine->config.chip.tps_per_tm;
+  tm->number = number;
+  tm->tps = tps;
+  tm->wide = tps > 32;
+  tm->config = &machine->config;
+  tm->chip = chip;
+  tm->machine = machine;
+  tm->text = chip->text;
+  tm->output = output;
+  tm->observer = machine->observer;
+  tm->stats = &machine->tm_stats[number];
+  tm->tp_stats = &machine->tp_stats[(size_t)number * tps];
+  tm->exit_statuses = &machine->exit_statuses[(size_t)number * tps];
+  tm->tp = create_aligned(tps, sizeof *tm->tp);
+  tm->count_deltas = calloc(chip->program.inst_count + 1, sizeof *tm->count_deltas);
+  if (!tm->tp || !tm->count_deltas || !create_fetch(tm) || !create_data(tm) || !create_units(tm))
+    return trax_fail(error, "out of memory");
+  tm->awake = trax_group_mask(0, tps);
+  tm->running = tps;
+  tm->heads.steps = tm->tp->step;
+  for (unsigned i = 0; i < TRAX_MAX_TPS_PER_TM; i++) { /* TPs that do not exist have TP 0's steps: vectors read them */
+    trax_fast_begin_heads(&tm->heads, i, i < tps ? i * (uint32_t)(sizeof *tm->tp / sizeof(uint16_t)) : 0);
+    tm->loads_of[i] = tm->tp[i < tps ? i : 0].loads;
+  }
+  for (unsigned i = 0; i < tps; i++) {
+    struct trax_tp *tp = &tm->tp[i];
+    tp->pc = tp->resume_pc = trax_machine_entry_of(machine, number * tps + i);
+    tp->inst = trax_text_at(tm->text, tp->pc);
+    tp->resume = trax_fast_inst_at(&chip->program, tp->pc);
+    trax_fast_advance(tm, i);
+  }
+  return TRAX_OK;
+}
+
+static void destroy_tm(struct trax_tm *tm) {
+  for (uint32_t i = 0; tm->icache && i < tm->icaches; i++)
+    trax_icache_destroy(&tm->icache[i]);
+  for (trax_shared unit = 0; unit < TRAX_SHARED_COUNT; unit++)
+    trax_shared_unit_destroy(&tm->unit[unit]);
+  trax_dcache_destroy(&tm->dcache);
+  trax_queue_destroy(&tm->queue);
+  free(tm->icache);
+  free(tm->tp);
+  free(tm->count_deltas);
+  free(tm->fetch_rr_masks);
+  free(tm->resident);
+  free(tm->resident_lines);
+}
+
+trax_status trax_chip_create(struct trax_run *run, const struct trax_fast_variant *variant, trax_error *error) {
+  struct trax_machine *machine = run->machine;
+  struct trax_chip *chip = run->chip = calloc(1, sizeof *chip);
+  if (!chip)
+    return trax_fail(error, "out of memory");
+  chip->machine = machine;
+  chip->text = &run->text;
+  chip->variant = variant;
+  chip->tms = machine->config.chip.tms;
+  chip->burst = machine->observer ? 1 : TRAX_BURST;
+  machine->calls.before_write = trax_fast_range_written;
+  machine->calls.engine = chip;
+  if (trax_memory_create(&chip->memory, &machine->config, &machine->stats.memory, error) ||
+      trax_fast_blocks_create(&chip->blocks, &machine->space, error) ||
+      trax_fast_program_create(&chip->program, chip->text, &machine->config, error))
+    return TRAX_ERROR;
+  chip->memory.before_increment = trax_fast_increment_outside;
+  chip->memory.context = chip;
+  chip->transfers.to = machine->transfers;
+  if (machine->transfers)
+    chip->memory.transfers = &chip->transfers;
+  chip->tm = create_aligned(chip->tms, sizeof *chip->tm);
+  if (!chip->tm)
+    return trax_fail(error, "out of memory");
+  for (uint32_t i = 0; i < chip->tms; i++)
+    if (create_tm(&chip->tm[i], i, chip, run->options->output, error))
+      return TRAX_ERROR;
+  return trax_epochs_create(chip, run->options->host_threads, error);
+}
+
+void trax_chip_destroy(void *context) {
+  struct trax_chip *chip = context;
+  if (!chip)
+    return;
+  chip->machine->calls.before_write = NULL;
+  trax_epochs_destroy(chip->epochs);
+  for (uint32_t i = 0; chip->tm && i < chip->tms; i++)
+    destroy_tm(&chip->tm[i]);
+  free(chip->tm);
+  trax_memory_destroy(&chip->memory);
+  trax_fast_blocks_destroy(&chip->blocks);
+  trax_fast_program_destroy(&chip->program);
+  trax_transfer_log_destroy(&chip->transfers);
+  free(chip);
+}

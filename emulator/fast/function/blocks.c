@@ -1,0 +1,135 @@
+#define _DEFAULT_SOURCE /* MAP_ANONYMOUS, MAP_NORESERVE */
+/* The read set and the write set of the run, by blocks of global memory. A value loaded by a burst is right as long as
+   no TP writes the block that it came from. Before a LOADED block is written for the first time, every TP rolls back to
+   what it has issued, and its head executes at issue. After that the block is WRITTEN: bursts that load from it are
+   watched. Before a word is written from which a watched burst has loaded, that burst's TP rolls back. So data that is
+   only read costs nothing, and data that is only written, such as a picture, costs no roll back. The input buffer is
+   hardly ever written: all of it counts as LOADED until a first write, so loads from it need not be recorded. */
+#include "fast/function/burst.h"
+#include "fast/store_buffer.h"
+#include "fast/time/head.h"
+
+#include <assert.h>
+#include <string.h>
+#include <sys/mman.h>
+
+enum { FIRST_AREA = 256 /* blocks */, MOST_DOUBLINGS = 12 };
+
+trax_status trax_fast_blocks_create(struct trax_fast_blocks *blocks, const struct trax_space *space,
+                                    trax_error *error) {
+  blocks->bytes = space->size >> TRAX_BLOCK_SHIFT; /* the host provides what is touched */
+  blocks->input = space->input;
+  blocks->input_bytes = space->input_bytes;
+  void *state = mmap(NULL, blocks->bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (state == MAP_FAILED)
+    return trax_fail(error, "cannot reserve %zu bytes of host memory", blocks->bytes);
+  blocks->state = state;
+  for (size_t i = 0; i < space->hole_count; i++) /* so that loads from holes end bursts, and fault at issue */
+    for (uint64_t at = space->holes[i].begin; at < space->holes[i].end; at += 1u << TRAX_BLOCK_SHIFT)
+      blocks->state[at >> TRAX_BLOCK_SHIFT] = TRAX_BLOCK_HOLE;
+  return TRAX_OK;
+}
+
+void trax_fast_blocks_destroy(struct trax_fast_blocks *blocks) {
+  if (blocks->state)
+    munmap(blocks->state, blocks->bytes);
+}
+
+/* Rolls a TP back to what it has issued: undoes its burst, and executes the issued steps again. They give the same
+   results, since no word that they loaded has been written since. */
+static void roll_back_tp(struct trax_chip *chip, struct trax_tm *tm, unsigned number) {
+  const uint64_t bit = (uint64_t)1 << number;
+  struct trax_tp *tp = &tm->tp[number];
+  if (tm->executes_at_issue & bit)
+    return;
+  while (tp->undo_count) {
+    const struct trax_fast_undo *undo = &tp->undo[--tp->undo_count];
+    memcpy(undo->address < TRAX_LOCAL_BASE ? chip->machine->space.bytes + undo->address
+                                           : tp->local + (undo->address - TRAX_LOCAL_BASE),
+           &undo->word, sizeof undo->word);
+  }
+  memcpy(tp->reg, tp->begin_reg, sizeof tp->begin_reg);
+  const unsigned issued = tm->heads.at[number];
+  const uint32_t head = trax_fast_head(tm, number);
+  const uint16_t step = tp->step[issued];                          /* the head needs the same resources as before */
+  trax_fast_end_burst(tm, number, tm->heads.last[number] + 1u, 0); /* takes the whole burst off the counts */
+  tp->resume = tp->begin;
+  tp->resume_pc = chip->program.timing[tp->begin - chip->program.inst].pc;
+  const unsigned again = trax_fast_burst(chip, tm, number, issued);
+  assert(again == issued && tp->resume == &chip->program.inst[head]);
+  (void)again;
+  trax_fast_end_burst(tm, number, issued, issued);
+  tp->inst = chip->program.timing[tp->resume - chip->program.inst].decoded;
+  tp->pc = tp->resume_pc;
+  tp->address = tp->inst->bytes ? tp->reg[tp->inst->ra] + (uint32_t)tp->inst->imm : 0;
+  trax_fast_execute_at_issue(tm, number, step, head, tp->address);
+}
+
+void trax_fast_roll_back(struct trax_chip *chip) {
+  for (uint32_t i = 0; i < chip->tms; i++)
+    for (unsigned tp = 0; tp < chip->tm[i].tps; tp++)
+      roll_back_tp(chip, &chip->tm[i], tp);
+}
+
+/* Rolls back the TPs whose bursts have loaded from WRITTEN blocks in a range of words; `bits`: those of the words. */
+static void roll_back_readers(struct trax_tm *tm, uint64_t bits, uint32_t begin, uint32_t bytes) {
+  for (unsigned number = 0; number < tm->tps; number++) {
+    const struct trax_tp *tp = &tm->tp[number];
+    if (!(tm->watched[number] & bits))
+      continue;
+    uint32_t i = 0;
+    while (i < tp->load_count && (tp->loads[i] & ~3u) - begin >= bytes)
+      i++;
+    if (i < tp->load_count)
+      roll_back_tp(tm->chip, tm, number);
+  }
+}
+
+void trax_fast_roll_back_readers(struct trax_tm *tm, uint32_t address) {
+  roll_back_readers(tm, trax_fast_word_bit(address), address & ~3u, 4);
+}
+
+void trax_fast_record_readers(struct trax_tm *tm) {
+  const uint8_t *const state = tm->chip->blocks.state;
+  for (unsigned number = 0; number < tm->tps; number++)
+    for (uint32_t i = 0; tm->watched[number] && i < tm->tp[number].load_count; i++)
+      if (__atomic_load_n(&state[tm->tp[number].loads[i] >> TRAX_BLOCK_SHIFT], __ATOMIC_RELAXED) >= TRAX_BLOCK_WRITTEN)
+        trax_store_buffer_read(tm->buffer, tm->tp[number].loads[i]);
+}
+
+/* After a roll back of all TPs: makes all blocks around an address WRITTEN, so that their first writes need no roll
+   back of their own. Each roll back does so for a larger area. */
+static void widen(struct trax_fast_blocks *blocks, uint32_t address) {
+  const size_t area =
+      (size_t)FIRST_AREA << (blocks->roll_backs < MOST_DOUBLINGS ? blocks->roll_backs++ : MOST_DOUBLINGS);
+  const size_t begin = (address >> TRAX_BLOCK_SHIFT) & ~(area - 1);
+  for (size_t i = begin; i < begin + area && i < blocks->bytes; i++)
+    if (blocks->state[i] < TRAX_BLOCK_WRITTEN)
+      blocks->state[i] = TRAX_BLOCK_WRITTEN;
+}
+
+void trax_fast_word_written(struct trax_chip *chip, uint32_t address, uint8_t state) {
+  if (trax_fast_is_loaded(&chip->blocks, address)) {
+    trax_fast_roll_back(chip);
+    widen(&chip->blocks, address);
+  }
+  for (uint32_t i = 0; i < chip->tms; i++)
+    trax_fast_roll_back_readers(&chip->tm[i], address);
+  trax_fast_set_written(&chip->blocks, address, state);
+}
+
+void trax_fast_increment_outside(void *chip, uint32_t address) {
+  trax_fast_word_written(chip, address, TRAX_BLOCK_SHARED);
+}
+
+void trax_fast_range_written(void *context, uint32_t address, uint32_t bytes) {
+  struct trax_chip *chip = context;
+  for (uint64_t at = address >> TRAX_BLOCK_SHIFT << TRAX_BLOCK_SHIFT; at < address + (uint64_t)bytes;
+       at += 1u << TRAX_BLOCK_SHIFT) {
+    if (trax_fast_is_loaded(&chip->blocks, (uint32_t)at))
+      trax_fast_roll_back(chip);
+    trax_fast_set_written(&chip->blocks, (uint32_t)at, TRAX_BLOCK_WRITTEN);
+  }
+  for (uint32_t i = 0; i < chip->tms; i++)
+    roll_back_readers(&chip->tm[i], UINT64_MAX, address & ~3u, bytes + 4);
+}

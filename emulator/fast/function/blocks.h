@@ -1,0 +1,57 @@
+/* The blocks of global memory from which bursts have loaded, and those that have been written (blocks.c). */
+#ifndef TRAX_FAST_BLOCKS_H
+#define TRAX_FAST_BLOCKS_H
+
+#include "machine/address_space.h"
+
+struct trax_chip;
+struct trax_tm;
+
+/* The state of a block of global memory in the run (blocks.c). */
+enum { TRAX_BLOCK_SHIFT = 4, TRAX_BLOCK_LOADED = 1, TRAX_BLOCK_WRITTEN, TRAX_BLOCK_SHARED, TRAX_BLOCK_HOLE };
+
+struct trax_fast_blocks {
+  /* [block]: 0, then LOADED by a burst, then WRITTEN, then SHARED; or a later one at once. Several TMs may set LOADED
+     at the same time. The others are only set while no TM runs. Loads from SHARED blocks and from HOLEs end bursts. */
+  uint8_t *state;
+  size_t bytes;
+  unsigned roll_backs;         /* of all TPs, for the first write of a LOADED block */
+  uint32_t input, input_bytes; /* trax_space.input until a first write there: all of it counts as LOADED */
+};
+
+static inline bool trax_fast_is_loaded(const struct trax_fast_blocks *blocks, uint32_t address) {
+  return blocks->state[address >> TRAX_BLOCK_SHIFT] == TRAX_BLOCK_LOADED ||
+         address - blocks->input < blocks->input_bytes;
+}
+
+/* Requires that the block is not LOADED, or that all TPs have rolled back. state: WRITTEN or SHARED. */
+static inline void trax_fast_set_written(struct trax_fast_blocks *blocks, uint32_t address, uint8_t state) {
+  uint8_t *const block = &blocks->state[address >> TRAX_BLOCK_SHIFT];
+  *block = *block < state ? state : *block;
+  if (address - blocks->input < blocks->input_bytes)
+    blocks->input_bytes = 0;
+}
+
+/* Returns the bit of a word in trax_tm.watched. */
+static inline uint64_t trax_fast_word_bit(uint32_t address) {
+  return (uint64_t)1 << ((address >> 2) * 0x9E3779B1u >> 26);
+}
+
+trax_status trax_fast_blocks_create(struct trax_fast_blocks *blocks, const struct trax_space *space, trax_error *error);
+void trax_fast_blocks_destroy(struct trax_fast_blocks *blocks);
+/* To be called outside epochs before a store (WRITTEN) or atomic increment (SHARED) writes to a global address, and
+   when the increment is issued: rolls back all TPs whose bursts may have loaded the word. */
+void trax_fast_word_written(struct trax_chip *chip, uint32_t address, uint8_t state);
+/* The same before an atomic increment of the memory controller; `chip` is a struct trax_chip. */
+void trax_fast_increment_outside(void *chip, uint32_t address);
+/* The same for a range, before a host call writes it. */
+void trax_fast_range_written(void *chip, uint32_t address, uint32_t bytes);
+/* Rolls back the TPs of a TM whose bursts have loaded the word from a WRITTEN block: in an epoch, before the TM stores
+   to it. */
+void trax_fast_roll_back_readers(struct trax_tm *tm, uint32_t address);
+/* Records the loads of all bursts from WRITTEN blocks in the TM's store buffer, at the beginning of an epoch. */
+void trax_fast_record_readers(struct trax_tm *tm);
+/* Rolls every TP back to what it has issued; all heads execute at issue then. */
+void trax_fast_roll_back(struct trax_chip *chip);
+
+#endif

@@ -1,0 +1,135 @@
+/* The memory controller: its channels, and the arbitration of the TMs' requests (docs/timing-memory.md, "Memory
+   controller"). There may be a second-level cache between it and the TMs (fast/memory/l2.h). TMs influence each other's
+   timing only here. */
+#ifndef TRAX_FAST_MEMORY_H
+#define TRAX_FAST_MEMORY_H
+
+#include "dram/dram.h"
+#include "fast/memory/transfers.h"
+#include "fast/tm/arbiter.h"
+#include "fast/tm/queue.h"
+#include "machine/config.h"
+#include "machine/stats.h"
+
+struct trax_tm;
+struct trax_space;
+struct trax_l2;
+
+/* Identifies a request in a list: TM << TRAX_REQUEST_BITS | place in the TM's queue. The requests of the second-level
+   cache count as those of a TM with number TRAX_MAX_TMS. */
+typedef uint32_t trax_request_id;
+#define TRAX_REQUEST_BITS 12
+#define TRAX_LINE_REQUEST ((trax_request_id)TRAX_MAX_TMS << TRAX_REQUEST_BITS)
+
+/* A first-in, first-out list, linked by trax_request.next. */
+#define TRAX_REQUEST_LIST_STATE(X, S)                                                                                  \
+  X(S, trax_request_id, first, ) /* TRAX_NO_REQUEST if the list is empty */                                            \
+  X(S, trax_request_id, last, )
+struct trax_request_list {
+  TRAX_REQUEST_LIST_STATE(TRAX_FIELD, )
+};
+static const struct trax_request_list trax_empty_list = {.first = TRAX_NO_REQUEST, .last = TRAX_NO_REQUEST};
+
+/* The requests that wait for a channel or for a bank of the second-level cache, with the arbiter over the TMs. */
+#define TRAX_WAITING_STATE(X, S)                                                                                       \
+  X(S, uint64_t, tms, ) /* mask of the TMs whose list is not empty */                                                  \
+  X(S, trax_arbiter, arbiter, )                                                                                        \
+  X(S, struct trax_request_list, list, [TRAX_MAX_TMS])
+struct trax_waiting {
+  TRAX_WAITING_STATE(TRAX_FIELD, )
+};
+
+/* An instant: whole cycles, and units of the next cycle, fewer than units_per_cycle. A number of units alone would
+   exceed 64 bits after some 10^10 cycles. */
+#define TRAX_INSTANT_STATE(X, S)                                                                                       \
+  X(S, uint64_t, cycle, )                                                                                              \
+  X(S, uint64_t, units, )
+struct trax_instant {
+  TRAX_INSTANT_STATE(TRAX_FIELD, )
+};
+
+#define TRAX_CHANNEL_STATE(X, S)                                                                                       \
+  X(S, struct trax_instant, free_from, )   /* f of docs/timing.md; without DRAM */                                     \
+  X(S, struct trax_request_list, passed, ) /* requests that the second-level cache has passed */                       \
+  X(S, uint64_t, unit_free_from, )         /* of the increment unit */
+struct trax_channel {
+  TRAX_CHANNEL_STATE(TRAX_FIELD, )
+  struct trax_waiting *waiting; /* NULL with a second-level cache, and if the TMs' queues are rings */
+};
+
+/* `keeps_order`: there is one channel and no second-level cache, so that the TMs' queues are rings. */
+#define TRAX_MEMORY_STATE(X, S)                                                                                        \
+  X(S, trax_arbiter, arbiter, ) /* of the channel, if keeps_order */                                                   \
+  X(S, uint64_t, tms, )         /* mask of the TMs whose requests wait for it, if keeps_order */                       \
+  X(S, uint32_t, waiting, ) /* number of requests that wait for channels or in the DRAM's queues, unless keeps_order   \
+                             */
+
+struct trax_memory {
+  TRAX_MEMORY_STATE(TRAX_FIELD, )
+  /* Bus time is counted in units: a cycle has units_per_cycle of them, and a byte takes units_per_byte. They are the
+     numerator and the denominator of B = MB/s / MHz / channels bytes per cycle, in lowest terms. */
+  uint64_t units_per_cycle, units_per_byte;
+  uint32_t latency;        /* cycles, of every transfer */
+  uint32_t atomic_latency; /* cycles added for an atomic increment */
+  uint32_t unit_interval;  /* cycles between the increments of a channel */
+  uint32_t channels, interleave_shift;
+  struct trax_channel channel[TRAX_MAX_CHANNELS];
+  bool keeps_order;
+  struct trax_l2 *l2;     /* NULL: there is none */
+  struct trax_dram *dram; /* NULL unless memory.model is dram */
+  struct trax_memory_stats *stats;
+  struct trax_transfer_log *transfers;                       /* NULL: nobody listens */
+  void (*before_increment)(void *context, uint32_t address); /* called before an atomic increment */
+  void *context;
+};
+
+/* Whether the requests of each TM complete in the order in which they are made. */
+bool trax_memory_keeps_order(const struct trax_config *config);
+/* Returns a number of cycles d, at least 1, such that no request of cycle t completes before t + d; the largest such
+   number if that is below a million. */
+uint32_t trax_memory_least_latency(const struct trax_config *config);
+
+trax_status trax_memory_create(struct trax_memory *memory, const struct trax_config *config,
+                               struct trax_memory_stats *stats, trax_error *error);
+void trax_memory_destroy(struct trax_memory *memory);
+
+/* Submits the TM's oldest unsubmitted request, which waits from now on. */
+void trax_memory_submit(struct trax_memory *memory, struct trax_tm *tm);
+
+/* Step 3 of cycle t: serves requests and starts transfers. Lowers tm[].next_cycle to the completions of requests. */
+void trax_memory_cycle(struct trax_memory *memory, struct trax_tm *tm, struct trax_space *space, uint64_t t);
+
+/* Before cycle t, starts the transfers of the cycles from t to `end` that do not depend on requests made from now on by
+   the `count` TMs, each of which is idle until its next_cycle. Returns the first cycle whose transfers may depend on
+   them; `end` or a later cycle if none do. */
+uint64_t trax_memory_serve_early(struct trax_memory *memory, struct trax_tm *tm, unsigned count,
+                                 struct trax_space *space, uint64_t t, uint64_t end);
+
+/* Returns the first cycle after t in which a transfer can start if no request is added; UINT64_MAX if none waits. */
+uint64_t trax_memory_next_cycle(const struct trax_memory *memory, uint64_t t);
+
+/* Whether a request waits for a bank of the second-level cache or for a channel. */
+bool trax_memory_has_waiting(const struct trax_memory *memory);
+
+/* Returns the first cycle in which all buses are idle. */
+uint64_t trax_memory_idle_from(const struct trax_memory *memory);
+
+/* --- for fast/memory/l2.c --- */
+struct trax_request *trax_memory_request(const struct trax_memory *memory, struct trax_tm *tm, trax_request_id id);
+void trax_memory_append(const struct trax_memory *memory, struct trax_tm *tm, struct trax_request_list *list,
+                        trax_request_id id);
+trax_request_id trax_memory_take_first(const struct trax_memory *memory, struct trax_tm *tm,
+                                       struct trax_request_list *list);
+/* Creates an array of `count` empty ones. NULL: out of memory. */
+struct trax_waiting *trax_waiting_create(uint32_t count);
+/* Returns the winner among the TMs with waiting requests, and moves the arbiter's pointer past it. */
+unsigned trax_waiting_arbitrate(struct trax_waiting *waiting);
+/* Removes and returns the oldest request of TM `number`. */
+trax_request_id trax_waiting_take(struct trax_memory *memory, struct trax_tm *tm, struct trax_waiting *waiting,
+                                  unsigned number);
+/* Passes a request to the channel of its address. */
+void trax_memory_pass(struct trax_memory *memory, struct trax_tm *tm, trax_request_id id);
+/* Sets the completion of a TM's request. */
+void trax_memory_complete(struct trax_tm *tm, trax_request_id id, uint64_t completion);
+
+#endif

@@ -1,0 +1,104 @@
+/* Cycles in which one TP of a TM is awake. Nobody else wants what it needs, so it issues a step in each cycle, as long
+   as the steps are quick, their operands usable, and their loads hit. A single thread spends most of its time so. */
+#include "fast/time/head.h"
+
+/* The kinds of units, and the banks, that the TP has used: their round robins go on behind it. */
+struct used {
+  uint64_t fetch_banks, data_banks;
+  unsigned kinds; /* bits TRAX_STEP_KIND >> 1 */
+};
+
+static void pass_unit(struct trax_fast_units *units, unsigned kind, unsigned number) {
+  if (units->even && units->group_size == 1)
+    return;
+  for (uint32_t i = 0; i < units->uneven[kind].groups; i++) {
+    const uint64_t group = units->uneven[kind].group[i];
+    if (group >> number & 1)
+      units->rr_masks[kind] = (units->rr_masks[kind] & ~group) | (group & (~(uint64_t)1 << number));
+  }
+}
+
+static void pass_arbiters(struct trax_tm *tm, unsigned number, const struct used *used) {
+  const uint64_t behind = ~(uint64_t)1 << number;
+  for (uint64_t rest = used->fetch_banks; rest; rest &= rest - 1)
+    trax_fast_set_fetch_rr_mask(tm, tm->icache_of[number], trax_first(rest), behind);
+  for (uint64_t rest = used->data_banks; rest; rest &= rest - 1)
+    ((uint64_t *)tm->data_bank_rr_masks)[trax_first(rest)] = behind;
+  if (used->kinds >> (TRAX_STEP_FP_ADD >> 1) & 1)
+    pass_unit(&tm->fp, 0, number);
+  if (used->kinds >> (TRAX_STEP_FP_MUL >> 1) & 1)
+    pass_unit(&tm->fp, 1, number);
+  if (used->kinds >> (TRAX_STEP_INT_MUL >> 1) & 1)
+    pass_unit(&tm->int_mul, 0, number);
+}
+
+/* Returns the first cycle from t on with an arrival or a wake-up, `end` if it comes first. */
+static uint64_t quiet_until(const struct trax_tm *tm, uint64_t t, uint64_t end) {
+  if (tm->queue.started && trax_queue_oldest(&tm->queue)->completion < end)
+    end = trax_queue_oldest(&tm->queue)->completion;
+  if (tm->wheel_occupied) {
+    const unsigned slot = t % TRAX_WHEEL; /* rotated so that bit 0 is cycle t */
+    const uint64_t rotated = slot ? tm->wheel_occupied >> slot | tm->wheel_occupied << (64 - slot) : tm->wheel_occupied;
+    if (t + trax_first(rotated) < end)
+      end = t + trax_first(rotated);
+  }
+  return end;
+}
+
+/* Serves a store of the burst that needs no place in the memory queue. */
+static bool store(struct trax_tm *tm, unsigned number, unsigned at, unsigned load, uint64_t t) {
+  struct trax_tp *tp = &tm->tp[number];
+  const struct trax_fast_timing *timing = &tm->chip->program.timing[trax_fast_index(tp, at)];
+  if (!tm->config->memory.write_combining ||
+      (tp->run_begin != tp->run_end && !trax_tp_combines(tp, tp->loads[load], timing->decoded->bytes)))
+    return false;
+  tp->inst = timing->decoded;
+  tp->pc = timing->pc;
+  tp->address = tp->loads[load];
+  trax_tm_serve(tm, number, t);
+  return true;
+}
+
+bool trax_fast_run_alone(struct trax_tm *tm, uint64_t t, uint64_t end) {
+  const uint64_t begin = t;
+  const unsigned number = trax_first(tm->awake);
+  struct trax_tp *tp = &tm->tp[number];
+  if (((tm->holding | tm->executes_at_issue) >> number & 1) || tm->recheck || tm->serial_hits || tm->observer ||
+      tm->dcache.all_fills_end > t || tm->ended >> number & 1)
+    return false;
+  end = quiet_until(tm, t, end);
+  unsigned at = tm->heads.at[number], last = tm->heads.last[number], load = tm->heads.load[number];
+  if (((tm->busy | tm->uncertain) >> number & 1) && tm->heads.check_at[number] < last)
+    last = tm->heads.check_at[number];
+  const struct trax_cache_tags *const tags = &tm->dcache.tags;
+  uint64_t hits = 0;
+  struct used used = {0};
+  for (; t < end && at < last; t++, at++) {
+    const unsigned step = tp->step[at], kind = step & TRAX_STEP_KIND;
+    if (step & TRAX_STEP_SLOW) {
+      if (kind != TRAX_STEP_QUEUE || !store(tm, number, at, load, t))
+        break;
+      load++;
+    } else if (kind == TRAX_STEP_BANK) {
+      if (!trax_cache_tags_have(tags, trax_line_of(tags, tp->loads[load])))
+        break;
+      load++;
+      hits++;
+      used.data_banks |= (uint64_t)1 << (step >> TRAX_STEP_BANK_SHIFT & 63);
+    } else if (kind > TRAX_STEP_INT_MUL) {
+      break;
+    }
+    used.kinds |= 1u << (kind >> 1);
+    used.fetch_banks |= (uint64_t)1 << (step >> TRAX_STEP_FETCH_SHIFT);
+  }
+  if (t == begin)
+    return false;
+  tm->stats->icache_hits += t - begin;
+  tm->stats->dcache_hits += hits;
+  pass_arbiters(tm, number, &used);
+  tm->heads.load[number] = (uint8_t)load;
+  trax_fast_set_head(&tm->heads, number, at);
+  tm->now = t - 1;
+  tm->next_cycle = t;
+  return true;
+}

@@ -1,0 +1,122 @@
+/* What the engine counts in its own forms: instructions, and refusals of banks and units. */
+#include "fast/time/head.h"
+#include "fast/time/variant.h"
+
+#include <string.h>
+
+void trax_fast_collect(struct trax_chip *chip) {
+  for (uint32_t i = 0; i < chip->tms; i++) {
+    struct trax_tm *tm = &chip->tm[i];
+    int64_t count = 0;
+    for (size_t index = 0; index < chip->program.inst_count; index++) {
+      count += tm->count_deltas[index];
+      tm->stats->instructions[chip->program.timing[index].decoded->op] += (uint64_t)count;
+      tm->count_deltas[index] = 0;
+    }
+    tm->count_deltas[chip->program.inst_count] = 0;
+  }
+}
+
+/* Counts the accesses to local memory: all loads and stores that were neither past nor through the data cache. */
+static void count_local(struct trax_tm_stats *stats) {
+  uint64_t loads = 0, stores = 0;
+  for (unsigned op = 0; op < TRAX_OP_COUNT; op++) {
+    const unsigned flags = trax_op_table[op].flags;
+    loads += (flags & (TRAX_IS_LOAD | TRAX_IS_ATOMIC)) == TRAX_IS_LOAD ? stats->instructions[op] : 0;
+    stores += flags & TRAX_IS_STORE ? stats->instructions[op] : 0;
+  }
+  stats->local_loads =
+      loads - stats->dcache_hits - stats->dcache_merged - stats->dcache_misses - stats->nontemporal_loads;
+  stats->local_stores = stores - stats->store_hits - stats->store_misses - stats->nontemporal_stores;
+}
+
+/* The causes of refusals, in the order of struct trax_fast_refused and of the counters. */
+static const trax_cause refusal_causes[TRAX_FAST_REFUSALS] = {
+#define CAUSE(MEMBER, CAUSE) TRAX_CAUSE_##CAUSE,
+    TRAX_FAST_REFUSED(CAUSE)
+#undef CAUSE
+};
+
+static void charge_refusals(struct trax_tm *tm) {
+  tm->chip->variant->count_log(&tm->refusal_counts);
+  for (unsigned bit = 0; bit < 64; bit++)
+    for (unsigned refused = 0; refused < TRAX_FAST_REFUSALS; refused++)
+      for (uint64_t tps = tm->refusal_counts.planes[bit][refused]; tps; tps &= tps - 1)
+        tm->tp_stats[trax_first(tps)].cycles[refusal_causes[refused]] += (uint64_t)1 << bit;
+  memset(&tm->refusal_counts, 0, sizeof tm->refusal_counts);
+}
+
+void trax_fast_notify_refusals(const struct trax_tm *tm, const struct trax_fast_refused *refused) {
+  const uint64_t losers[] = {
+#define LOSERS(MEMBER, CAUSE) refused->MEMBER,
+      TRAX_FAST_REFUSED(LOSERS)
+#undef LOSERS
+  };
+  for (unsigned i = 0; i < TRAX_FAST_REFUSALS; i++)
+    for (uint64_t rest = losers[i]; rest; rest &= rest - 1)
+      trax_tm_notify_charge(tm, trax_first(rest), refusal_causes[i], tm->now, 1);
+}
+
+/* Returns how many steps of the current burst have been issued. */
+static unsigned issued_of_burst(const struct trax_tm *tm, unsigned tp) {
+  return (tm->executes_at_issue | tm->ended) >> tp & 1 ? 0 : tm->heads.at[tp];
+}
+
+/* Counts the issued part of a burst, and takes it off what the burst's end will count. */
+static void count_burst(struct trax_tm *tm, unsigned number) {
+  struct trax_tp *tp = &tm->tp[number];
+  const unsigned issued = issued_of_burst(tm, number);
+  uint64_t jumps = 0;
+  for (unsigned i = 0; i < issued; i++)
+    jumps += trax_fast_index(tp, i + 1) != trax_fast_index(tp, i) + 1;
+  tm->tp_stats[number].cycles[TRAX_CAUSE_ISSUED] += tp->issued + issued;
+  tm->stats->taken_branches += tp->jumps + jumps;
+  tp->issued = -(uint64_t)issued;
+  tp->jumps = -jumps;
+}
+
+/* Adds (sign 1) or removes (sign -1) the executed instructions that have not been issued. */
+static void count_unissued(struct trax_tm *tm, int64_t sign) {
+  for (unsigned tp = 0; tp < tm->tps; tp++)
+    if (!((tm->executes_at_issue | tm->ended) >> tp & 1))
+      for (unsigned i = tm->heads.at[tp]; i <= tm->heads.last[tp]; i++) {
+        const uint32_t index = trax_fast_index(&tm->tp[tp], i);
+        tm->count_deltas[index] += sign;
+        tm->count_deltas[index + 1] -= sign;
+      }
+}
+
+/* Reports how often the run left the fast path. */
+static void report_fast_path(const struct trax_chip *chip) {
+  struct trax_fast_path *path = &chip->machine->fast_path;
+  const struct trax_tm *first = &chip->tm[0]; /* all TMs are configured alike */
+  path->known = true;
+  path->text_lines = chip->program.lines;
+  path->observed = chip->burst == 1;
+  path->general_fetch = !first->simple_fetch;
+  path->uneven_units = !first->fp.even;
+  path->many_data_banks = first->data_banks > 2 * TRAX_FAST_LANES;
+  path->serial_hits = first->serial_hits;
+  path->looked_up = path->single_hits = path->at_issue = 0;
+  for (uint32_t i = 0; i < chip->tms; i++) {
+    path->looked_up += chip->tm[i].looked_up;
+    path->single_hits += chip->tm[i].single_hits;
+    path->at_issue += chip->tm[i].at_issue;
+  }
+}
+
+void trax_fast_settle(struct trax_chip *chip) {
+  for (uint32_t i = 0; i < chip->tms; i++) {
+    struct trax_tm *tm = &chip->tm[i];
+    for (unsigned tp = 0; tp < tm->tps; tp++)
+      count_burst(tm, tp);
+    charge_refusals(tm);
+    count_unissued(tm, -1);
+  }
+  trax_fast_collect(chip);
+  report_fast_path(chip);
+  for (uint32_t i = 0; i < chip->tms; i++) {
+    count_local(chip->tm[i].stats);
+    count_unissued(&chip->tm[i], 1);
+  }
+}

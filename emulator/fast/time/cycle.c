@@ -1,0 +1,521 @@
+/* The five steps of a TM's cycle (docs/timing.md, "A cycle"), as operations on masks of its TPs. */
+#include "fast/time/issue.h"
+#include "fast/time/variant.h"
+
+#define ALWAYS_INLINE inline __attribute__((always_inline))
+
+static inline unsigned count_bits(uint64_t mask) {
+  return (unsigned)__builtin_popcountll(mask);
+}
+
+/* --- arrivals and wake-ups --- */
+
+static ALWAYS_INLINE bool has_arrival(const struct trax_tm *tm, uint64_t t) {
+  return tm->queue.started && trax_queue_oldest(&tm->queue)->completion <= t;
+}
+
+/* Handles the arrivals of cycle t. */
+static void arrive(struct trax_tm *tm, uint64_t t) {
+  while (has_arrival(tm, t)) {
+    const struct trax_request request = *trax_queue_oldest(&tm->queue);
+    trax_queue_pop(&tm->queue);
+    trax_tm_complete(tm, &request, t);
+    if (request.kind == TRAX_REQUEST_INSTRUCTION_LINE)
+      trax_fast_line_arrived(tm, request.icache, request.line);
+  }
+}
+
+/* Wakes TPs. Returns those whose operands must be checked: they wake holding an instruction, or held one at an import.
+ */
+static ALWAYS_INLINE uint64_t wake(struct trax_tm *tm, uint64_t t) {
+  const uint64_t awake = tm->awake;
+  if (has_arrival(tm, t))
+    arrive(tm, t);
+  if (tm->wheel_occupied >> t % TRAX_WHEEL & 1)
+    trax_tm_wake_sleepers(tm, t);
+  const uint64_t woken = tm->awake & ~awake;
+  const uint64_t recheck = tm->recheck;
+  tm->recheck = 0;
+  return (woken & tm->holding) | recheck;
+}
+
+/* --- step 1 --- */
+
+static void fault_no_text(struct trax_tm *tm, uint64_t t) {
+  for (uint64_t rest = tm->no_text & tm->awake & ~tm->holding; rest; rest &= rest - 1) {
+    const unsigned number = trax_first(rest);
+    const uint32_t pc = tm->tp[number].pc;
+    trax_tm_fault(tm, number, t, pc % 4 ? TRAX_FAULT_MISALIGNED_PC : TRAX_FAULT_EXECUTE, pc);
+  }
+}
+
+/* Grants the banks of one instruction cache after the other, for any configuration; returns the losers. */
+static uint64_t refuse_fetches_of_any_shape(struct trax_tm *tm, uint64_t requesters, const uint64_t *bit) {
+  const uint32_t ports = tm->config->icache.ports_per_bank, banks = tm->config->icache.banks;
+  uint64_t losers = 0;
+  for (uint32_t icache = 0; icache < tm->icaches; icache++) {
+    const uint64_t here = requesters & trax_group_mask(icache, tm->config->icache.tps_per_cache);
+    trax_fast_lanes *rr_mask = &tm->fetch_rr_masks[icache * tm->vectors];
+    for (uint32_t first = 0; first < banks; first += TRAX_FAST_LANES, rr_mask++) {
+      trax_fast_lanes requesting;
+      for (uint32_t i = 0; i < TRAX_FAST_LANES; i++) {
+        requesting[i] = here;
+        for (uint32_t k = 0; k < TRAX_FAST_BANK_BITS; k++)
+          requesting[i] &= (first + i) >> k & 1 ? bit[k] : ~bit[k];
+      }
+      for (uint32_t port = 0; port < ports; port++) {
+        trax_fast_lanes winners;
+        TRAX_FAST_ARBITRATE(trax_fast_lanes, rr_mask, requesting, &winners);
+        requesting ^= winners;
+      }
+      losers |= trax_fast_any(&requesting);
+    }
+  }
+  return losers;
+}
+
+/* Grants the instruction caches' banks; returns the losers. */
+static ALWAYS_INLINE uint64_t refuse_fetches(struct trax_tm *tm, const bool wide, uint64_t requesters) {
+  uint64_t bit[TRAX_FAST_BANK_BITS];
+  trax_fast_transpose(&tm->heads, wide, TRAX_STEP_FETCH_SHIFT, 4, bit);
+  if (tm->simple_fetch) {
+#ifdef __AVX512BW__
+    if (wide)
+      return trax_fast_refuse_four(&tm->fetch_rr_masks16, requesters, bit);
+#endif
+    uint64_t losers = 0;
+    for (unsigned pair = 0; pair < 2 && requesters >> 32 * pair; pair++)
+      losers |= (uint64_t)trax_fast_refuse_pair(&tm->fetch_rr_masks16, pair, requesters, bit) << 32 * pair;
+    return losers;
+  }
+  trax_fast_transpose(&tm->heads, wide, TRAX_STEP_FETCH_SHIFT + 4, 2, bit + 4);
+  return refuse_fetches_of_any_shape(tm, requesters, bit);
+}
+
+/* The TP has won its bank and looks up the line of its head. True: a hit. */
+static bool look_up(struct trax_tm *tm, unsigned number, uint64_t t) {
+  struct trax_icache *icache = &tm->icache[tm->icache_of[number]];
+  if (!tm->resident[tm->icache_of[number]][tm->chip->program.line[trax_fast_head(tm, number)]]) {
+    trax_fast_export_head(tm, number);
+    if (!trax_cache_tags_have(&icache->tags, trax_line_of(&icache->tags, tm->tp[number].pc))) {
+      trax_icache_look_up(icache, tm, number, t); /* if the memory queue is full, the TP fetches again */
+      return false;
+    }
+  }
+  tm->looked_up += !(tm->executes_at_issue >> number & 1);
+  return true;
+}
+
+/* --- step 2 --- */
+
+/* Completes the step of a head that executes at issue, now that its operands are known. False: it faults. */
+static bool classify(struct trax_tm *tm, unsigned number, uint64_t t) {
+  struct trax_tp *tp = &tm->tp[number];
+  const struct trax_decoded *inst = tp->inst;
+  uint16_t step = tm->chip->program.step[trax_fast_head(tm, number)];
+  if (inst->resource == TRAX_RESOURCE_ILLEGAL) {
+    trax_tm_fault(tm, number, t, TRAX_FAULT_ILLEGAL, 0);
+    return false;
+  }
+  if (inst->resource == TRAX_RESOURCE_END || inst->resource == TRAX_RESOURCE_FENCE)
+    step |= TRAX_STEP_QUEUE;
+  if (inst->resource == TRAX_RESOURCE_MEMORY) {
+    tp->address = tp->reg[inst->ra] + (uint32_t)inst->imm;
+    const trax_fault_kind kind = trax_access_check(inst, &tm->machine->space, tp->address);
+    if (kind) {
+      trax_tm_fault(tm, number, t, kind, tp->address);
+      return false;
+    }
+    if (tp->address >= TRAX_LOCAL_BASE)
+      step &= TRAX_STEP_FETCH;
+    else if (inst->is_nontemporal || inst->is_atomic)
+      step |= TRAX_STEP_QUEUE;
+    else {
+      step |= (uint16_t)(TRAX_STEP_BANK | tp->address / 4 % tm->data_banks << TRAX_STEP_BANK_SHIFT);
+      tm->tp[number].loads[0] = tp->address;
+    }
+  }
+  tm->tp[number].step[0] = step | TRAX_STEP_SLOW;
+  trax_fast_set_head(&tm->heads, number, 0);
+  return true;
+}
+
+static bool operands_usable(struct trax_tm *tm, unsigned number, bool fetched, uint64_t t) {
+  const struct trax_tp *tp = &tm->tp[number];
+  const uint32_t waits = trax_fast_head_timing(tm, number)->waits;
+  for (uint32_t rest = waits & tm->busy_registers[number]; rest; rest &= rest - 1)
+    if (tp->usable[trax_first(rest)] > t) {
+      uint64_t until = 0;
+      trax_fast_export_head(tm, number);
+      const trax_cause cause = trax_tp_wait(tp, t, &until);
+      if (until == TRAX_NEVER) {
+        trax_tm_sleep(tm, number, t, cause);
+        tm->awaiting |= (uint64_t)1 << number;
+      } else {
+        trax_tm_sleep_until(tm, number, t, t, until, cause);
+      }
+      return false;
+    }
+  tm->busy_registers[number] &= ~waits;
+  tm->busy &= ~((uint64_t)!tm->busy_registers[number] << number);
+  if ((tm->busy | tm->uncertain) >> number & 1)
+    trax_fast_schedule_check(tm, number, fetched);
+  return true;
+}
+
+/* Steps 1 and 2; woken: TPs that hold an instruction whose operands must be checked. */
+static ALWAYS_INLINE void fetch_and_check(struct trax_tm *tm, const bool wide, uint64_t woken,
+                                          struct trax_fast_refused *refused, uint64_t t) {
+  if (tm->no_text)
+    fault_no_text(tm, t);
+  const uint64_t requesters = tm->awake & ~tm->holding;
+  uint64_t hits = 0;
+  if (requesters) {
+    const uint64_t losers = refuse_fetches(tm, wide, requesters);
+    refused->fetch = losers;
+    hits = requesters & ~losers;
+  }
+  const uint64_t due = trax_fast_due(&tm->heads, wide);
+  const uint64_t maybe_missing = (tm->uncertain & due) | tm->executes_at_issue;
+  uint64_t passed = hits & ~((tm->busy & due) | maybe_missing);
+  for (uint64_t rest = (hits & ~passed) | woken; rest; rest &= rest - 1) {
+    const uint64_t bit = rest & -rest;
+    const unsigned number = trax_first(rest);
+    if ((hits & maybe_missing & bit) && !look_up(tm, number, t))
+      hits ^= bit;
+    else if (operands_usable(tm, number, hits & bit, t) && (!(tm->executes_at_issue & bit) || classify(tm, number, t)))
+      passed |= bit;
+  }
+  tm->stats->icache_hits += count_bits(hits);
+  tm->holding |= hits;
+  tm->ready |= passed;
+}
+
+/* --- steps 3 and 4 --- */
+
+/* Grants four banks; adds the winners, and those of them whose lines are in way 0 of their sets. */
+static ALWAYS_INLINE void grant_four_banks(const struct trax_tm *tm, trax_fast_lanes *rr_mask,
+                                           const trax_fast_lanes *requesting, uint64_t *winners, uint64_t *way0_hits) {
+  const struct trax_cache_tags *tags = &tm->dcache.tags;
+  trax_fast_lanes winner;
+  TRAX_FAST_ARBITRATE(trax_fast_lanes, rr_mask, *requesting, &winner);
+  *winners |= trax_fast_any(&winner);
+#pragma GCC unroll 4
+  for (unsigned i = 0; i < TRAX_FAST_LANES; i++) { /* without branches, since requests are hard to predict */
+    const unsigned number = trax_first(winner[i] | (uint64_t)1 << 63);
+    const uint32_t line = trax_line_of(tags, tm->loads_of[number][tm->heads.load[number]]);
+    const bool is_hit = tags->lines[(size_t)(line & tags->set_mask) * tags->ways] == (uint64_t)line + 1;
+    *way0_hits |= winner[i] & -(uint64_t)is_hit;
+  }
+}
+
+/* Grants the banks of the data cache and returns the winners. `hits` receives the loads among them that are granted
+   without a further look-up. */
+static ALWAYS_INLINE uint64_t grant_banks(struct trax_tm *tm, const bool wide, uint64_t requesters, uint64_t *bit,
+                                          uint64_t *hits) {
+  const trax_fast_lanes none = {0}, even = {~(uint64_t)0, 0, ~(uint64_t)0, 0},
+                        lower = {~(uint64_t)0, ~(uint64_t)0, 0, 0};
+  /* Lane i: the TPs whose bank number has i in its lowest two bits. */
+  const trax_fast_lanes by_low_bits = ((none + bit[0]) ^ even) & ((none + bit[1]) ^ lower);
+  uint64_t winners = 0, way0_hits = 0;
+  if (__builtin_expect(tm->data_banks <= 2 * TRAX_FAST_LANES, true)) {
+    const trax_fast_lanes first = by_low_bits & (none + (requesters & ~bit[2]));
+    grant_four_banks(tm, &tm->data_bank_rr_masks[0], &first, &winners, &way0_hits);
+    if (tm->data_banks > TRAX_FAST_LANES) {
+      const trax_fast_lanes second = by_low_bits & (none + (requesters & bit[2]));
+      grant_four_banks(tm, &tm->data_bank_rr_masks[1], &second, &winners, &way0_hits);
+    }
+  } else {
+    trax_fast_transpose(&tm->heads, wide, TRAX_STEP_BANK_SHIFT + 3, 1, bit + 3);
+    trax_fast_transpose(&tm->heads, wide, TRAX_STEP_BANK_SHIFT + 4, 2, bit + 4);
+    for (uint32_t first = 0; first < tm->data_banks; first += TRAX_FAST_LANES) {
+      uint64_t requesting = requesters;
+      for (uint32_t k = 2; k < tm->data_bank_bits; k++)
+        requesting &= first >> k & 1 ? bit[k] : ~bit[k];
+      const trax_fast_lanes four = by_low_bits & (none + requesting);
+      grant_four_banks(tm, &tm->data_bank_rr_masks[first / TRAX_FAST_LANES], &four, &winners, &way0_hits);
+    }
+  }
+  *hits = way0_hits & ~tm->executes_at_issue;
+  return winners;
+}
+
+/* Returns those of the TPs whose bank is being filled; the bits are planes of the banks' numbers. (Passed one by one,
+   since an array of them must not leave grant().) */
+static __attribute__((noinline)) uint64_t in_filling_banks(struct trax_tm *tm, uint64_t requesters, uint64_t bit0,
+                                                           uint64_t bit1, uint64_t bit2, uint64_t t) {
+  uint64_t bit[TRAX_FAST_BANK_BITS] = {bit0, bit1, bit2};
+  uint64_t found = 0;
+  trax_fast_transpose(&tm->heads, tm->wide, TRAX_STEP_BANK_SHIFT + 3, 1, bit + 3);
+  trax_fast_transpose(&tm->heads, tm->wide, TRAX_STEP_BANK_SHIFT + 4, 2, bit + 4);
+  for (uint32_t bank = 0; bank < tm->data_banks; bank++)
+    if (tm->dcache.fills_end[bank] > t) {
+      uint64_t here = requesters;
+      for (uint32_t k = 0; k < tm->data_bank_bits; k++)
+        here &= bank >> k & 1 ? bit[k] : ~bit[k];
+      found |= here;
+    }
+  return found;
+}
+
+static bool load_hits(struct trax_tm *tm, unsigned number, uint64_t t) {
+  const uint32_t address = tm->tp[number].loads[tm->heads.load[number]];
+  if (!trax_cache_tags_use(&tm->dcache.tags, trax_line_of(&tm->dcache.tags, address)))
+    return false;
+  tm->stats->dcache_hits++;
+  tm->single_hits++;
+  const uint32_t latency = tm->config->dcache.hit_latency_cycles;
+  if (latency > 1) {
+    const unsigned rd = trax_fast_head_timing(tm, number)->decoded->rd;
+    trax_tp_set_usable(&tm->tp[number], rd, t + latency, TRAX_CAUSE_DATA_HIT);
+    trax_fast_set_busy(tm, number, rd);
+  }
+  return true;
+}
+
+static bool serve(struct trax_tm *tm, unsigned number, uint64_t t) {
+  if (!(tm->executes_at_issue >> number & 1) && (tm->heads.low[number] & TRAX_STEP_KIND) == TRAX_STEP_BANK &&
+      load_hits(tm, number, t))
+    return true;
+  trax_fast_export_head(tm, number);
+  const trax_cause refused = trax_tm_serve(tm, number, t);
+  if (refused != TRAX_CAUSE_ISSUED) {
+    trax_tm_charge(tm, number, refused);
+    return false;
+  }
+  if (!tm->tp[number].inst->is_store)
+    trax_fast_set_busy(tm, number, tm->tp[number].inst->rd);
+  return true;
+}
+
+static uint64_t grant_queue(struct trax_tm *tm, uint64_t requesters, uint64_t t) {
+  const unsigned pointer = tm->queue_arbiter;
+  uint64_t granted = 0;
+  for (uint64_t rest = requesters >> pointer | requesters << (-pointer & 63); rest;
+       rest &= rest - 1) { /* bit 0: the pointer's TP */
+    const unsigned number = (trax_first(rest) + pointer) & 63;
+    granted |= (uint64_t)serve(tm, number, t) << number;
+  }
+  return granted;
+}
+
+/* Grants units of a kind, group by group. */
+static uint64_t grant_any(struct trax_tm *tm, struct trax_shared_unit *unit, uint64_t requesters, uint64_t t) {
+  const struct trax_shared_kind *const kind = &unit->kind;
+  uint64_t winners = 0;
+  for (uint32_t group = 0; group < kind->groups; group++) {
+    const uint64_t all = requesters & trax_group_mask(group, kind->group_size);
+    if (!unit->free_from) {
+      winners |= trax_arbiter_grant(&unit->arbiter[group], all, kind->per_group);
+      continue;
+    }
+    uint64_t *const free_from = &unit->free_from[(size_t)group * kind->per_group];
+    for (uint32_t i = 0; i < kind->per_group && all & ~winners; i++)
+      if (free_from[i] <= t) {
+        const uint64_t winner = trax_arbiter_grant(&unit->arbiter[group], all & ~winners, 1);
+        free_from[i] =
+            t + trax_occupies((trax_op)trax_fast_head_timing(tm, trax_first(winner))->decoded->op, tm->config);
+        winners |= winner;
+      }
+  }
+  return winners;
+}
+
+_Static_assert(TRAX_SHARED_COUNT - TRAX_FAST_FURTHER <= 8, "three bits of a step say which of them");
+
+/* Grants the kinds of units that steps encode by a number; bit: the planes of that number. Returns the winners. */
+static ALWAYS_INLINE uint64_t grant_further(struct trax_tm *tm, struct trax_fast_refused *refused, uint64_t requesters,
+                                            const uint64_t *bit, uint64_t t) {
+  uint64_t granted = 0;
+#pragma GCC unroll 8
+  for (unsigned unit = TRAX_FAST_FURTHER; unit < TRAX_SHARED_COUNT; unit++) {
+    uint64_t here = requesters;
+    for (unsigned k = 0; k < 3; k++)
+      here &= (unit - TRAX_FAST_FURTHER) >> k & 1 ? bit[k] : ~bit[k];
+    const uint64_t won = here ? grant_any(tm, &tm->unit[unit], here, t) : 0;
+    refused->unit[unit] = here & ~won;
+    granted |= won;
+  }
+  return granted;
+}
+
+/* Steps 3 and 4: returns the TPs that were granted all that they need. `slow` receives the TPs with slow heads, and
+   `banks` those that request a data bank. */
+static ALWAYS_INLINE uint64_t grant(struct trax_tm *tm, const bool wide, struct trax_fast_refused *refused,
+                                    uint64_t *slow, uint64_t *banks, uint64_t t) {
+  uint64_t bit[TRAX_STEP_BANK_SHIFT + TRAX_FAST_BANK_BITS];
+  trax_fast_transpose(&tm->heads, wide, 0, TRAX_STEP_BANK_SHIFT + 3, bit);
+  const uint64_t ready = tm->ready, ready_low = ready & ~bit[3];
+  const uint64_t further = (unsigned)TRAX_SHARED_COUNT > TRAX_FAST_FURTHER ? ready & bit[1] & bit[2] & bit[3] : 0;
+  const uint64_t ready_high = ready & bit[3] & ~further;
+  /* Bits 1 to 3 are the kind: see TRAX_STEP_FP_ADD and the following enumerators. */
+  uint64_t granted = ready_low & ~(bit[1] | bit[2]);
+  uint64_t requesters, won;
+  const trax_fast_pair fp_requesters = {ready_low & bit[1] & ~bit[2], ready_low & bit[2] & ~bit[1]};
+  const trax_fast_pair fp_won = trax_fast_grant_units(&tm->fp, fp_requesters);
+  granted |= fp_won[0] | fp_won[1];
+  refused->unit[TRAX_SHARED_FP_ADD] = fp_requesters[0] & ~fp_won[0];
+  refused->unit[TRAX_SHARED_FP_MUL] = fp_requesters[1] & ~fp_won[1];
+  if ((requesters = ready_low & bit[1] & bit[2])) {
+    granted |= won = trax_fast_grant_units(&tm->int_mul, (trax_fast_pair){requesters, 0})[0];
+    refused->unit[TRAX_SHARED_INT_MUL] = requesters & ~won;
+  }
+  if ((requesters = ready_high & bit[1])) {
+    granted |= won = grant_any(tm, &tm->unit[TRAX_SHARED_SPECIAL], requesters, t);
+    refused->unit[TRAX_SHARED_SPECIAL] = requesters & ~won;
+  }
+  if (further)
+    granted |= grant_further(tm, refused, further, bit + TRAX_STEP_BANK_SHIFT, t);
+  uint64_t queue_requesters = ready_high & bit[2];
+  *banks = requesters = ready_high & ~(bit[1] | bit[2]);
+  if (requesters) {
+    uint64_t hits, filling = 0;
+    if (__builtin_expect(tm->dcache.all_fills_end > t, false))
+      filling = in_filling_banks(tm, requesters, bit[TRAX_STEP_BANK_SHIFT], bit[TRAX_STEP_BANK_SHIFT + 1],
+                                 bit[TRAX_STEP_BANK_SHIFT + 2], t);
+    won = grant_banks(tm, wide, requesters & ~filling, bit + TRAX_STEP_BANK_SHIFT, &hits);
+    refused->bank = requesters & ~won;
+    if (tm->serial_hits)
+      hits = 0; /* serve() handles them */
+    tm->stats->dcache_hits += count_bits(hits);
+    granted |= hits;
+    queue_requesters |= won & ~hits;
+  }
+  if (queue_requesters)
+    granted |= grant_queue(tm, queue_requesters, t);
+  tm->ready &= ~granted;
+  *slow = bit[0];
+  return granted;
+}
+
+/* Adds two terms to a bit of each counter, a full adder; returns the carries to the next bit. */
+#define ADD_TWO(SUM, ONE, OTHER)                                                                                       \
+  (__extension__({                                                                                                     \
+    const trax_fast_refusals one_ = (ONE), either_ = *(SUM) ^ one_, other_ = (OTHER);                                  \
+    const trax_fast_refusals carry_ = (*(SUM)&one_) | (either_ & other_);                                              \
+    *(SUM) = either_ ^ other_;                                                                                         \
+    carry_;                                                                                                            \
+  }))
+
+static bool is_any(const trax_fast_refusals *refusals) {
+  uint64_t any = 0;
+  for (unsigned i = 0; i < TRAX_FAST_COUNTERS; i++)
+    any |= (*refusals)[i];
+  return any != 0;
+}
+
+static void count_log(struct trax_fast_refusal_counts *counts) {
+  const trax_fast_refusals none = {0};
+  trax_fast_refusals carry = none;
+  for (; counts->logged < TRAX_FAST_LOG; counts->logged++)
+    counts->log[counts->logged] = none;
+  unsigned count = TRAX_FAST_LOG; /* number of terms of the current bit, at the beginning of the log */
+  for (unsigned bit = 0; bit < TRAX_FAST_LOG_BITS; bit++) {
+    trax_fast_refusals sum = counts->log[0];
+    count /= 2;
+    for (unsigned i = 0; i < count; i++)
+      counts->log[i] = ADD_TWO(&sum, counts->log[2 * i + 1], counts->log[2 * i + 2]);
+    carry = ADD_TWO(&counts->planes[bit], sum, carry);
+  }
+  for (unsigned bit = TRAX_FAST_LOG_BITS; bit < 64 && is_any(&carry); bit++)
+    carry = ADD_TWO(&counts->planes[bit], carry, none);
+  counts->logged = 0;
+}
+
+/* A cycle of a TM. */
+struct tm_cycle {
+  struct trax_tm *tm;
+  uint64_t t, woken, granted, slow, banks;
+  struct trax_fast_refused refused;
+};
+
+static ALWAYS_INLINE void begin(struct tm_cycle *cycle) {
+  cycle->tm->now = cycle->t;
+  cycle->woken = wake(cycle->tm, cycle->t);
+}
+
+static ALWAYS_INLINE void issue(const struct tm_cycle *cycle, const bool wide) {
+  const uint64_t quick = cycle->granted & ~cycle->slow, slow = cycle->granted & cycle->slow;
+  trax_fast_pass_loads(&cycle->tm->heads, quick & cycle->banks);
+  if (slow)
+    issue_in_order(cycle->tm, quick, slow, cycle->t);
+  else
+    issue_quickly(cycle->tm, wide, quick);
+}
+
+static ALWAYS_INLINE void end(const struct tm_cycle *cycle) {
+  struct trax_tm *const tm = cycle->tm;
+  if (trax_fast_count(&tm->refusal_counts, &cycle->refused))
+    count_log(&tm->refusal_counts);
+  if (__builtin_expect(tm->observer != NULL, false))
+    trax_fast_notify_refusals(tm, &cycle->refused);
+  tm->next_cycle = tm->awake ? cycle->t + 1 : trax_tm_next_cycle(tm, cycle->t);
+}
+
+/* Simulates a cycle of one TM, or of two independent TMs, whose steps are interleaved: while the host waits for results
+   of one TM, it executes instructions of the other. */
+static ALWAYS_INLINE void run_cycles(struct tm_cycle one, struct tm_cycle other, const bool two, const bool wide) {
+  begin(&one);
+  if (two)
+    begin(&other);
+  fetch_and_check(one.tm, wide, one.woken, &one.refused, one.t);
+  if (two)
+    fetch_and_check(other.tm, wide, other.woken, &other.refused, other.t);
+  one.granted = grant(one.tm, wide, &one.refused, &one.slow, &one.banks, one.t);
+  if (two)
+    other.granted = grant(other.tm, wide, &other.refused, &other.slow, &other.banks, other.t);
+  issue(&one, wide);
+  if (two)
+    issue(&other, wide);
+  end(&one);
+  if (two)
+    end(&other);
+}
+
+_Static_assert(TRAX_FAST_INTERLEAVED == 2, "run_cycles simulates at most two TMs");
+
+static void run_cycle(struct trax_tm *tm, uint64_t t) {
+  const struct tm_cycle cycle = {.tm = tm, .t = t};
+  if (tm->wide)
+    run_cycles(cycle, cycle, false, true);
+  else
+    run_cycles(cycle, cycle, false, false);
+}
+
+static void run_one(struct trax_chip *chip, uint32_t tm, uint64_t t) {
+  run_cycle(&chip->tm[tm], t);
+}
+
+static inline bool runs(const struct trax_tm *tm, uint64_t end) {
+  return tm->next_cycle < end && !tm->buffer->stop && !tm->fault.kind;
+}
+
+static ALWAYS_INLINE void run_two(struct trax_tm *one, struct trax_tm *other, uint64_t end, const bool wide) {
+  while (runs(one, end) && runs(other, end))
+    run_cycles((struct tm_cycle){.tm = one, .t = one->next_cycle},
+               (struct tm_cycle){.tm = other, .t = other->next_cycle}, true, wide);
+}
+
+static void run_epoch(struct trax_chip *chip, uint32_t first, uint32_t count, uint64_t end) {
+  struct trax_tm *const one = &chip->tm[first], *const other = one + count - 1;
+  for (struct trax_tm *tm = one; tm <= other; tm++)
+    trax_fast_record_readers(tm);
+  if (count > 1 && one->wide)
+    run_two(one, other, end, true);
+  else if (count > 1)
+    run_two(one, other, end, false);
+  for (struct trax_tm *tm = one; tm <= other; tm++)
+    while (runs(tm, end))
+      if (!trax_tm_has_one_awake(tm) || !trax_fast_run_alone(tm, tm->next_cycle, end))
+        run_cycle(tm, tm->next_cycle);
+}
+
+#ifdef __AVX512BW__
+#define FOUR true
+#else
+#define FOUR false
+#endif
+#ifndef TRAX_FAST_VARIANT
+#define TRAX_FAST_VARIANT trax_fast_variant
+#endif
+const struct trax_fast_variant TRAX_FAST_VARIANT = {FOUR, run_one, run_epoch, count_log};

@@ -1,0 +1,137 @@
+#include "fast/time/head.h"
+
+#include "fast/function/burst.h"
+
+#include <string.h>
+
+/* Removes the atomic increments that have arrived. */
+static void drop_arrived(struct trax_tp *tp) {
+  for (uint64_t rest = tp->atomics; rest; rest &= rest - 1)
+    if (tp->usable[trax_first(rest)] != TRAX_NEVER)
+      tp->atomics &= ~(rest & -rest);
+}
+
+/* Whether all lines of the burst are resident. burst_lines may contain lines that the burst does not execute, and is
+   ambiguous for programs of more than 64 lines: if it does not decide, the steps are checked. */
+static bool all_resident(const struct trax_tm *tm, unsigned number, unsigned count) {
+  const struct trax_tp *tp = &tm->tp[number];
+  const unsigned icache = tm->icache_of[number];
+  if (!(tp->burst_lines & ~tm->resident_lines[icache]))
+    return true;
+  for (unsigned i = 0; i < count;) {
+    const uint8_t segment = tp->segment[i];
+    const uint32_t origin = tp->origin[segment]; /* as trax_fast_index, which wraps around */
+    do
+      if (!tm->resident[icache][tm->chip->program.line[origin + i]])
+        return false;
+    while (++i < count && tp->segment[i] == segment);
+  }
+  return true;
+}
+
+enum { CHECK_HORIZON = 16, NO_CHECK = 255 };
+
+void trax_fast_schedule_check(struct trax_tm *tm, unsigned number, bool fetched) {
+  const struct trax_fast_program *program = &tm->chip->program;
+  const struct trax_tp *tp = &tm->tp[number];
+  const uint32_t busy = tm->busy_registers[number];
+  const unsigned at = tm->heads.at[number], last = tm->heads.last[number];
+  const uint16_t line = program->line[trax_fast_index(tp, at)];
+  const bool uncertain = tm->uncertain >> number & 1;
+  unsigned next = at + 1;
+  for (; next <= last && next <= at + CHECK_HORIZON; next++) {
+    const uint32_t index = trax_fast_index(tp, next);
+    if ((program->timing[index].waits & busy) ||
+        (uncertain && (program->line[index] != line || line == TRAX_FAST_LINES - 1)))
+      break;
+  }
+  if (fetched || !uncertain || next < tm->heads.check_at[number])
+    tm->heads.check_at[number] = (uint8_t)next;
+}
+
+void trax_fast_refill(struct trax_tm *tm, unsigned number) {
+  const uint64_t bit = (uint64_t)1 << number;
+  struct trax_tp *tp = &tm->tp[number];
+  drop_arrived(tp);
+  unsigned count = 0;
+  if (!tp->atomics) { /* else it might read or overwrite a register that an increment will write */
+    tp->begin = tp->resume;
+    tp->alone = tm->chip->alone;
+    memcpy(tp->begin_reg, tp->reg, sizeof tp->begin_reg);
+    count = trax_fast_burst(tm->chip, tm, number, tm->chip->burst);
+  }
+  if (count) {
+    tm->executes_at_issue &= ~bit;
+    tm->uncertain = (tm->uncertain & ~bit) | (all_resident(tm, number, count) ? 0 : bit);
+    tp->step[count - 1] |= TRAX_STEP_SLOW;
+    tm->heads.last[number] = (uint8_t)(count - 1);
+    tm->heads.load[number] = 0;
+    tm->heads.check_at[number] = (tm->busy | tm->uncertain) & bit ? 0 : NO_CHECK;
+    trax_fast_set_head(&tm->heads, number, 0);
+  } else {
+    const uint32_t index = (uint32_t)(tp->resume - tm->chip->program.inst);
+    trax_fast_execute_at_issue(tm, number, tm->chip->program.step[index] & TRAX_STEP_FETCH, index, 0);
+    tp->inst = tm->chip->program.timing[index].decoded;
+    tp->pc = tp->resume_pc;
+    tm->no_text |= tp->inst->resource == TRAX_RESOURCE_NO_TEXT ? bit : 0;
+  }
+}
+
+uint32_t trax_fast_advance(struct trax_tm *tm, unsigned number) {
+  const uint64_t bit = (uint64_t)1 << number;
+  if (tm->heads.at[number] == tm->heads.last[number]) {
+    trax_fast_refill(tm, number);
+  } else {
+    const unsigned kind = tm->heads.low[number] & TRAX_STEP_KIND;
+    tm->heads.load[number] += kind == TRAX_STEP_BANK || kind == TRAX_STEP_QUEUE;
+    trax_fast_set_head(&tm->heads, number, tm->heads.at[number] + 1u);
+  }
+  return tm->executes_at_issue & bit ? tm->tp[number].pc : trax_fast_head_timing(tm, number)->pc;
+}
+
+void trax_fast_export_head(struct trax_tm *tm, unsigned number) {
+  const uint32_t index = trax_fast_head(tm, number);
+  struct trax_tp *tp = &tm->tp[number];
+  if (tm->executes_at_issue >> number & 1)
+    return; /* set when it became the head; classify has set the address */
+  tp->inst = tm->chip->program.timing[index].decoded;
+  tp->pc = tm->chip->program.timing[index].pc;
+  tp->address = tp->inst->bytes ? tm->tp[number].loads[tm->heads.load[number]] : 0;
+}
+
+void trax_fast_end_burst(struct trax_tm *tm, unsigned number, unsigned executed, unsigned issued) {
+  struct trax_tp *tp = &tm->tp[number];
+  tp->issued += issued;
+  tp->jumps += tp->burst_jumps;
+  for (unsigned i = issued; i < executed; i++) { /* takes the steps that are not issued off the counts */
+    const uint32_t index = trax_fast_index(tp, i);
+    const uint32_t next =
+        i + 1 < executed ? trax_fast_index(tp, i + 1) : (uint32_t)(tp->resume - tm->chip->program.inst);
+    tm->count_deltas[index]--;
+    tm->count_deltas[index + 1]++;
+    tp->jumps -= next != index + 1;
+  }
+}
+
+void trax_fast_line_arrived(struct trax_tm *tm, unsigned number, uint32_t line) {
+  const struct trax_fast_program *program = &tm->chip->program;
+  const struct trax_cache_tags *tags = &tm->icache[number].tags;
+  const uint64_t evicted = tm->icache[number].evicted; /* its number + 1 */
+  for (size_t i = 0; i < program->count; i++) {
+    const struct trax_fast_section *section = &program->sections[i];
+    const uint64_t last_line = (section->begin + section->bytes) >> tags->line_shift;
+    const uint64_t arrived_index = section->line + (uint64_t)line - section->first_line;
+    const uint64_t evicted_index = section->line + evicted - 1 - section->first_line;
+    if (evicted > section->first_line && evicted - 1 <= last_line && evicted_index < TRAX_FAST_LINES - 1)
+      trax_fast_set_resident(tm, number, (uint32_t)evicted_index, false);
+    if (line >= section->first_line && line <= last_line && arrived_index < TRAX_FAST_LINES - 1)
+      trax_fast_set_resident(tm, number, (uint32_t)arrived_index, true);
+  }
+  for (unsigned tp = 0; tp < tm->tps; tp++)
+    if (tm->icache_of[tp] == number) {
+      if (evicted) {
+        tm->uncertain |= (uint64_t)1 << tp;
+        tm->heads.check_at[tp] = 0;
+      }
+    }
+}

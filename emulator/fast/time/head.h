@@ -1,0 +1,71 @@
+/* The head of a TP is the instruction that it fetches or holds. All that its timing needs is recorded when it becomes
+   the head. */
+#ifndef TRAX_FAST_HEAD_H
+#define TRAX_FAST_HEAD_H
+
+#include "fast/chip.h"
+
+/* Returns the index of a step's instruction in trax_fast_program.inst. */
+static inline uint32_t trax_fast_index(const struct trax_tp *tp, unsigned step) {
+  return tp->origin[tp->segment[step]] + step;
+}
+
+/* Returns the index of the TP's head. */
+static inline uint32_t trax_fast_head(const struct trax_tm *tm, unsigned tp) {
+  return trax_fast_index(&tm->tp[tp], tm->heads.at[tp]);
+}
+
+static inline const struct trax_fast_timing *trax_fast_head_timing(const struct trax_tm *tm, unsigned tp) {
+  return &tm->chip->program.timing[trax_fast_head(tm, tp)];
+}
+
+/* Returns the bit of a register in busy_registers. */
+static inline uint32_t trax_fast_register_bit(unsigned rd) {
+  return (uint32_t)((uint64_t)1 << rd); /* 0 for TRAX_NO_REGISTER */
+}
+
+/* Sets the next step that must be checked when it becomes the head: one that needs a register of busy_registers or, if
+   the TP is uncertain, is in another line than this head. `fetched`: this head has been checked and fetched in this
+   cycle; otherwise an earlier check stays scheduled, since lines may have been evicted. */
+void trax_fast_schedule_check(struct trax_tm *tm, unsigned tp, bool fetched);
+
+static inline void trax_fast_set_busy(struct trax_tm *tm, unsigned tp, unsigned rd) {
+  tm->busy_registers[tp] |= trax_fast_register_bit(rd);
+  tm->busy |= (uint64_t)1 << tp;
+  trax_fast_schedule_check(tm, tp, false);
+}
+
+/* Executes the next burst. If its first instruction cannot be executed before its issue, the head executes at issue. */
+void trax_fast_refill(struct trax_tm *tm, unsigned tp);
+/* Writes the head to the TP's structure, which tm.c and tp.c use: inst, pc, address. */
+void trax_fast_export_head(struct trax_tm *tm, unsigned tp);
+/* Ends the TP's burst of `executed` steps, of which the first `issued` were issued; the others count as not executed.
+ */
+void trax_fast_end_burst(struct trax_tm *tm, unsigned tp, unsigned executed, unsigned issued);
+/* Updates the resident lines after a line has arrived in an instruction cache, and perhaps evicted another one. */
+void trax_fast_line_arrived(struct trax_tm *tm, unsigned icache, uint32_t line);
+
+static inline void trax_fast_set_resident(struct trax_tm *tm, unsigned icache, uint32_t line, bool is_resident) {
+  tm->resident[icache][line] = is_resident;
+  if (tm->chip->program.lines <= 64)
+    tm->resident_lines[icache] = (tm->resident_lines[icache] & ~((uint64_t)1 << line)) | (uint64_t)is_resident << line;
+}
+
+/* Makes the TP's next instruction its head, after a new burst if necessary; returns its pc. */
+uint32_t trax_fast_advance(struct trax_tm *tm, unsigned tp);
+
+/* Makes an instruction the TP's head, which executes at issue; its step is the only one. */
+static inline void trax_fast_execute_at_issue(struct trax_tm *tm, unsigned number, uint16_t step, uint32_t index,
+                                              uint32_t address) {
+  struct trax_tp *tp = &tm->tp[number];
+  tm->executes_at_issue |= (uint64_t)1 << number;
+  tm->watched[number] = 0;
+  tp->step[0] = step | TRAX_STEP_SLOW;
+  tp->segment[0] = 0;
+  tp->origin[0] = index;
+  tp->loads[0] = address;
+  tm->heads.last[number] = tm->heads.load[number] = 0;
+  trax_fast_set_head(&tm->heads, number, 0);
+}
+
+#endif

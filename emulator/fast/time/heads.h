@@ -1,0 +1,218 @@
+/* The heads of a TM's TPs, as arrays that are processed for all TPs at once. There are versions for AVX-512, for AVX2
+   and for any host. */
+#ifndef TRAX_FAST_HEADS_H
+#define TRAX_FAST_HEADS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <string.h>
+#ifdef __AVX2__
+#include <immintrin.h>
+#endif
+
+/* The 16 bits of a step: the resources that it needs. */
+enum {
+  TRAX_STEP_SLOW = 1,        /* a slow head: the last step of a burst, a latency above 1, or a bubble after it */
+  TRAX_STEP_FP_ADD = 1 << 1, /* the resource after its operands are usable; 0: the TP's own units */
+  TRAX_STEP_FP_MUL = 2 << 1,
+  TRAX_STEP_INT_MUL = 3 << 1,
+  TRAX_STEP_BANK = 4 << 1, /* of the data cache */
+  TRAX_STEP_SPECIAL = 5 << 1,
+  TRAX_STEP_QUEUE = 6 << 1,   /* the memory queue without a bank */
+  TRAX_STEP_FURTHER = 7 << 1, /* a shared unit of another kind, whose number replaces the bank's */
+  TRAX_STEP_KIND = 7 << 1,
+  TRAX_STEP_BANK_SHIFT = 4,   /* the bank of the data cache */
+  TRAX_STEP_FETCH_SHIFT = 10, /* the bank of the instruction cache, in the remaining bits */
+  TRAX_STEP_FETCH = 63 << TRAX_STEP_FETCH_SHIFT
+};
+
+/* With AVX-512, a lane of 64 bits holds a TP's next four steps, the head's in the lowest bits. When heads are issued,
+   the lanes of all TPs are shifted at once. Each 32 TPs have four rows of eight lanes: TP 4 * lane + row. */
+enum { TRAX_FAST_NEXT = 4 /* steps in a lane */, TRAX_FAST_ROWS = 8 };
+
+struct trax_fast_heads {
+  _Alignas(64) uint8_t at[64]; /* the number of the head's step in its burst */
+  uint8_t load[64];            /* the number of loads of global memory before it in its burst */
+  uint8_t low[64], high[64];   /* the low and the high byte of the head's step */
+  uint8_t check_at[64]; /* the first step of the burst at which the head must be checked (trax_fast_schedule_check) */
+  uint8_t last[64];     /* the last step of the burst */
+  uint32_t begin[64];   /* the index of the TP's first step in `steps`; of TPs that do not exist, TP 0's */
+  _Alignas(64) uint64_t next[TRAX_FAST_ROWS][8];
+  uint32_t row_begin[TRAX_FAST_ROWS][8]; /* begin, in the order of the lanes */
+  uint32_t moves;                        /* number of calls of trax_fast_move_on; every fourth one fills `next` */
+  const uint16_t *steps; /* of all TPs; the step of a head that executes at issue is complete after classify */
+};
+
+static inline void trax_fast_begin_heads(struct trax_fast_heads *heads, unsigned tp, uint32_t begin) {
+  heads->begin[tp] = begin;
+  heads->row_begin[tp / 32 * 4 + tp % 4][tp % 32 / 4] = begin;
+}
+
+/* Makes the TP's step `at` its head. */
+static inline void trax_fast_set_head(struct trax_fast_heads *heads, unsigned tp, unsigned at) {
+  const uint16_t *const step = heads->steps + heads->begin[tp] + at;
+  heads->at[tp] = (uint8_t)at;
+  heads->low[tp] = (uint8_t)*step;
+  heads->high[tp] = (uint8_t)(*step >> 8);
+  memcpy(&heads->next[tp / 32 * 4 + tp % 4][tp % 32 / 4], step, sizeof **heads->next);
+}
+
+#ifdef __AVX512BW__
+/* Returns the steps of the heads of 32 TPs: the lowest 16 bits of each lane of the rows. */
+static inline __m512i trax_fast_join_rows(const __m512i *row) {
+  __m512i step = row[0];
+#pragma GCC unroll 3
+  for (unsigned i = 1; i < 4; i++) /* merges above the lower bits */
+    step = _mm512_ternarylogic_epi64(step, _mm512_slli_epi64(row[i], 16 * i),
+                                     _mm512_set1_epi64(((long long)1 << 16 * i) - 1), 0xE4);
+  return step;
+}
+
+/* Stores the heads' steps; step[i]: those of 32 TPs. They are stored with the width with which they will be loaded. */
+static inline void trax_fast_set_steps(struct trax_fast_heads *heads, const bool wide, const __m512i *step) {
+#pragma GCC unroll 2
+  for (unsigned i = 0; i < 2; i++) {
+    uint8_t *const bytes = i ? heads->high : heads->low;
+    const __m256i first = _mm512_cvtepi16_epi8(_mm512_srli_epi16(step[0], 8 * i));
+    if (wide)
+      _mm512_store_si512(bytes, _mm512_inserti64x4(_mm512_castsi256_si512(first),
+                                                   _mm512_cvtepi16_epi8(_mm512_srli_epi16(step[1], 8 * i)), 1));
+    else
+      _mm256_store_si256((__m256i *)bytes, first);
+  }
+}
+
+/* Loads the lanes of all TPs with the steps from the heads on. */
+static inline __attribute__((always_inline)) void trax_fast_fill_rows(struct trax_fast_heads *heads, const bool wide) {
+  __m512i step[2];
+  for (unsigned half = 0; half < 1u + wide; half++) {
+    __m512i *const next = (__m512i *)heads->next[4 * half];
+    const __m256i *const begin = (const __m256i *)heads->row_begin[4 * half];
+    __m256i at = _mm256_load_si256((const __m256i *)heads->at + half);
+#pragma GCC unroll 4
+    for (unsigned i = 0; i < 4; i++, at = _mm256_srli_epi32(at, 8))
+      next[i] = _mm512_i32gather_epi64(_mm256_add_epi32(_mm256_and_si256(at, _mm256_set1_epi32(0xFF)), begin[i]),
+                                       heads->steps, sizeof *heads->steps);
+    step[half] = trax_fast_join_rows(next);
+  }
+  trax_fast_set_steps(heads, wide, step);
+}
+#endif
+
+/* Makes the next step of each TP of `who` its head. `wide`: the TM has more than 32 TPs. */
+static inline __attribute__((always_inline)) void trax_fast_move_on(struct trax_fast_heads *heads, const bool wide,
+                                                                    uint64_t who) {
+#ifdef __AVX512BW__
+  const __m512i at = _mm512_load_si512(heads->at);
+  _mm512_store_si512(heads->at, _mm512_mask_add_epi8(at, who, at, _mm512_set1_epi8(1)));
+  if (++heads->moves % TRAX_FAST_NEXT == 0) {
+    trax_fast_fill_rows(heads, wide);
+    return;
+  }
+  __m512i step[2];
+#pragma GCC unroll 2
+  for (unsigned half = 0; half < 1u + wide; half++) {
+    __m512i *const next = (__m512i *)heads->next[4 * half];
+    __m512i row[4];
+#pragma GCC unroll 4
+    for (unsigned i = 0; i < 4; i++) {
+      const __mmask8 moves = (__mmask8)_pext_u64(who, (uint64_t)0x11111111 << (32 * half + i));
+      next[i] = row[i] = _mm512_mask_srli_epi64(next[i], moves, next[i], 16);
+    }
+    step[half] = trax_fast_join_rows(row);
+  }
+  trax_fast_set_steps(heads, wide, step);
+#else
+  (void)wide;
+  for (; who; who &= who - 1) {
+    const unsigned tp = (unsigned)__builtin_ctzll(who);
+    const uint16_t step = heads->steps[heads->begin[tp] + ++heads->at[tp]];
+    heads->low[tp] = (uint8_t)step;
+    heads->high[tp] = (uint8_t)(step >> 8);
+  }
+#endif
+}
+
+#ifndef __AVX2__
+static inline uint64_t trax_fast_eight_bytes(const uint8_t *bytes) {
+  uint64_t word;
+  memcpy(&word, bytes, sizeof word);
+  return word;
+}
+
+/* Returns a bit of each of eight bytes, the first byte's in bit 0: the product moves byte i's bit from 8 i to 56 + i.
+ */
+static inline uint64_t trax_fast_bit_of_eight(uint64_t bytes, unsigned bit) {
+  return ((bytes >> bit) & 0x0101010101010101) * 0x0102040810204080 >> 56;
+}
+#endif
+
+/* Returns the TPs at whose heads a check is due. This only matters for TPs that are busy or uncertain. */
+static inline __attribute__((always_inline)) uint64_t trax_fast_due(const struct trax_fast_heads *heads,
+                                                                    const bool wide) {
+#ifdef __AVX512BW__
+  (void)wide;
+  return _mm512_cmpge_epu8_mask(_mm512_load_si512(heads->at), _mm512_load_si512(heads->check_at));
+#elif defined(__AVX2__)
+  uint64_t due = 0;
+  for (unsigned i = 0; i < 32u + 32 * wide; i += 32) {
+    const __m256i at = _mm256_load_si256((const __m256i *)(heads->at + i));
+    const __m256i later = _mm256_max_epu8(at, _mm256_load_si256((const __m256i *)(heads->check_at + i)));
+    due |= (uint64_t)(uint32_t)_mm256_movemask_epi8(_mm256_cmpeq_epi8(at, later)) << i;
+  }
+  return due;
+#else
+  const uint64_t top = 0x8080808080808080;
+  uint64_t due = 0;
+  for (unsigned i = 0; i < 32u + 32 * wide; i += 8) {
+    const uint64_t at = trax_fast_eight_bytes(heads->at + i), check_at = trax_fast_eight_bytes(heads->check_at + i);
+    const uint64_t low_bits = (at | top) - (check_at & ~top); /* top bit: the low 7 bits of `at` are not less */
+    due |= trax_fast_bit_of_eight((at & ~check_at) | (~(at ^ check_at) & low_bits), 7) << i;
+  }
+  return due;
+#endif
+}
+
+/* Counts the heads of `who`, which are loads of global memory, as issued. */
+static inline __attribute__((always_inline)) void trax_fast_pass_loads(struct trax_fast_heads *heads, uint64_t who) {
+#ifdef __AVX512BW__
+  const __m512i load = _mm512_load_si512(heads->load);
+  _mm512_store_si512(heads->load, _mm512_mask_add_epi8(load, who, load, _mm512_set1_epi8(1)));
+#else
+  for (; who; who &= who - 1)
+    heads->load[__builtin_ctzll(who)]++;
+#endif
+}
+
+/* Sets plane[k] to bit `first` + k of the heads' steps, for all k < `count`. first and count must be constants, and all
+   bits in the same byte. */
+static inline __attribute__((always_inline)) void trax_fast_transpose(const struct trax_fast_heads *heads,
+                                                                      const bool wide, const unsigned first,
+                                                                      const unsigned count, uint64_t *plane) {
+  const uint8_t *const bytes = first < 8 ? heads->low : heads->high;
+#ifdef __AVX512BW__
+#pragma GCC unroll 8
+  for (unsigned k = 0; k < count; k++) {
+    const char bit = (char)(1 << (first + k) % 8);
+    plane[k] = wide ? _mm512_test_epi8_mask(_mm512_load_si512(bytes), _mm512_set1_epi8(bit))
+                    : _mm256_test_epi8_mask(_mm256_load_si256((const __m256i *)bytes), _mm256_set1_epi8(bit));
+  }
+#elif defined(__AVX2__)
+  for (unsigned i = 0; i < 32u + 32 * wide; i += 32) {
+    const __m256i some = _mm256_load_si256((const __m256i *)(bytes + i));
+#pragma GCC unroll 8
+    for (unsigned k = 0; k < count; k++) {
+      const int mask = _mm256_movemask_epi8(_mm256_slli_epi16(some, 7 - (int)((first + k) % 8)));
+      plane[k] = (i ? plane[k] : 0) | (uint64_t)(uint32_t)mask << i;
+    }
+  }
+#else
+  for (unsigned i = 0; i < 32u + 32 * wide; i += 8) {
+    const uint64_t some = trax_fast_eight_bytes(bytes + i);
+    for (unsigned k = 0; k < count; k++)
+      plane[k] = (i ? plane[k] : 0) | trax_fast_bit_of_eight(some, (first + k) % 8) << i;
+  }
+#endif
+}
+
+#endif

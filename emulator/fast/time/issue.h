@@ -1,0 +1,117 @@
+/* Step 5: the TPs that were granted all that they need issue, in order. Included by cycle.c. */
+#ifndef TRAX_FAST_ISSUE_H
+#define TRAX_FAST_ISSUE_H
+
+#include "fast/store_buffer.h"
+#include "fast/time/head.h"
+
+/* Executes a head that executes at issue. False: it faulted. */
+static bool execute(struct trax_tm *tm, unsigned number, uint64_t t) {
+  struct trax_tp *tp = &tm->tp[number];
+  const struct trax_decoded *inst = tp->inst;
+  const uint32_t pc = tp->pc, index = trax_fast_head(tm, number);
+  if ((inst->is_store || inst->is_atomic) && tp->address < TRAX_LOCAL_BASE) {
+    if (!tm->buffer)
+      trax_fast_word_written(tm->chip, tp->address, inst->is_atomic ? TRAX_BLOCK_SHARED : TRAX_BLOCK_WRITTEN);
+    else if (inst->is_store)
+      trax_fast_roll_back_readers(tm, tp->address);
+  }
+  if (inst->is_atomic && tm->buffer)
+    trax_store_buffer_increment(tm->buffer, t, tp->address);
+  if (inst->is_atomic)
+    tp->atomics |= (uint64_t)1 << inst->rd;
+  if (!trax_tp_execute(tm, number, t))
+    return false;
+  if (inst->resource != TRAX_RESOURCE_MEMORY)
+    trax_tp_set_usable(tp, inst->rd, t + inst->latency, inst->cause);
+  else if (tp->address >= TRAX_LOCAL_BASE)
+    trax_tp_set_usable(tp, inst->rd, t + tm->config->tp.local_latency_cycles, TRAX_CAUSE_DATA_LOCAL);
+  trax_fast_set_busy(tm, number, inst->rd);
+  const bool goes_on = tp->pc == pc + 4;
+  tp->resume = goes_on ? &tm->chip->program.inst[index + 1] : trax_fast_inst_at(&tm->chip->program, tp->pc);
+  tp->resume_pc = tp->pc;
+  tp->jumps += !goes_on;
+  tp->issued++;
+  tm->at_issue++;
+  tm->count_deltas[index]++;
+  tm->count_deltas[index + 1]--;
+  return true;
+}
+
+/* Updates the scoreboard if the result is not usable in the next cycle and does not come from memory. */
+static void set_result_usable(struct trax_tm *tm, unsigned number, uint64_t t) {
+  const struct trax_decoded *inst = trax_fast_head_timing(tm, number)->decoded;
+  uint32_t latency = inst->latency;
+  trax_cause cause = (trax_cause)inst->cause;
+  if (inst->resource == TRAX_RESOURCE_MEMORY) {
+    if (inst->is_store || (tm->heads.low[number] & TRAX_STEP_KIND) == TRAX_STEP_BANK)
+      return;
+    latency = tm->config->tp.local_latency_cycles;
+    cause = TRAX_CAUSE_DATA_LOCAL;
+  }
+  if (latency > 1) {
+    trax_tp_set_usable(&tm->tp[number], inst->rd, t + latency, cause);
+    trax_fast_set_busy(tm, number, inst->rd);
+  }
+}
+
+/* Issues a slow head: one that executes at issue, the last one of a burst, or one with a latency above 1 or a bubble.
+ */
+static void issue_slowly(struct trax_tm *tm, unsigned number, uint64_t t) {
+  const uint64_t bit = (uint64_t)1 << number;
+  struct trax_tp *tp = &tm->tp[number];
+  trax_fast_export_head(tm, number);
+  const struct trax_decoded *inst = tp->inst;
+  const uint32_t pc = tp->pc;
+  if (tm->executes_at_issue & bit) {
+    if (!execute(tm, number, t))
+      return;
+  } else {
+    set_result_usable(tm, number, t);
+    if (tm->heads.at[number] == tm->heads.last[number])
+      trax_fast_end_burst(tm, number, tm->heads.last[number] + 1u, tm->heads.last[number] + 1u);
+  }
+  tm->holding &= ~bit;
+  if (tm->observer)
+    trax_tm_notify_issue(tm, number, pc, inst, tm->executes_at_issue & bit ? tp->pc : tp->resume_pc);
+  if (tm->ended & bit)
+    return;
+  const uint32_t bubble = tm->config->tp.branch_bubble_cycles;
+  if (trax_fast_advance(tm, number) != pc + 4 && bubble)
+    trax_tm_sleep_until(tm, number, t, t + 1, t + 1 + bubble, TRAX_CAUSE_BRANCH);
+}
+
+/* Issues quick heads: the next steps of their TPs become the heads. */
+static inline __attribute__((always_inline)) void issue_quickly(struct trax_tm *tm, const bool wide, uint64_t quick) {
+  trax_fast_move_on(&tm->heads, wide, quick);
+  tm->holding &= ~quick;
+}
+
+static void issue_all_quickly(struct trax_tm *tm, uint64_t quick) {
+  if (tm->wide)
+    issue_quickly(tm, true, quick);
+  else
+    issue_quickly(tm, false, quick);
+}
+
+/* Issues the TPs with quick heads and those with slow heads (TRAX_STEP_SLOW). */
+static void issue_in_order(struct trax_tm *tm, uint64_t quick, uint64_t slow, uint64_t t) {
+  /* Heads that execute at issue may affect other TPs, so the order of TPs matters: TPs before such a head issue first.
+     TPs after it may roll back, and their heads then execute at issue (blocks.c). */
+  uint64_t effects;
+  while (__builtin_expect((effects = slow & tm->executes_at_issue) != 0, false)) {
+    const uint64_t up_to = effects ^ (effects - 1);
+    issue_all_quickly(tm, quick & up_to);
+    quick &= ~up_to;
+    for (uint64_t rest = slow & up_to; rest; rest &= rest - 1)
+      issue_slowly(tm, trax_first(rest), t);
+    const uint64_t back = quick & tm->executes_at_issue;
+    quick ^= back;
+    slow = (slow & ~up_to) | back;
+  }
+  issue_all_quickly(tm, quick);
+  for (; slow; slow &= slow - 1)
+    issue_slowly(tm, trax_first(slow), t);
+}
+
+#endif

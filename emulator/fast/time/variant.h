@@ -1,0 +1,33 @@
+/* The part of the fast engine that works on vectors of TPs, cycle.c. It is compiled several times, for different
+   instruction sets of the host. */
+#ifndef TRAX_FAST_VARIANT_H
+#define TRAX_FAST_VARIANT_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+struct trax_chip;
+struct trax_fast_refusal_counts;
+
+enum { TRAX_FAST_INTERLEAVED = 2 }; /* the most TMs that run_epoch interleaves */
+
+struct trax_fast_variant {
+  bool four; /* the banks of four instruction caches are granted at once (trax_fast_banks16.of_four) */
+  /* Simulates a cycle of a TM, arrivals included, and sets its next_cycle. */
+  void (*cycle)(struct trax_chip *chip, uint32_t tm, uint64_t t);
+  /* Simulates an epoch (epochs.h): all cycles before `end` of the `count` TMs from `first` on, at most
+     TRAX_FAST_INTERLEAVED. A TM that stops or faults is left at that cycle. */
+  void (*run_epoch)(struct trax_chip *chip, uint32_t first, uint32_t count, uint64_t end);
+  /* Adds the log of refusals to the counters. */
+  void (*count_log)(struct trax_fast_refusal_counts *counts);
+};
+
+extern const struct trax_fast_variant trax_fast_variant;
+#ifdef TRAX_FAST_HAVE_V3
+extern const struct trax_fast_variant trax_fast_variant_v3; /* for x86-64-v3: AVX2, BMI2 */
+#endif
+#ifdef TRAX_FAST_HAVE_V4
+extern const struct trax_fast_variant trax_fast_variant_v4; /* for x86-64-v4: AVX-512 */
+#endif
+
+#endif

@@ -1,0 +1,67 @@
+#include "fast/tm/queue.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+bool trax_queue_create(struct trax_queue *queue, uint32_t depth, bool keeps_order) {
+  memset(queue, 0, sizeof *queue);
+  queue->depth = depth;
+  queue->requests = calloc(depth, sizeof *queue->requests);
+  if (keeps_order)
+    return queue->requests;
+  queue->heap = calloc(depth, sizeof *queue->heap);
+  queue->places = calloc(depth, sizeof *queue->places);
+  queue->first_unsubmitted = TRAX_NO_REQUEST;
+  for (uint32_t i = 0; queue->places && i < depth; i++)
+    queue->places[i] = (uint16_t)i;
+  return queue->requests && queue->heap && queue->places;
+}
+
+void trax_queue_destroy(struct trax_queue *queue) {
+  free(queue->requests);
+  free(queue->heap);
+  free(queue->places);
+}
+
+void trax_queue_push_unsubmitted(struct trax_queue *queue, struct trax_request request) {
+  const uint32_t index = queue->places[queue->count++];
+  request.next = TRAX_NO_REQUEST;
+  request.number = queue->made++;
+  queue->requests[index] = request;
+  if (queue->first_unsubmitted == TRAX_NO_REQUEST)
+    queue->first_unsubmitted = index;
+  else
+    queue->requests[queue->last_unsubmitted].next = index;
+  queue->last_unsubmitted = index;
+}
+
+/* Whether request a arrives before b; requests of one cycle arrive in the order in which they were made. */
+static bool is_before(const struct trax_queue *queue, uint32_t a, uint32_t b) {
+  const struct trax_request *x = &queue->requests[a], *y = &queue->requests[b];
+  return x->completion != y->completion ? x->completion < y->completion : x->number < y->number;
+}
+
+void trax_queue_start(struct trax_queue *queue, uint32_t index) {
+  uint32_t at = queue->started++;
+  for (; at && is_before(queue, index, queue->heap[(at - 1) / 2]); at = (at - 1) / 2)
+    queue->heap[at] = queue->heap[(at - 1) / 2];
+  queue->heap[at] = (uint16_t)index;
+  queue->oldest = queue->heap[0];
+}
+
+void trax_queue_pop_heap(struct trax_queue *queue) {
+  queue->requests[queue->oldest].bytes = 0;
+  queue->places[--queue->count] = (uint16_t)queue->oldest;
+  const uint16_t last = queue->heap[--queue->started];
+  uint32_t at = 0;
+  for (uint32_t child = 1; child < queue->started; child = 2 * at + 1) {
+    if (child + 1 < queue->started && is_before(queue, queue->heap[child + 1], queue->heap[child]))
+      child++;
+    if (!is_before(queue, queue->heap[child], last))
+      break;
+    queue->heap[at] = queue->heap[child];
+    at = child;
+  }
+  queue->heap[at] = last;
+  queue->oldest = queue->heap[0];
+}

@@ -1,0 +1,87 @@
+/* A thread processor: registers, scoreboard, local memory, write-combining buffer, and the effects of its instructions.
+   tm.c has what it needs of the TM. */
+#ifndef TRAX_FAST_TP_H
+#define TRAX_FAST_TP_H
+
+#include "fast/function/program.h"
+#include "machine/machine.h"
+#include "machine/section.h"
+#include "machine/text.h"
+#include "machine/watch.h" /* TRAX_NEVER: also of a register that becomes usable with an arrival */
+
+struct trax_fast_undo {
+  uint32_t address, word; /* a word of local memory, or of global memory if the thread is alone, before a store */
+};
+
+/* run_begin, run_end: the run of bytes in the write-combining buffer, within one 64-byte block; equal: empty.
+   asleep_...: a sleeping TP is charged when it wakes. */
+#define TRAX_TP_STATE(X, S)                                                                                            \
+  X(S, uint32_t, reg, [TRAX_NUM_REGISTERS + 1]) /* results for r0 go to [TRAX_NO_REGISTER] */                          \
+  X(S, uint32_t, pc, )                                                                                                 \
+  X(S, uint32_t, address, )                             /* of inst's access */                                         \
+  X(S, uint16_t, writes, )                              /* the TP's writes in the memory queue */                      \
+  X(S, uint16_t, increments, )                          /* the TP's atomic increments in the memory queue */           \
+  X(S, uint64_t, usable, [TRAX_NUM_REGISTERS + 1])      /* the cycle from which the register is usable */              \
+  X(S, uint8_t, usable_cause, [TRAX_NUM_REGISTERS + 1]) /* trax_cause of a wait for it */                              \
+  X(S, uint8_t, asleep_cause, )                                                                                        \
+  X(S, uint32_t, run_begin, )                                                                                          \
+  X(S, uint32_t, run_end, )                                                                                            \
+  X(S, uint64_t, asleep_since, )                                                                                       \
+  X(S, uint64_t, asleep_until, ) /* if it is in the wheel */                                                           \
+  X(S, uint8_t, local, [TRAX_LOCAL_SIZE])
+struct trax_tp {
+  TRAX_TP_STATE(TRAX_FIELD, )
+  const struct trax_decoded *inst; /* the instruction at pc; trax_tm.holding: it has been fetched */
+  uint8_t outcome;                 /* of its access, set when it is served: TRAX_OUTCOME_MISS ... */
+
+  /* Its burst (docs/fast-engine.md). */
+  uint32_t resume_pc;
+  const struct trax_fast_inst *resume; /* the first instruction of the next burst, at resume_pc */
+  uint64_t atomics;                    /* mask of registers that atomic increments under way will write */
+
+  uint64_t issued, jumps; /* instructions and taken jumps that were issued in earlier bursts */
+  bool alone;             /* the current burst may store to global memory (trax_chip.alone) */
+  uint32_t load_count;    /* loads of global memory of the current burst, and stores to it */
+  uint32_t burst_jumps;   /* taken jumps of the current burst, that of its last step included */
+  uint64_t burst_lines;   /* bit line % 64: a superset of the lines of the burst's steps */
+
+  /* The steps of the burst, or the step of a head that executes at issue. The last step may be followed by others that
+     are not part of the burst. */
+  _Alignas(64) uint16_t step[TRAX_BURST + TRAX_CHUNK];
+  uint8_t segment[TRAX_BURST + TRAX_CHUNK]; /* [step]: the number of its segment */
+  uint32_t loads[TRAX_BURST];               /* the addresses of the burst's loads and stores of global memory */
+  uint32_t origin[TRAX_BURST + 1];          /* [segment]: its first instruction's index minus its first step */
+
+  /* The state at the beginning of the burst, for a roll back (blocks.c). */
+  const struct trax_fast_inst *begin;
+  uint32_t undo_count;
+  uint32_t begin_reg[TRAX_NUM_REGISTERS + 1];
+  struct trax_fast_undo undo[TRAX_BURST];
+};
+
+struct trax_tm;
+
+/* Returns the cause of the first register that inst must wait for in cycle t, in the order ra, rb, rd, for a fence r1
+   to r31, and sets *until to the cycle from which it is usable, TRAX_NEVER if unknown. TRAX_CAUSE_ISSUED: there is
+   none. */
+trax_cause trax_tp_wait(const struct trax_tp *tp, uint64_t t, uint64_t *until);
+
+static inline void trax_tp_set_usable(struct trax_tp *tp, unsigned rd, uint64_t cycle, trax_cause cause) {
+  tp->usable[rd] = cycle;
+  tp->usable_cause[rd] = (uint8_t)cause;
+}
+
+/* Whether a store of `bytes` bytes combines with the run in the buffer. */
+bool trax_tp_combines(const struct trax_tp *tp, uint32_t address, uint32_t bytes);
+
+/* Returns special register `number` of TP `tp` in cycle t. */
+uint32_t trax_tp_special_register(const struct trax_tm *tm, unsigned tp, uint32_t number, uint64_t t);
+
+/* Performs the instruction in cycle t: registers, pc, memory, traps. False: it faulted (abort, puts), and the fault is
+   recorded in the TM. Of an atomic increment it only changes the pc; the controller performs the increment. */
+bool trax_tp_execute(struct trax_tm *tm, unsigned number, uint64_t t);
+
+/* Loads from global memory, as a load of the TM that issues now would; in an epoch its store buffer records it. */
+uint32_t trax_tm_load(const struct trax_tm *tm, uint32_t address, unsigned bytes);
+
+#endif
