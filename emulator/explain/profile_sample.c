@@ -5,8 +5,8 @@
       LINE.DISCRIMINATOR: INLINED:TOTAL
        LINE: COUNT
 
-   Lines are relative to the first one of their function. A line's count is that of its instruction that was
-   executed most often. */
+   Lines are relative to the first one of their function. A line's count is the largest count
+   of its instructions. */
 #include "explain/profile.h"
 #include "program/program.h"
 #include "trax/grow.h"

@@ -189,8 +189,7 @@ static void put_frame(FILE *out, const char *name) {
   fputc(';', out);
 }
 
-/* Returns the number of a text: `before`, the functions of a place, and its line if that is wanted; 0: out of memory.
- */
+/* Returns the number of a text: `before`, the functions of a place and, with_line, its line; 0: out of memory. */
 static uint32_t text_of(struct folded *folded, const char *before, uint32_t index, bool with_line) {
   struct trax_places *places = folded->profile->reader.explain->places;
   const struct trax_place *place = trax_places_at(places, index);

@@ -92,8 +92,7 @@ struct trax_gdb {
 };
 
 /* --- stub.c --- */
-/* Resumes the run: threads marked as stepping step, the others continue. named_only: the packet named single threads.
- */
+/* Resumes the run: threads marked as stepping step, the others continue. named_only: the packet named threads. */
 void trax_gdb_resume(struct trax_gdb *gdb, bool named_only);
 
 /* --- commands.c --- */

@@ -1,5 +1,4 @@
-/* The start of a program: the arguments of main, and which threads call main (docs/abi.md, "Program start").
- */
+/* The start of a program: the arguments of main, and the threads that call it (docs/abi.md, "Program start"). */
 #include <string.h>
 
 #include "program/program.h"

@@ -191,7 +191,7 @@ static struct trax_bound_buffer *find_buffer(const struct trax_host *host, const
   return NULL;
 }
 
-/* Returns the address of the next buffer: behind a guard, which it shares with the buffer directly before. */
+/* Returns the address of the next buffer: after a guard, which it shares with the buffer directly before it. */
 static uint64_t buffer_address(const struct trax_host *host) {
   return host->free_address + (host->free_address == host->guard_end ? 0 : TRAX_BUFFER_GUARD);
 }
