@@ -55,19 +55,19 @@ static void add_object(struct heat *heat, const char *name, uint64_t begin, uint
 /* Lists symbols, bound buffers, heap and stacks. Of overlapping objects, the first keeps the bytes. */
 static trax_status list_objects(struct heat *heat, trax_error *error) {
   const struct trax_machine *machine = heat->reader.explain->machine;
-  const struct trax_host *host = trax_host_of(machine);
+  const struct trax_loaded *loaded = trax_loaded_of(machine);
   size_t symbol_count = 0;
-  const struct trax_symbol *symbols = host ? trax_image_symbols(host->image, &symbol_count) : NULL;
+  const struct trax_symbol *symbols = loaded ? trax_image_symbols(loaded->image, &symbol_count) : NULL;
   for (size_t i = 0; i < symbol_count; i++)
     if (!symbols[i].absolute && symbols[i].bytes &&
         (symbols[i].type == TRAX_SYMBOL_OBJECT || symbols[i].type == TRAX_SYMBOL_FUNCTION))
       add_object(heat, symbols[i].name, symbols[i].address, (uint64_t)symbols[i].address + symbols[i].bytes);
-  if (host) {
-    for (size_t i = 0; i < host->buffer_count; i++)
-      add_object(heat, host->buffers[i].symbol, host->buffers[i].address,
-                 (uint64_t)host->buffers[i].address + host->buffers[i].bytes);
-    add_object(heat, "(heap)", host->free_address, host->memory_end);
-    add_object(heat, "(stacks)", host->memory_end, machine->space.size);
+  if (loaded) {
+    for (size_t i = 0; i < loaded->buffer_count; i++)
+      add_object(heat, loaded->buffers[i].symbol, loaded->buffers[i].address,
+                 (uint64_t)loaded->buffers[i].address + loaded->buffers[i].bytes);
+    add_object(heat, "(heap)", loaded->free_address, loaded->memory_end);
+    add_object(heat, "(stacks)", loaded->memory_end, machine->space.size);
   }
   add_object(heat, "(local memory)", TRAX_LOCAL_BASE, (uint64_t)1 << 32);
   if (heat->object_count) /* qsort's array is not to be NULL */

@@ -161,13 +161,13 @@ static void print_instruction(const struct order *order, const char *label, uint
   fprintf(out, "  %-*s0x%08x  ", TRAX_LABEL, label, pc);
   trax_print_instruction(word, pc, out);
   fputc('\n', out);
-  trax_print_place(trax_host_of(order->machine), "in", pc, out);
+  trax_print_place(trax_loaded_of(order->machine), "in", pc, out);
 }
 
 static void print(const struct order *order, FILE *out) {
   const struct trax_issue *load = &order->load;
-  const struct trax_host *host = trax_host_of(order->machine);
-  const struct trax_symbol *symbol = host ? trax_image_symbol_at(host->image, load->address) : NULL;
+  const struct trax_loaded *loaded = trax_loaded_of(order->machine);
+  const struct trax_symbol *symbol = loaded ? trax_image_symbol_at(loaded->image, load->address) : NULL;
   const uint32_t reader = load->tm * order->tps + load->tp, writer = thread_of(order->store);
   fprintf(out, "trax-sim: order: a load may return an old value\n");
   fprintf(out, "  %-*sload of %u byte%s from 0x%08x", TRAX_LABEL, "access", order->bytes, order->bytes == 1 ? "" : "s",

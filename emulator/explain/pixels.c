@@ -1,6 +1,6 @@
 /* The cost of each item, by its place, for the picture of the page. */
-#include "explain/kinds.h"
 #include "explain/page.h"
+#include "explain/ray_kinds.h"
 
 #include <inttypes.h>
 #include <stdlib.h>

@@ -101,6 +101,12 @@ struct trax_explain {
 bool trax_window_has(const struct trax_explain_options *options, uint32_t tm, uint32_t tp, uint64_t begin,
                      uint64_t end);
 
+/* Adds a structure of 64-bit counters to another one; subtracts it if sign is -1. */
+static inline void trax_counters_add(void *sum, const void *terms, size_t bytes, int sign) {
+  for (size_t i = 0; i < bytes / sizeof(uint64_t); i++)
+    ((uint64_t *)sum)[i] += (uint64_t)sign * ((const uint64_t *)terms)[i];
+}
+
 /* Allocates an array of zeros. NULL, with *error set: out of memory. */
 void *trax_explain_array(size_t count, size_t size, trax_error *error);
 

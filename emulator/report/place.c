@@ -26,12 +26,12 @@ void trax_print_instruction(uint32_t word, uint32_t pc, FILE *out) {
   fprintf(out, "%08x  %s", word, text);
 }
 
-void trax_print_place(const struct trax_host *host, const char *label, uint32_t pc, FILE *out) {
-  if (!host)
+void trax_print_place(const struct trax_loaded *loaded, const char *label, uint32_t pc, FILE *out) {
+  if (!loaded)
     return;
-  const struct trax_symbol *symbol = trax_image_symbol_at(host->image, pc);
+  const struct trax_symbol *symbol = trax_image_symbol_at(loaded->image, pc);
   struct trax_source_line lines[INLINE_DEPTH];
-  size_t count = trax_image_lines(host->image, pc, lines, INLINE_DEPTH);
+  size_t count = trax_image_lines(loaded->image, pc, lines, INLINE_DEPTH);
   if (!symbol && !count)
     return;
   fprintf(out, "  %-*s", TRAX_LABEL, label);

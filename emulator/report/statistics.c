@@ -367,8 +367,8 @@ static void print_ending(const trax_machine *machine, FILE *out) {
 }
 
 void trax_stats_print(const trax_machine *machine, FILE *out) {
-  const struct trax_host *host = trax_host_of(machine);
-  fprintf(out, "program  %s\n", host ? trax_image_path(host->image) : "(none)");
+  const struct trax_loaded *loaded = trax_loaded_of(machine);
+  fprintf(out, "program  %s\n", loaded ? trax_image_path(loaded->image) : "(none)");
   fprintf(out, "chip     %ux%u at %u MHz, %.12g GB/s\n", machine->config.chip.tms, machine->config.chip.tps_per_tm,
           machine->config.chip.clock_mhz, trax_memory_gbps(&machine->config));
   print_ending(machine, out);
