@@ -53,7 +53,7 @@ int trax_beneath_open(int folder, const char *path, int flags) {
 
 /* --- writing --- */
 
-/* A place of a file: its folder, and its name there. */
+/* The place of a file: a folder, and the file's name in it. */
 struct place {
   int folder;
   const char *name;

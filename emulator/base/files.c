@@ -33,8 +33,7 @@ static char *joined(const char *folder, size_t length, const char *name) {
   return path;
 }
 
-/* Identifies a path that does not exist by its nearest existing folder and the rest of the path. False: out of memory.
- */
+/* Identifies a path that does not exist by its nearest existing folder and the rest of it. False: out of memory. */
 static bool find_folder(struct trax_file_use *use, const char *path) {
   char *folder = strdup(path), *rest = strdup(""), *target;
   for (unsigned links = 0; folder && rest;) {

@@ -238,7 +238,7 @@ trax_status trax_write_whole(const char *path, const void *bytes, size_t size, b
   struct stat existing;
   trax_output output;
   sigset_t before;
-  /* A pipe or device may keep the writer waiting, and leaves nothing to remove. */
+  /* Signals are held only for a regular file: a pipe or device may keep the writer waiting, and leaves nothing. */
   const bool is_replaced =
       trax_output_descriptor(path) < 0 && (stat(path, &existing) != 0 || S_ISREG(existing.st_mode));
   if (is_replaced)

@@ -64,13 +64,13 @@ void trax_allow_signals(const sigset_t *before) {
   sigprocmask(SIG_SETMASK, before, NULL);
 }
 
-pid_t trax_fork(int last) {
+pid_t trax_fork(int signal) {
   sigset_t before;
   trax_hold_signals(&before);
   const pid_t parent = getpid(), child = fork();
   if (child == 0) {
     trax_default_signals();
-    prctl(PR_SET_PDEATHSIG, last);
+    prctl(PR_SET_PDEATHSIG, signal);
     if (getppid() != parent)
       _exit(127);
   }
@@ -78,7 +78,7 @@ pid_t trax_fork(int last) {
   return child;
 }
 
-trax_status trax_wait_for_child(pid_t child, int last, const volatile int *interrupt, int *status) {
+trax_status trax_wait_for_child(pid_t child, int signal, const volatile int *interrupt, int *status) {
   const struct timespec pause = {.tv_nsec = 2000000};
   bool stopped = false;
   for (pid_t ended = 0; ended != child;) {
@@ -86,7 +86,7 @@ trax_status trax_wait_for_child(pid_t child, int last, const volatile int *inter
     if (ended < 0 && errno != EINTR)
       return TRAX_ERROR;
     if (ended != child && !stopped && interrupt && *interrupt)
-      stopped = kill(child, last) == 0;
+      stopped = kill(child, signal) == 0;
     else if (ended == 0)
       nanosleep(&pause, NULL);
   }

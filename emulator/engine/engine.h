@@ -48,13 +48,11 @@ struct trax_engine {
   void (*settle)(void *chip, uint64_t t);
 
   /* Between cycles. export_state writes all that the rest of the run depends on to the structures that `thread` and
-     `visit` access; import_state reads it from there before cycle t. NULL: the engine has no other form of its state.
-   */
+     `visit` access; import_state reads it from there before cycle t. NULL: the engine keeps its state in them. */
   void (*export_state)(void *chip);
   void (*import_state)(void *chip, uint64_t t);
   struct trax_thread (*thread)(void *chip, uint32_t thread);
-  /* Moves the thread to pc, which must be text, and discards the instruction that it has fetched. After export_state.
-   */
+  /* Moves the thread to pc, which must be text, and discards its fetched instruction. Called after export_state. */
   void (*set_pc)(void *chip, uint32_t thread, uint32_t pc);
 
   /* Returns the cycle after the latest trap or halt of any thread that the engine remembers. */

@@ -94,7 +94,7 @@ bool trax_window_has(const struct trax_explain_options *options, uint32_t tm, ui
 
 /* --- creation and end --- */
 
-static const struct trax_reader_kind *const kinds[] = {
+static const struct trax_reader_kind *const reader_kinds[] = {
 #define ROW(ID) &trax_##ID##_reader,
     TRAX_READERS(ROW)
 #undef ROW
@@ -115,7 +115,7 @@ static bool is_wanted(const struct trax_explain_options *options, const struct t
 bool trax_explain_wanted(const struct trax_explain_options *options) {
   bool wanted = false;
   for (unsigned i = 0; i < TRAX_READER_KINDS; i++)
-    wanted |= is_wanted(options, kinds[i]);
+    wanted |= is_wanted(options, reader_kinds[i]);
   return wanted;
 }
 
@@ -150,7 +150,7 @@ static trax_status create(struct trax_explain *explain, trax_error *error) {
     explain->open_spans[i].pc = explain->open_spans[i].previous_pc =
         trax_machine_entry_of(explain->machine, (uint32_t)i);
   for (unsigned i = 0; i < TRAX_READER_KINDS; i++)
-    if (is_wanted(&explain->options, kinds[i]) && open_reader(explain, kinds[i], error) != TRAX_OK)
+    if (is_wanted(&explain->options, reader_kinds[i]) && open_reader(explain, reader_kinds[i], error) != TRAX_OK)
       return TRAX_ERROR;
   return TRAX_OK;
 }

@@ -1,5 +1,6 @@
 /* Memory heat: accesses by object, and by 64 bytes of global memory. */
 #include "explain/page.h"
+#include "trax/grow.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -28,7 +29,7 @@ struct object {
 struct heat {
   struct trax_reader reader;
   struct object *objects; /* by address, not overlapping */
-  size_t object_count;
+  size_t object_count, object_capacity;
   struct object *parts;             /* of the page */
   struct heat_counts *pages[PAGES]; /* each [LINES_PER_PAGE], or NULL */
 };
@@ -43,39 +44,41 @@ static int by_address(const void *a, const void *b) {
 }
 
 static void add_object(struct heat *heat, const char *name, uint64_t begin, uint64_t end) {
-  if (end > begin)
+  if (end <= begin)
+    return;
+  if (trax_grow((void **)&heat->objects, heat->object_count, &heat->object_capacity, sizeof *heat->objects))
     heat->objects[heat->object_count++] = (struct object){.name = name, .begin = begin, .end = end};
+  else
+    heat->reader.explain->out_of_memory = true;
 }
 
 /* Lists symbols, bound buffers, heap and stacks. Of overlapping objects, the first keeps the bytes. */
 static trax_status list_objects(struct heat *heat, trax_error *error) {
   const struct trax_machine *machine = heat->reader.explain->machine;
-  const struct trax_host *host = trax_host_of(machine);
+  const struct trax_loaded *loaded = trax_loaded_of(machine);
   size_t symbol_count = 0;
-  const struct trax_symbol *symbols = host ? trax_image_symbols(host->image, &symbol_count) : NULL;
-  heat->objects = trax_explain_array(symbol_count + (host ? host->buffer_count : 0) + 4, sizeof *heat->objects, error);
-  if (!heat->objects)
-    return TRAX_ERROR;
+  const struct trax_symbol *symbols = loaded ? trax_image_symbols(loaded->image, &symbol_count) : NULL;
   for (size_t i = 0; i < symbol_count; i++)
     if (!symbols[i].absolute && symbols[i].bytes &&
         (symbols[i].type == TRAX_SYMBOL_OBJECT || symbols[i].type == TRAX_SYMBOL_FUNCTION))
       add_object(heat, symbols[i].name, symbols[i].address, (uint64_t)symbols[i].address + symbols[i].bytes);
-  if (host) {
-    for (size_t i = 0; i < host->buffer_count; i++)
-      add_object(heat, host->buffers[i].symbol, host->buffers[i].address,
-                 (uint64_t)host->buffers[i].address + host->buffers[i].bytes);
-    add_object(heat, "(heap)", host->free_address, host->memory_end);
-    add_object(heat, "(stacks)", host->memory_end, machine->space.size);
+  if (loaded) {
+    for (size_t i = 0; i < loaded->buffer_count; i++)
+      add_object(heat, loaded->buffers[i].symbol, loaded->buffers[i].address,
+                 (uint64_t)loaded->buffers[i].address + loaded->buffers[i].bytes);
+    add_object(heat, "(heap)", loaded->free_address, loaded->memory_end);
+    add_object(heat, "(stacks)", loaded->memory_end, machine->space.size);
   }
   add_object(heat, "(local memory)", TRAX_LOCAL_BASE, (uint64_t)1 << 32);
-  qsort(heat->objects, heat->object_count, sizeof *heat->objects, by_address);
+  if (heat->object_count) /* qsort's array is not to be NULL */
+    qsort(heat->objects, heat->object_count, sizeof *heat->objects, by_address);
   size_t kept = 0;
   for (size_t i = 0; i < heat->object_count; i++)
     if (!kept || heat->objects[i].begin >= heat->objects[kept - 1].end)
       heat->objects[kept++] = heat->objects[i];
   heat->object_count = kept;
   add_object(heat, "(other)", 0, 1); /* the last object counts for all other addresses */
-  return TRAX_OK;
+  return heat->reader.explain->out_of_memory ? trax_fail(error, "out of memory for the objects of the heat") : TRAX_OK;
 }
 
 static trax_status list_parts(struct heat *heat, trax_error *error) {

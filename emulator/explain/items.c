@@ -1,6 +1,6 @@
 /* The cost of each item, and the place of its result. */
-#include "explain/kinds.h"
 #include "explain/page.h"
+#include "explain/ray_kinds.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -93,17 +93,17 @@ void trax_explain_items(struct trax_explain *explain,
 /* Finds the buffer to which the items store. */
 static trax_status find_buffer(struct items *items, trax_error *error) {
   const struct trax_explain_options *options = &items->reader.explain->options;
-  const struct trax_host *host = trax_host_of(items->reader.explain->machine);
+  const struct trax_loaded *loaded = trax_loaded_of(items->reader.explain->machine);
   if (!options->item_buffer)
     return TRAX_OK;
-  for (size_t i = 0; host && i < host->buffer_count; i++)
-    if (strcmp(host->buffers[i].symbol, options->item_buffer) == 0) {
-      items->buffer_begin = host->buffers[i].address;
-      items->buffer_bytes = host->buffers[i].bytes;
+  for (size_t i = 0; loaded && i < loaded->buffer_count; i++)
+    if (strcmp(loaded->buffers[i].symbol, options->item_buffer) == 0) {
+      items->buffer_begin = loaded->buffers[i].address;
+      items->buffer_bytes = loaded->buffers[i].bytes;
       if (options->explore &&
-          !(items->reader.explain->pixels = trax_pixels_create(host->buffers[i].bytes / options->item_bytes)))
+          !(items->reader.explain->pixels = trax_pixels_create(loaded->buffers[i].bytes / options->item_bytes)))
         return trax_fail(error, "out of memory for the cost of %u pixels",
-                         host->buffers[i].bytes / options->item_bytes);
+                         loaded->buffers[i].bytes / options->item_bytes);
       return TRAX_OK;
     }
   return trax_fail(error, "no buffer %s is bound, to which items store", options->item_buffer);

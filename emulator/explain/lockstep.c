@@ -15,7 +15,7 @@
    is lost to an item that has no such ray. A ray's instructions are those from the trap that counts it to the next trap
    that counts rays or items: its traversal and the shading of its hit. The share of lanes that are active in an issue
    slot is the SIMD efficiency of Aila and Laine, "Understanding the Efficiency of Ray Traversal on GPUs" (HPG 2009). */
-#include "explain/kinds.h"
+#include "explain/ray_kinds.h"
 #include "explain/span.h"
 #include "trax/grow.h"
 

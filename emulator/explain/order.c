@@ -5,14 +5,14 @@
    holds: both threads are in one TM; the loading thread has executed `fence r` since that fence; or no thread of its TM
    had loaded the line before that fence. */
 #include "explain/span.h"
-#include "report/backtrace.h"
+#include "report/place.h"
 #include "trax/grow.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { PAGE_SHIFT = 12, PAGE = 1 << PAGE_SHIFT, THREAD_BITS = 12, LABEL = 12 };
+enum { PAGE_SHIFT = 12, PAGE = 1 << PAGE_SHIFT, THREAD_BITS = 12 };
 
 _Static_assert(TRAX_MAX_TMS *TRAX_MAX_TPS_PER_TM <= 1 << THREAD_BITS, "a moment holds any thread");
 
@@ -151,46 +151,44 @@ static void add_span(void *self, const struct trax_span *span) {
 /* --- the report --- */
 
 static void print_who(const struct order *order, const char *label, uint32_t thread, uint64_t cycle, FILE *out) {
-  fprintf(out, "  %-*s%u (TM %u, TP %u), cycle %" PRIu64 "\n", LABEL, label, thread, thread / order->tps,
+  fprintf(out, "  %-*s%u (TM %u, TP %u), cycle %" PRIu64 "\n", TRAX_LABEL, label, thread, thread / order->tps,
           thread % order->tps, cycle);
 }
 
 static void print_instruction(const struct order *order, const char *label, uint32_t pc, FILE *out) {
-  char text[128];
   uint32_t word;
   memcpy(&word, order->machine->space.bytes + pc, sizeof word);
-  trax_disassemble(word, pc, text, sizeof text);
-  for (char *c = text; *c; ++c)
-    if (*c == '\t')
-      *c = ' ';
-  fprintf(out, "  %-*s0x%08x  %08x  %s\n", LABEL, label, pc, word, text);
-  trax_print_place(trax_host_of(order->machine), "in", pc, out);
+  fprintf(out, "  %-*s0x%08x  ", TRAX_LABEL, label, pc);
+  trax_print_instruction(word, pc, out);
+  fputc('\n', out);
+  trax_print_place(trax_loaded_of(order->machine), "in", pc, out);
 }
 
 static void print(const struct order *order, FILE *out) {
   const struct trax_issue *load = &order->load;
-  const struct trax_host *host = trax_host_of(order->machine);
-  const struct trax_symbol *symbol = host ? trax_image_symbol_at(host->image, load->address) : NULL;
+  const struct trax_loaded *loaded = trax_loaded_of(order->machine);
+  const struct trax_symbol *symbol = loaded ? trax_image_symbol_at(loaded->image, load->address) : NULL;
   const uint32_t reader = load->tm * order->tps + load->tp, writer = thread_of(order->store);
   fprintf(out, "trax-sim: order: a load may return an old value\n");
-  fprintf(out, "  %-*sload of %u byte%s from 0x%08x", LABEL, "access", order->bytes, order->bytes == 1 ? "" : "s",
+  fprintf(out, "  %-*sload of %u byte%s from 0x%08x", TRAX_LABEL, "access", order->bytes, order->bytes == 1 ? "" : "s",
           load->address);
-  if (symbol && load->address == symbol->address)
-    fprintf(out, " (%s)", symbol->name);
-  else if (symbol)
-    fprintf(out, " (%s+0x%x)", symbol->name, load->address - symbol->address);
-  fprintf(out, "\n");
+  if (symbol) {
+    fprintf(out, " (");
+    trax_print_symbol(symbol, load->address, out);
+    fputc(')', out);
+  }
+  fputc('\n', out);
   print_instruction(order, "at", load->pc, out);
   print_who(order, "thread", reader, load->cycle, out);
   print_instruction(order, "stored at", order->store_pc, out);
   print_who(order, "by thread", writer, cycle_of(order->store), out);
   if (order->release == NOT_YET)
-    fprintf(out, "  %-*sa `fence w` of thread %u after its store\n", LABEL, "missing", writer);
+    fprintf(out, "  %-*sa `fence w` of thread %u after its store\n", TRAX_LABEL, "missing", writer);
   else
     fprintf(out,
             "  %-*sa `fence r` of thread %u since thread %u's `fence w` in cycle %" PRIu64
             "; TM %u may hold the line since cycle %" PRIu64 "\n",
-            LABEL, "missing", reader, writer, cycle_of(order->release), load->tm, cycle_of(order->held));
+            TRAX_LABEL, "missing", reader, writer, cycle_of(order->release), load->tm, cycle_of(order->held));
 }
 
 static trax_status end_order(void *self, trax_error *error) {

@@ -112,7 +112,7 @@ static trax_status put_members(struct trax_explain *explain, FILE *out, trax_err
   return status;
 }
 
-/* The last reader's, so that the others have finished. */
+/* The page's reader is the last of TRAX_READERS, so the others have finished. */
 static trax_status put_page(void *self, FILE *out, trax_error *error) {
   struct trax_explain *explain = ((struct trax_reader *)self)->explain;
   char *texts[2] = {NULL, NULL};

@@ -1,6 +1,6 @@
 /* The cost of each item, by its place, for the picture of the page. */
-#include "explain/kinds.h"
 #include "explain/page.h"
+#include "explain/ray_kinds.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -11,8 +11,7 @@ enum { THREAD, BEGIN, MORE, CAUSES, RAYS = CAUSES + TRAX_CAUSE_COUNT, COLUMNS = 
 struct trax_pixels {
   size_t places;
   uint64_t *columns;                    /* [COLUMNS][places]; thread: its number + 1, and 0 where no item was */
-  uint64_t
-      elsewhere[TRAX_CAUSE_COUNT]; /* thread-cycles of no place: after a thread's last item, of items without one */
+  uint64_t elsewhere[TRAX_CAUSE_COUNT]; /* thread-cycles after a thread's last item, and of items without a place */
   bool any[COLUMNS];                    /* whether the column has another number than 0 */
 };
 
@@ -79,11 +78,6 @@ static void put_name(FILE *members, const char *group, const char *name, const c
 }
 
 static void put_name_of(FILE *members, unsigned column) {
-  static const char *const cause_meanings[] = {
-#define MEANING(ID, NAME, HEAD, MEANING) MEANING,
-      TRAX_CAUSES(MEANING)
-#undef MEANING
-  };
   static const char *const kind_meanings[] = {
 #define MEANING(X, ID, NAME, NUMBER, MEANING) [NUMBER] = MEANING,
       TRAX_RAY_KINDS(MEANING, )
@@ -96,7 +90,8 @@ static void put_name_of(FILE *members, unsigned column) {
   else if (column == MORE)
     put_name(members, "", "more", "items", "items that ended here before; thread and begin are those of the last");
   else if (column < RAYS)
-    put_name(members, "causes", trax_cause_names[column - CAUSES], "thread-cycles", cause_meanings[column - CAUSES]);
+    put_name(members, "causes", trax_cause_names[column - CAUSES], "thread-cycles",
+             trax_cause_meanings[column - CAUSES]);
   else
     put_name(members, "rays", trax_ray_kind_names[column - RAYS], "rays", kind_meanings[column - RAYS]);
 }

@@ -122,7 +122,7 @@ static uint32_t function_name(struct trax_places *places, uint32_t pc, const str
 }
 
 static void look_up(struct trax_places *places, uint32_t index, struct trax_place *place) {
-  const struct trax_host *host = trax_host_of(places->machine);
+  const struct trax_loaded *loaded = trax_loaded_of(places->machine);
   struct trax_source_line lines[MAX_FRAMES];
   struct trax_frame_place *frames;
   size_t count = 0;
@@ -135,13 +135,13 @@ static void look_up(struct trax_places *places, uint32_t index, struct trax_plac
     return;
   }
   const uint32_t pc = trax_places_pc(places, index);
-  const struct trax_symbol *symbol = host ? trax_image_symbol_at(host->image, pc) : NULL;
+  const struct trax_symbol *symbol = loaded ? trax_image_symbol_at(loaded->image, pc) : NULL;
   if (symbol) {
     place->symbol = symbol->name;
     place->offset = pc - symbol->address;
   }
-  if (host)
-    count = trax_image_lines(host->image, pc, lines, MAX_FRAMES);
+  if (loaded)
+    count = trax_image_lines(loaded->image, pc, lines, MAX_FRAMES);
   if (!(frames = calloc(count ? count : 1, sizeof *frames)))
     return;
   for (size_t i = 0; i < count; i++)

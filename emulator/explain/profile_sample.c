@@ -5,8 +5,8 @@
       LINE.DISCRIMINATOR: INLINED:TOTAL
        LINE: COUNT
 
-   Lines are relative to the first one of their function. A line's count is that of its instruction that was
-   executed most often. */
+   Lines are relative to the first one of their function. A line's count is the largest count
+   of its instructions. */
 #include "explain/profile.h"
 #include "program/program.h"
 #include "trax/grow.h"
@@ -146,18 +146,18 @@ static void put_body(FILE *out, const struct node *function, int depth) {
 trax_status trax_profile_put_sample(void *self, FILE *out, trax_error *error) {
   const struct trax_profile *profile = self;
   enum { MAX_FRAMES = 64 };
-  const struct trax_host *host = trax_host_of(profile->reader.explain->machine);
+  const struct trax_loaded *loaded = trax_loaded_of(profile->reader.explain->machine);
   struct trax_places *places = profile->reader.explain->places;
   const uint32_t count = trax_places_count(places);
   uint64_t *executions = calloc((size_t)count + 2, sizeof *executions);
   struct tree tree = {.out_of_memory = !executions};
   for (size_t i = 0; executions && i < profile->record_count; i++)
     executions[profile->records[i].index] += profile->records[i].counts.cycles[TRAX_CAUSE_ISSUED];
-  for (uint32_t i = 0; executions && host && i < count; i++)
+  for (uint32_t i = 0; executions && loaded && i < count; i++)
     if (executions[i]) {
       struct trax_source_line lines[MAX_FRAMES];
       const struct trax_place *place = trax_places_at(places, i);
-      const size_t frames = trax_image_lines(host->image, trax_places_pc(places, i), lines, MAX_FRAMES);
+      const size_t frames = trax_image_lines(loaded->image, trax_places_pc(places, i), lines, MAX_FRAMES);
       add(&tree, lines, frames, executions[i], place->symbol && place->offset == 0);
     }
   free(executions);

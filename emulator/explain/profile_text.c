@@ -127,7 +127,7 @@ trax_status trax_profile_put(void *self, FILE *out, trax_error *error) {
   const struct trax_profile *profile = self;
   struct trax_places *places = profile->reader.explain->places;
   const trax_machine *machine = profile->reader.explain->machine;
-  const struct trax_host *host = trax_host_of(machine);
+  const struct trax_loaded *loaded = trax_loaded_of(machine);
   look_up_all(profile);
   struct tables tables = {.profile = profile, .names = trax_places_names(places)};
   tables.functions = calloc(tables.names + 1, sizeof *tables.functions);
@@ -144,8 +144,9 @@ trax_status trax_profile_put(void *self, FILE *out, trax_error *error) {
         "to the branch. own: of the function or line itself; all: of what it calls, too, and of what is inlined\n"
         "into it. load-h%%: loads through the data cache that hit. Causes are per cent of the row's own cycles; -c\n"
         "is a conflict at the shared unit. What never occurs has no column.\n",
-        host ? trax_image_path(host->image) : "a program", machine->config.chip.tms, machine->config.chip.tps_per_tm,
-        machine->stats.cycles, machine->stats.threads * machine->stats.cycles, machine->stats.instructions);
+        loaded ? trax_image_path(loaded->image) : "a program", machine->config.chip.tms,
+        machine->config.chip.tps_per_tm, machine->stats.cycles, machine->stats.threads * machine->stats.cycles,
+        machine->stats.instructions);
     print_table(&tables, out, tables.functions, "Functions");
     print_table(&tables, out, tables.lines, "Lines");
   }
@@ -189,8 +190,7 @@ static void put_frame(FILE *out, const char *name) {
   fputc(';', out);
 }
 
-/* Returns the number of a text: `before`, the functions of a place, and its line if that is wanted; 0: out of memory.
- */
+/* Returns the number of a text: `before`, the functions of a place and, with_line, its line; 0: out of memory. */
 static uint32_t text_of(struct folded *folded, const char *before, uint32_t index, bool with_line) {
   struct trax_places *places = folded->profile->reader.explain->places;
   const struct trax_place *place = trax_places_at(places, index);

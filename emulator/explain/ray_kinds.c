@@ -1,8 +1,8 @@
 /* The cost of the rays of each kind: the thread-cycles, instructions and requests of the threads while they work for a
-   ray of that kind (explain/kinds.h). The rows add up to the run's statistics. The row `none` has the work for no ray,
-   the row `rest` what belongs to no instruction: lines of the instruction cache, and transfers of stores, which are
-   combined. */
-#include "explain/kinds.h"
+   ray of that kind (explain/ray_kinds.h). The rows add up to the run's statistics. The row `none` has the work for no
+   ray, the row `rest` what belongs to no instruction: lines of the instruction cache, and transfers of stores, which
+   are combined. */
+#include "explain/ray_kinds.h"
 #include "explain/page.h"
 #include "report/energy.h"
 
@@ -80,7 +80,7 @@ static void count_instruction(struct trax_tm_stats *to, const struct trax_config
     count_load(to, config, span, info->flags);
 }
 
-static void add_step(void *self, const struct trax_span *span) {
+static void add_span(void *self, const struct trax_span *span) {
   struct ray_kinds *rays = self;
   uint8_t *working = &rays->working[span->thread];
   for (size_t i = 0; i < span->count; i++)
@@ -144,13 +144,6 @@ static void write_row(const struct ray_kinds *rays, FILE *out, const char *name,
   fputc('\n', out);
 }
 
-/* Subtracts counters, of which the structure consists. */
-static void subtract(struct trax_tm_stats *from, const struct trax_tm_stats *stats) {
-  uint64_t *to = (uint64_t *)from;
-  for (size_t i = 0; i < sizeof *from / sizeof *to; i++)
-    to[i] -= ((const uint64_t *)stats)[i];
-}
-
 static trax_status put_table(void *self, FILE *out, trax_error *error) {
   const struct ray_kinds *rays = self;
   (void)error;
@@ -166,7 +159,7 @@ static trax_status put_table(void *self, FILE *out, trax_error *error) {
     struct trax_stats row = {.total = rays->kinds[kind]};
     trax_stats_derive(&row.total, config);
     const double joules = trax_energy_of(&row, config).total;
-    subtract(&rest, &row.total);
+    trax_counters_add(&rest, &row.total, sizeof rest, -1);
     rest_energy -= joules;
     write_row(rays, out, kind == TRAX_NO_RAY ? "none" : trax_ray_kind_names[kind], &row.total,
               kind == TRAX_NO_RAY ? 0 : counted[kind], joules);
@@ -194,5 +187,5 @@ const struct trax_reader_kind trax_ray_kinds_reader = {
     .files = {{.path = TRAX_EXPLAIN_PATH(ray_kinds), .put = put_table, .member = "ray_kinds"}},
     .in_page = true,
     .open = open_ray_kinds,
-    .span = add_step,
+    .span = add_span,
     .close = close_ray_kinds};

@@ -62,21 +62,13 @@ static void put_head(FILE *out) {
   fprintf(out, ",memory.queue\n");
 }
 
-/* Adds structures of 64-bit counters; subtracts them with sign -1. */
-static void add(void *sum, const void *stats, size_t bytes, int sign) {
-  uint64_t *to = sum;
-  const uint64_t *terms = stats;
-  for (size_t i = 0; i < bytes / sizeof *to; i++)
-    to[i] += sign < 0 ? -terms[i] : terms[i];
-}
-
 /* The rows of an interval: the chip, then its TMs. */
 static void put_interval(const struct series *series, const struct interval *interval, FILE *out) {
   const uint32_t tms = series->reader.explain->machine->config.chip.tms;
   struct trax_tm_stats total = {0};
   uint32_t queued = 0;
   for (uint32_t tm = 0; tm < tms; tm++) {
-    add(&total, &interval->tms[tm], sizeof total, 1);
+    trax_counters_add(&total, &interval->tms[tm], sizeof total, 1);
     queued += interval->queued[tm];
   }
   put_row(out, interval, "all", &total, &interval->memory, queued);
@@ -109,12 +101,12 @@ static void end_interval(struct series *series, struct interval *interval, const
     if (run) /* after the run, the derived counters are complete */
       trax_stats_derive(&counted, &machine->config);
     interval->tms[tm] = counted;
-    add(&interval->tms[tm], &series->previous[tm], sizeof counted, -1);
+    trax_counters_add(&interval->tms[tm], &series->previous[tm], sizeof counted, -1);
     series->previous[tm] = counted;
     interval->queued[tm] = run ? trax_run_queued(run, tm, end) : 0;
   }
   interval->memory = machine->stats.memory;
-  add(&interval->memory, &series->previous_memory, sizeof interval->memory, -1);
+  trax_counters_add(&interval->memory, &series->previous_memory, sizeof interval->memory, -1);
   series->previous_memory = machine->stats.memory;
   series->begin = end;
 }
@@ -125,10 +117,10 @@ static void join_pairs(struct series *series) {
   for (size_t i = 0; i < PAGE_INTERVALS / 2; i++) {
     struct interval *first = &series->intervals[2 * i], *second = first + 1;
     for (uint32_t tm = 0; tm < tms; tm++) {
-      add(&first->tms[tm], &second->tms[tm], sizeof *first->tms, 1);
+      trax_counters_add(&first->tms[tm], &second->tms[tm], sizeof *first->tms, 1);
       first->queued[tm] = second->queued[tm];
     }
-    add(&first->memory, &second->memory, sizeof first->memory, 1);
+    trax_counters_add(&first->memory, &second->memory, sizeof first->memory, 1);
     first->end = second->end;
     const struct interval joined = *first;
     *first = series->intervals[i]; /* so that no array is lost */

@@ -108,13 +108,13 @@ static char *unless_shared(char *folder) {
 
 static bool find_folders(struct sources *sources) {
   const struct trax_explain_options *options = &sources->explain->options;
-  const struct trax_host *host = trax_host_of(sources->explain->machine);
+  const struct trax_loaded *loaded = trax_loaded_of(sources->explain->machine);
   const char *const *compiled = NULL;
-  const size_t count = host ? trax_image_folders(host->image, &compiled) : 0;
+  const size_t count = loaded ? trax_image_folders(loaded->image, &compiled) : 0;
   for (unsigned i = 0; i < options->source_folder_count; i++)
     sources->given[i] = realpath(options->source_folders[i], NULL);
   sources->given[INSTALLED] = installed_folder();
-  sources->own[0] = unless_shared(host ? folder_of(trax_image_path(host->image)) : NULL);
+  sources->own[0] = unless_shared(loaded ? folder_of(trax_image_path(loaded->image)) : NULL);
   sources->own[1] = unless_shared(realpath(".", NULL));
   if (!(sources->compiled = calloc(count + 1, sizeof *sources->compiled)))
     return false;

@@ -30,17 +30,17 @@ struct trax_span {
 
 enum { TRAX_READER_FILES = 3 };
 
-/* A reader: what all of its kind have in common. Its object begins with a struct trax_reader. */
+/* A kind of reader. Its object begins with a struct trax_reader. Functions may be NULL. */
 struct trax_reader_kind {
   size_t bytes; /* of the object, which is zero before open() */
   struct trax_reader_file {
-    size_t path; /* TRAX_EXPLAIN_PATH: in the options; 0: the text is for the page alone */
-    /* Writes the text, after the run. Without it the file is open from the beginning, for what is written meanwhile. */
+    size_t path; /* of the options, by TRAX_EXPLAIN_PATH; 0: the text is for the page alone */
+    /* Writes the text after the run. NULL: the file is open during the run, for the reader to write to. */
     trax_status (*put)(void *self, FILE *out, trax_error *error);
-    const char *member; /* of the page, with the same text; NULL: none */
+    const char *member; /* the member of the page that has the same text; NULL: none */
   } files[TRAX_READER_FILES];
   bool in_page;                                                  /* the page needs the reader */
-  bool (*is_wanted)(const struct trax_explain_options *options); /* also, if no file is; may be NULL */
+  bool (*is_wanted)(const struct trax_explain_options *options); /* whether other options need it */
   trax_status (*open)(void *self, trax_error *error);
   void (*span)(void *self, const struct trax_span *span);
   /* Called in the order of (cycle, TM), before the spans that end with issues of the same cycle and TM. */
@@ -48,14 +48,14 @@ struct trax_reader_kind {
   trax_status (*end)(void *self, trax_error *error); /* called after the last span, before the files are written */
   /* Writes further members of the page's data (explain/page.h). */
   trax_status (*put_members)(void *self, FILE *out, trax_error *error);
-  void (*close)(void *self); /* also of an object that open() has left unfinished */
+  void (*close)(void *self); /* also called if open() has failed */
 };
 #define TRAX_EXPLAIN_PATH(MEMBER) (offsetof(struct trax_explain_options, MEMBER) + 1)
 
 struct trax_reader {
   const struct trax_reader_kind *kind;
   struct trax_explain *explain;
-  FILE *out; /* of the only file, if it is written during the run */
+  FILE *out; /* the file that is written during the run; NULL: none */
   trax_output output;
 };
 
@@ -100,6 +100,12 @@ struct trax_explain {
 /* Whether the window contains a part of the TP's cycles begin <= t < end. */
 bool trax_window_has(const struct trax_explain_options *options, uint32_t tm, uint32_t tp, uint64_t begin,
                      uint64_t end);
+
+/* Adds a structure of 64-bit counters to another one; subtracts it if sign is -1. */
+static inline void trax_counters_add(void *sum, const void *terms, size_t bytes, int sign) {
+  for (size_t i = 0; i < bytes / sizeof(uint64_t); i++)
+    ((uint64_t *)sum)[i] += (uint64_t)sign * ((const uint64_t *)terms)[i];
+}
 
 /* Allocates an array of zeros. NULL, with *error set: out of memory. */
 void *trax_explain_array(size_t count, size_t size, trax_error *error);

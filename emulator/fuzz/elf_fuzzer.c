@@ -77,7 +77,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
     abort();
   trax_machine *machine = trax_machine_create(config, &error);
   if (machine && current && trax_machine_load_elf(machine, "program.elf", &error) == TRAX_OK) {
-    sum += look_up_symbols(trax_host_of(machine)->image);
+    sum += look_up_symbols(trax_loaded_of(machine)->image);
     if (trax_gdb_write_symbols(machine, "/dev/null", &error) == TRAX_ERROR && !error.message[0])
       abort();
     if (strstr(fuzz_case.options, "main-on-0") && trax_machine_main_on_thread_0(machine, &error) == TRAX_ERROR &&

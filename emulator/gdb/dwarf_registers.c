@@ -277,25 +277,34 @@ static void common_information(struct cursor *cursor) {
   renumber(cursor); /* the return address's register; one byte in every version */
 }
 
-bool trax_dwarf_renumber_frames(uint8_t *bytes, size_t size, trax_register_map map) {
+static void frame_head(struct cursor *cursor) {
+  if (fixed(cursor, 4) == DW_CIE_ID_32)
+    common_information(cursor);
+  else
+    skip(cursor, 2 * ADDRESS);
+}
+
+/* Renumbers a section of parts that begin with their length: a head, and items up to the end. A part of length 0 is a
+   terminator or padding. */
+static bool renumber_parts(uint8_t *bytes, size_t size, trax_register_map map, void (*head)(struct cursor *cursor),
+                           void (*item)(struct cursor *cursor)) {
   struct cursor cursor = {.in = {bytes, bytes + size, false}, .map = map};
   while (cursor.in.at < cursor.in.end && !cursor.in.bad) {
     const uint64_t length = fixed(&cursor, 4);
     const uint8_t *at = skip(&cursor, length);
-    if (!at)
-      break;
-    if (length == 0) /* a terminator: the end of an object's entries, or padding */
+    if (!at || length == 0)
       continue;
-    struct cursor entry = {.in = {at, at + length, false}, .map = map};
-    if (fixed(&entry, 4) == DW_CIE_ID_32)
-      common_information(&entry);
-    else
-      skip(&entry, 2 * ADDRESS);
-    while (entry.in.at < entry.in.end && !entry.in.bad)
-      frame_instruction(&entry);
-    cursor.in.bad |= entry.in.bad;
+    struct cursor part = {.in = {at, at + length, false}, .map = map};
+    head(&part);
+    while (part.in.at < part.in.end && !part.in.bad)
+      item(&part);
+    cursor.in.bad |= part.in.bad;
   }
   return !cursor.in.bad;
+}
+
+bool trax_dwarf_renumber_frames(uint8_t *bytes, size_t size, trax_register_map map) {
+  return renumber_parts(bytes, size, map, frame_head, frame_instruction);
 }
 
 /* --- location lists --- */
@@ -342,19 +351,11 @@ static void list_entry(struct cursor *cursor) {
   expression(cursor, leb(cursor));
 }
 
+static void list_head(struct cursor *cursor) {
+  skip(cursor, 4); /* version, sizes */
+  skip(cursor, fixed(cursor, 4) * OFFSET);
+}
+
 bool trax_dwarf_renumber_lists(uint8_t *bytes, size_t size, trax_register_map map) {
-  struct cursor cursor = {.in = {bytes, bytes + size, false}, .map = map};
-  while (cursor.in.at < cursor.in.end && !cursor.in.bad) {
-    const uint64_t length = fixed(&cursor, 4);
-    const uint8_t *at = skip(&cursor, length);
-    if (!at)
-      break;
-    struct cursor unit = {.in = {at, at + length, false}, .map = map};
-    skip(&unit, 4); /* version, sizes */
-    skip(&unit, fixed(&unit, 4) * OFFSET);
-    while (unit.in.at < unit.in.end && !unit.in.bad)
-      list_entry(&unit);
-    cursor.in.bad |= unit.in.bad;
-  }
-  return !cursor.in.bad;
+  return renumber_parts(bytes, size, map, list_head, list_entry);
 }

@@ -1,8 +1,9 @@
 /* The commands of GDB's `monitor`. */
 #define _POSIX_C_SOURCE 200809L /* open_memstream */
 #include "gdb/stub.h"
-#include "report/backtrace.h"
 #include "program/program.h"
+#include "report/backtrace.h"
+#include "report/place.h"
 #include "report/statistics.h"
 #include "trax/isa.h"
 
@@ -48,14 +49,12 @@ static bool print_instructions(struct trax_gdb *gdb, const char *arguments, FILE
   for (uint32_t pc = (uint32_t)address, i = 0; i < count; i++, pc += 4) {
     uint8_t *bytes;
     uint32_t word;
-    char text[128];
     if (trax_gdb_memory(gdb, gdb->selected, pc, sizeof word, &bytes) < sizeof word)
       break;
     memcpy(&word, bytes, sizeof word);
-    trax_disassemble(word, pc, text, sizeof text);
-    for (char *c = text; *c; c++)
-      *c = *c == '\t' ? ' ' : *c;
-    fprintf(out, "%s 0x%08x  %08x  %s\n", pc == trax_gdb_pc(gdb, gdb->selected) ? "=>" : "  ", pc, word, text);
+    fprintf(out, "%s 0x%08x  ", pc == trax_gdb_pc(gdb, gdb->selected) ? "=>" : "  ", pc);
+    trax_print_instruction(word, pc, out);
+    fputc('\n', out);
   }
   return true;
 }

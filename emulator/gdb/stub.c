@@ -23,8 +23,8 @@ static void on_issue(void *context, const struct trax_issue *issue) {
   if (gdb->phase != GDB_RUNNING)
     return;
   state->reported = state->skip_breaks != 0;
-  if (state->stepping && gdb->catch_up)
-    gdb->catch_up--;
+  if (state->stepping && gdb->pretence.catch_up)
+    gdb->pretence.catch_up--;
   else if (state->stepping && issue->next_pc - gdb->range_begin >= gdb->range_end - gdb->range_begin)
     state->events |= TRAX_GDB_STEPPED;
   gdb->step_ended |= state->stepping && trax_text_at(&gdb->run->text, issue->pc)->resource == TRAX_RESOURCE_END;
@@ -75,8 +75,8 @@ static void describe_stop(struct trax_gdb *gdb, uint32_t thread, enum trax_gdb_s
 
 static void stop(struct trax_gdb *gdb, uint32_t thread, enum trax_gdb_signal signal, unsigned event) {
   gdb->phase = GDB_STOPPED;
-  gdb->pretended = gdb->catch_up = 0;
-  gdb->step_first = false;
+  gdb->pretence.steps = gdb->pretence.catch_up = 0;
+  gdb->pretence.step_first = false;
   gdb->selected = gdb->continued = gdb->stopped = thread;
   gdb->thread[thread].reported = true;
   gdb->thread[thread].events &= (uint8_t)~event;
@@ -117,13 +117,13 @@ static bool any_event(struct trax_gdb *gdb) {
    MOST_PRETENDED times: after that the thread must really step first. */
 static bool pretend_step(struct trax_gdb *gdb) {
   uint32_t thread;
-  if (!gdb->named_only || gdb->step_first || !find_stepping(gdb, &thread) || !trax_gdb_is_alive(gdb, thread) ||
+  if (!gdb->named_only || gdb->pretence.step_first || !find_stepping(gdb, &thread) || !trax_gdb_is_alive(gdb, thread) ||
       (gdb->thread[thread].events & TRAX_GDB_STEPPED) || !any_event(gdb))
     return false;
-  const unsigned pretended = gdb->catch_up + 1;
+  const unsigned pretended = gdb->pretence.catch_up + 1;
   stop(gdb, thread, TRAX_GDB_SIGTRAP, 0);
-  gdb->pretended = pretended;
-  gdb->pretended_pc = trax_gdb_pc_after(gdb, thread, pretended);
+  gdb->pretence.steps = pretended;
+  gdb->pretence.pc = trax_gdb_pc_after(gdb, thread, pretended);
   if (gdb->thread[thread].skip_breaks < pretended)
     gdb->thread[thread].skip_breaks = (uint8_t)pretended;
   describe_stop(gdb, thread, TRAX_GDB_SIGTRAP, 0);
@@ -136,7 +136,7 @@ static void stop_for_event(struct trax_gdb *gdb) {
   static const unsigned order[] = {TRAX_GDB_STEPPED, TRAX_GDB_ACCESSED, TRAX_GDB_AT_BREAK};
   uint32_t thread;
   gdb->eventful = false;
-  if (pretend_step(gdb) || (gdb->step_first && !find_event(gdb, TRAX_GDB_STEPPED, &thread)))
+  if (pretend_step(gdb) || (gdb->pretence.step_first && !find_event(gdb, TRAX_GDB_STEPPED, &thread)))
     return;
   for (size_t i = 0; i < sizeof order / sizeof *order; i++)
     if (find_event(gdb, order[i], &thread)) {
@@ -187,9 +187,9 @@ static void review(struct trax_gdb *gdb, uint32_t thread) {
 
 void trax_gdb_resume(struct trax_gdb *gdb, bool named_only) {
   gdb->named_only = named_only;
-  gdb->catch_up = named_only && gdb->thread[gdb->stopped].stepping ? gdb->pretended : 0;
-  gdb->step_first = gdb->catch_up >= MOST_PRETENDED;
-  gdb->pretended = 0;
+  gdb->pretence.catch_up = named_only && gdb->thread[gdb->stopped].stepping ? gdb->pretence.steps : 0;
+  gdb->pretence.step_first = gdb->pretence.catch_up >= MOST_PRETENDED;
+  gdb->pretence.steps = 0;
   if (!named_only)
     trax_gdb_forget_breaks(gdb);
   gdb->phase = GDB_RUNNING;

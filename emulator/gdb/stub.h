@@ -27,9 +27,9 @@ struct trax_gdb_thread {
   bool reported;       /* a stop at this pc has been reported: its breakpoint is not hit again before an issue */
   bool stepping;       /* it stops after an issue if its pc is outside the range */
   uint8_t events;      /* a mask of TRAX_GDB_STEPPED ... */
-  uint8_t skip_breaks; /* after pretended steps: the breakpoints of so many next instructions are not reported */
-  char access;         /* TRAX_GDB_ACCESSED: the watchpoint's type, */
-  uint32_t accessed;   /* and the address */
+  uint8_t skip_breaks; /* after pretended steps: the number of instructions whose breakpoints are not reported */
+  char access;         /* of TRAX_GDB_ACCESSED: the watchpoint's type */
+  uint32_t accessed;   /* and its address */
 };
 
 struct trax_gdb_break {
@@ -80,10 +80,15 @@ struct trax_gdb {
   struct trax_gdb_watch watches[TRAX_GDB_WATCHES];
   uint32_t watch_count;
   bool named_only;    /* the latest resume named single threads: removed breakpoints still stop the other threads */
-  unsigned pretended; /* steps that were reported to GDB and not made (stub.c, pretend_step), of the stopped thread */
-  uint32_t pretended_pc; /* where it is shown meanwhile */
-  unsigned catch_up;     /* so many instructions it has to issue before its next step counts */
-  bool step_first;       /* it steps before any other thread's event counts */
+  /* Steps of the stopped thread that were reported to GDB and not made (stub.c, pretend_step). While the run is
+     stopped, `steps` and `pc` count. A resume that steps the same thread moves `steps` to `catch_up`: the thread issues
+     these instructions before its next step counts. Any other resume, and a change of its pc, forget them. */
+  struct {
+    unsigned steps;
+    uint32_t pc;       /* at which the thread is shown */
+    unsigned catch_up; /* instructions to issue before the next step counts */
+    bool step_first;   /* the thread must step before another thread's event counts */
+  } pretence;
   bool eventful;     /* some thread has an event */
   bool step_ended;   /* a stepping thread has ended */
   uint32_t range_begin, range_end;
@@ -92,8 +97,7 @@ struct trax_gdb {
 };
 
 /* --- stub.c --- */
-/* Resumes the run: threads marked as stepping step, the others continue. named_only: the packet named single threads.
- */
+/* Resumes the run: threads marked as stepping step, the others continue. named_only: the packet named threads. */
 void trax_gdb_resume(struct trax_gdb *gdb, bool named_only);
 
 /* --- commands.c --- */

@@ -169,9 +169,9 @@ static trax_status renumber(struct copy *copy, trax_error *error) {
 }
 
 trax_status trax_gdb_write_symbols(const trax_machine *machine, const char *path, trax_error *error) {
-  const struct trax_host *host = trax_host_of(machine);
-  struct copy copy = {.path = trax_image_path(host->image)};
-  const uint8_t *bytes = trax_image_bytes(host->image, &copy.size);
+  const struct trax_loaded *loaded = trax_loaded_of(machine);
+  struct copy copy = {.path = trax_image_path(loaded->image)};
+  const uint8_t *bytes = trax_image_bytes(loaded->image, &copy.size);
   if (!(copy.bytes = malloc(copy.size)))
     return trax_fail(error, "%s: out of memory", copy.path);
   memcpy(copy.bytes, bytes, copy.size);

@@ -32,7 +32,7 @@ void trax_gdb_thread_name(const struct trax_gdb *gdb, uint32_t thread, char *nam
 uint32_t trax_gdb_register(const struct trax_gdb *gdb, uint32_t thread, unsigned number) {
   const struct trax_thread state = trax_run_thread(gdb->run, thread);
   if (number == TRAX_GDB_PC)
-    return gdb->pretended && thread == gdb->stopped ? gdb->pretended_pc : state.pc;
+    return gdb->pretence.steps && thread == gdb->stopped ? gdb->pretence.pc : state.pc;
   const unsigned own = number < TRAX_GDB_PC ? roles[number] : number - TRAX_GDB_OWN;
   return own ? state.reg[own] : 0;
 }
@@ -43,7 +43,7 @@ static bool set_pc(struct trax_gdb *gdb, uint32_t thread, uint32_t pc) {
     return false;
   gdb->thread[thread].skip_breaks = 0;
   if (thread == gdb->stopped)
-    gdb->pretended = 0;
+    gdb->pretence.steps = 0;
   if (pc == trax_gdb_pc(gdb, thread))
     return true;
   gdb->run->engine->set_pc(gdb->run->chip, thread, pc);

@@ -43,9 +43,7 @@ struct trax_gdb_wire {
 /* Waits at most `milliseconds` for a packet, which is then in wire->packet, or an interrupt. */
 enum trax_gdb_event trax_gdb_receive(struct trax_gdb_wire *wire, int milliseconds);
 
-/* Begins a reply, adds to it, and sends it. A reply that is too long is truncated: callers limit data of variable
- * length.
- */
+/* Begins a reply, adds to it, and sends it. A reply that is too long is cut: callers limit data of variable length. */
 void trax_gdb_begin(struct trax_gdb_wire *wire);
 __attribute__((format(printf, 2, 3))) void trax_gdb_add(struct trax_gdb_wire *wire, const char *format, ...);
 void trax_gdb_add_hex(struct trax_gdb_wire *wire, const void *bytes, size_t size);

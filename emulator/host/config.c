@@ -141,13 +141,6 @@ trax_status trax_config_store(struct trax_config *config, const struct trax_conf
   return TRAX_OK;
 }
 
-const char *trax_config_allowed(const struct trax_config_key *key, trax_error *message) {
-  message->message[0] = 0;
-  trax_config_check_value(key, NAN, message); /* always fails */
-  const char *allowed = strstr(message->message, "; ");
-  return allowed ? allowed : message->message;
-}
-
 static trax_status parse_flag(const char *name, const char *text, double *value, trax_error *error) {
   static const char *const words[] = {"false", "true", "no", "yes", "off", "on", "0", "1"};
   for (size_t i = 0; i < sizeof words / sizeof *words; ++i)
@@ -160,10 +153,11 @@ static trax_status parse_flag(const char *name, const char *text, double *value,
 
 trax_status trax_config_parse_word(const struct trax_config_key *key, const char *word, double *value,
                                    trax_error *error) {
-  trax_error allowed;
+  char allowed[TRAX_CONFIG_ALLOWED];
   if (trax_config_word_value(key, word, value))
     return TRAX_OK;
-  return trax_fail(error, "%s is \"%.80s\"%s", key->name, word, trax_config_allowed(key, &allowed));
+  trax_config_allowed(key, allowed);
+  return trax_fail(error, "%s is \"%.80s\"; allowed are %s", key->name, word, allowed);
 }
 
 static trax_status parse_number(const struct trax_config_key *key, const char *text, double *value, trax_error *error) {
@@ -172,8 +166,9 @@ static trax_status parse_number(const struct trax_config_key *key, const char *t
   /* strtod also accepts blanks and names such as "inf", which are no values. */
   if (end != text && *end == 0 && strchr("+-.0123456789", *text) && isfinite(*value))
     return TRAX_OK;
-  trax_error allowed;
-  return trax_fail(error, "%s is \"%s\", not a number%s", key->name, text, trax_config_allowed(key, &allowed));
+  char allowed[TRAX_CONFIG_ALLOWED];
+  trax_config_allowed(key, allowed);
+  return trax_fail(error, "%s is \"%s\", not a number; allowed are %s", key->name, text, allowed);
 }
 
 trax_status trax_config_set(trax_config *config, const char *key_text, const char *value_text, trax_error *error) {
@@ -219,8 +214,8 @@ const char *trax_config_next_change(const trax_config *config, const char *after
 
 /* --- output --- */
 
-/* Formats a value as libconfig reads it: of a number the shortest decimal that reads back as the same value. A real has a
-   point, by which libconfig distinguishes reals from integers. */
+/* Formats a value as libconfig reads it. A number is the shortest decimal that reads back as the same value. A real has
+   a point, by which libconfig distinguishes reals from integers. */
 static void format_value(const struct trax_config_key *key, double value, char *text, size_t size) {
   if (key->kind == TRAX_KIND_FLAG) {
     snprintf(text, size, "%s", value != 0 ? "true" : "false");

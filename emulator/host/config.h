@@ -12,9 +12,6 @@ trax_status trax_config_parse_word(const struct trax_config_key *key, const char
 /* Checks and stores a value. */
 trax_status trax_config_store(struct trax_config *config, const struct trax_config_key *key, double value,
                               trax_error *error);
-/* Returns "; allowed are ...", the values that the key may have. The result points into *message, which is overwritten.
- */
-const char *trax_config_allowed(const struct trax_config_key *key, trax_error *message);
 /* Reads a libconfig file into *config, which is unchanged after an error. The message names file and line. */
 trax_status trax_config_read_file(struct trax_config *config, const char *path, trax_error *error);
 

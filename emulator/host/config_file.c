@@ -15,8 +15,8 @@
 #include "trax/input.h"
 #include "trax/names.h"
 
-/* Rejects what libconfig does not: it wraps integers at 32 bits silently, and an included directory makes it end the
-   process. A NUL is rejected, too. */
+/* Rejects what libconfig 1.5 accepts: integers beyond 32 bits, which it wraps, @include, by which a directory makes it
+   end the process, and a NUL. */
 static trax_status check_text(const char *path, const char *text, size_t size, trax_error *error) {
   unsigned line = 1;
   const char *end = text + size, *name = text; /* name: the latest one, for messages */
@@ -123,8 +123,9 @@ static trax_status apply_setting(struct trax_config *config, const char *section
     if (trax_config_parse_word(key, word, &value, error))
       return TRAX_ERROR;
   } else if (key->kind == TRAX_KIND_FLAG ? !flag : trax_config_has_words(key) || !number_value(setting, &value)) {
-    trax_error allowed;
-    return trax_fail(error, "%s is %s%s", name, describe(setting).text, trax_config_allowed(key, &allowed));
+    char allowed[TRAX_CONFIG_ALLOWED];
+    trax_config_allowed(key, allowed);
+    return trax_fail(error, "%s is %s; allowed are %s", name, describe(setting).text, allowed);
   } else if (flag) {
     value = config_setting_get_bool(setting);
   }

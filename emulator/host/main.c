@@ -7,8 +7,8 @@
 
 #include "gdb/gdb.h"
 #include "host/options.h"
+#include "host/page_picture.h"
 #include "host/png.h"
-#include "host/shown.h"
 #include "report/backtrace.h"
 #include "report/watchdog.h"
 #include "trax/message.h"
@@ -216,14 +216,14 @@ static trax_status write_outputs(trax_machine *machine, const struct trax_option
   return result;
 }
 
-static trax_status end_explanation(struct trax_shown *shown, trax_machine *machine, struct trax_explain *explain,
-                                   trax_error *error) {
-  trax_status status = explain ? trax_shown_give(shown, machine, explain, error) : TRAX_OK;
+static trax_status end_explanation(struct trax_page_picture *picture, trax_machine *machine,
+                                   struct trax_explain *explain, trax_error *error) {
+  trax_status status = explain ? trax_page_picture_give(picture, machine, explain, error) : TRAX_OK;
   if (status == TRAX_OK)
     status = trax_explain_end(explain, error);
   else
     trax_explain_discard(explain);
-  trax_shown_release(shown);
+  trax_page_picture_release(picture);
   return status;
 }
 
@@ -249,9 +249,9 @@ static int simulate(const trax_config *config, const struct trax_options *option
   }
   struct trax_explain_options wanted = options->explain;
   wanted.note = options->quiet ? NULL : note;
-  struct trax_shown shown = {0};
+  struct trax_page_picture picture = {0};
   if (status == TRAX_OK)
-    status = trax_shown_find(&shown, &wanted, options, machine, &error);
+    status = trax_page_picture_find(&picture, &wanted, options, machine, &error);
   if (status == TRAX_OK)
     status = trax_explain_begin(&explain, machine, &wanted, &error);
   if (status != TRAX_OK) {
@@ -285,7 +285,7 @@ static int simulate(const trax_config *config, const struct trax_options *option
   }
   if (status == TRAX_ERROR || !machine->has_run)
     trax_explain_discard(explain);
-  else if (end_explanation(&shown, machine, explain, &write_error) != TRAX_OK)
+  else if (end_explanation(&picture, machine, explain, &write_error) != TRAX_OK)
     result = complain(&write_error);
   if (status != TRAX_ERROR && machine->has_run && options->post_mortem &&
       write_post_mortem(post_mortem, options->post_mortem, &write_error) != TRAX_OK)

@@ -57,7 +57,7 @@ static trax_status put_buffer(json_t *buffers, trax_machine *machine, const stru
 
 trax_status trax_manifest_write(trax_machine *machine, const char *folder,
                                 const struct trax_manifest_contents *contents, trax_error *error) {
-  const struct trax_host *host = trax_host_of(machine);
+  const struct trax_loaded *loaded = trax_loaded_of(machine);
   if (mkdir(folder, 0777) != 0 && errno != EEXIST)
     return trax_fail(error, "%s: %s", folder, strerror(errno));
   const uint8_t *elf;
@@ -69,8 +69,8 @@ trax_status trax_manifest_write(trax_machine *machine, const char *folder,
   json_object_set_new(root, "program", program);
   json_object_set_new(root, "buffers", buffers);
   trax_status status = put_file(program, folder, TRAX_MANIFEST_PROGRAM, elf, elf_bytes, error);
-  for (size_t i = 0; i < host->buffer_count && status == TRAX_OK; i++)
-    status = put_buffer(buffers, machine, &host->buffers[i], folder, contents, error);
+  for (size_t i = 0; i < loaded->buffer_count && status == TRAX_OK; i++)
+    status = put_buffer(buffers, machine, &loaded->buffers[i], folder, contents, error);
   if (contents->items)
     json_object_set_new(root, "items", json_integer((json_int_t)contents->items));
   json_t *more = contents->more ? json_loads(contents->more, 0, NULL) : NULL;

@@ -7,8 +7,7 @@
 #include <string.h>
 #include <sys/mman.h>
 
-/* An access at most this many bytes below local memory counts as a stack overflow, one farther away as a wild pointer.
- */
+/* An access at most this many bytes below local memory is called a stack overflow, one farther away a wild pointer. */
 #define STACK_OVERFLOW_WINDOW 0x10000u
 
 static void *allocate_lazily(size_t bytes) {

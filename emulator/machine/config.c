@@ -98,49 +98,62 @@ static bool is_power_of_two(double value) {
   return frexp(value, &exponent) == 0.5;
 }
 
-static trax_status fail_word(trax_error *error, const struct trax_config_key *key, double value) {
-  char words[200] = "";
-  const char *word;
-  for (size_t i = 0, length = 0; (word = listed_word(key, i)) != NULL && length < sizeof words; i++)
-    length += (size_t)snprintf(words + length, sizeof words - length, "%s%s", i ? ", " : "", word);
-  return trax_fail(error, "%s is %.12g; allowed are %s", key->name, value,
-                   key->kind == TRAX_KIND_MAPPING
-                       ? "row, rank, bank, column and channel, with a number of bits or without, and colons between"
-                       : words);
-}
-
-trax_status trax_config_check_value(const struct trax_config_key *key, double value, trax_error *error) {
+static bool is_allowed(const struct trax_config_key *key, double value) {
   const bool in_range = value >= key->least && value <= key->most; /* false for a NaN */
   switch (key->kind) {
   case TRAX_KIND_FLAG:
-    if (value != 0 && value != 1)
-      return trax_fail(error, "%s is %.12g; allowed are true and false", key->name, value);
-    return TRAX_OK;
+    return value == 0 || value == 1;
   case TRAX_KIND_COUNT:
-    if (!in_range || value != floor(value))
-      return trax_fail(error, "%s is %.12g; allowed are %.12g to %.12g%s%s", key->name, value, key->least, key->most,
-                       in_range     ? ", without a fraction"
-                       : *key->unit ? " "
-                                    : "",
-                       in_range ? "" : key->unit);
-    return TRAX_OK;
-  case TRAX_KIND_POWER:
-    if (!in_range || !(is_power_of_two(value) || (value == 0 && key->least == 0)))
-      return trax_fail(error, "%s is %.12g; allowed are %sthe powers of two from %.12g to %.12g %s", key->name, value,
-                       key->least == 0 ? "0 and " : "", fmax(key->least, 1), key->most, key->unit);
-    return TRAX_OK;
-  case TRAX_KIND_REAL:
-    if (!in_range || fabs(value * 1000 - round(value * 1000)) > 1e-9 * value * 1000)
-      return trax_fail(error, "%s is %.12g; allowed are the multiples of 0.001 from %.12g to %.12g %s", key->name,
-                       value, key->least, key->most, key->unit);
-    return TRAX_OK;
   case TRAX_KIND_POLICY:
   case TRAX_KIND_MODEL:
-    return in_range && value == floor(value) ? TRAX_OK : fail_word(error, key, value);
+    return in_range && value == floor(value);
+  case TRAX_KIND_POWER:
+    return in_range && (is_power_of_two(value) || (value == 0 && key->least == 0));
+  case TRAX_KIND_REAL:
+    return in_range && !(fabs(value * 1000 - round(value * 1000)) > 1e-9 * value * 1000);
   case TRAX_KIND_MAPPING:
-    return trax_dram_mapping_format(value, NULL) ? TRAX_OK : fail_word(error, key, value);
+    return trax_dram_mapping_format(value, NULL);
   }
-  return TRAX_OK;
+  return true;
+}
+
+void trax_config_allowed(const struct trax_config_key *key, char text[TRAX_CONFIG_ALLOWED]) {
+  const size_t size = TRAX_CONFIG_ALLOWED;
+  const char *word;
+  switch (key->kind) {
+  case TRAX_KIND_FLAG:
+    snprintf(text, size, "true and false");
+    break;
+  case TRAX_KIND_COUNT:
+    snprintf(text, size, "%.12g to %.12g%s%s", key->least, key->most, *key->unit ? " " : "", key->unit);
+    break;
+  case TRAX_KIND_POWER:
+    snprintf(text, size, "%sthe powers of two from %.12g to %.12g %s", key->least == 0 ? "0 and " : "",
+             fmax(key->least, 1), key->most, key->unit);
+    break;
+  case TRAX_KIND_REAL:
+    snprintf(text, size, "the multiples of 0.001 from %.12g to %.12g %s", key->least, key->most, key->unit);
+    break;
+  case TRAX_KIND_POLICY:
+  case TRAX_KIND_MODEL:
+    *text = '\0';
+    for (size_t i = 0, length = 0; (word = listed_word(key, i)) != NULL && length < size; i++)
+      length += (size_t)snprintf(text + length, size - length, "%s%s", i ? ", " : "", word);
+    break;
+  case TRAX_KIND_MAPPING:
+    snprintf(text, size, "row, rank, bank, column and channel, with a number of bits or without, and colons between");
+    break;
+  }
+}
+
+trax_status trax_config_check_value(const struct trax_config_key *key, double value, trax_error *error) {
+  char allowed[TRAX_CONFIG_ALLOWED];
+  if (is_allowed(key, value))
+    return TRAX_OK;
+  trax_config_allowed(key, allowed);
+  const bool is_fraction = key->kind == TRAX_KIND_COUNT && value >= key->least && value <= key->most;
+  return trax_fail(error, "%s is %.12g; allowed are %s%s", key->name, value, allowed,
+                   is_fraction ? ", without a fraction" : "");
 }
 
 /* Checks that a line of the cache `name` is not longer than `limit`, the value of the key `limit_name`. */

@@ -75,6 +75,9 @@ static inline bool trax_config_has_words(const struct trax_config_key *key) {
 }
 /* Checks that the key may have the value. The message names the key, the value and what is allowed. */
 trax_status trax_config_check_value(const struct trax_config_key *key, double value, trax_error *error);
+/* Describes the values that the key may have, as in "allowed are ...". */
+enum { TRAX_CONFIG_ALLOWED = 200 };
+void trax_config_allowed(const struct trax_config_key *key, char text[TRAX_CONFIG_ALLOWED]);
 
 /* Checks all ranges and the relations between keys, which are all that the machine relies on. The message names the key
    and what is allowed. */

@@ -47,8 +47,8 @@ void trax_machine_destroy(trax_machine *machine) {
   }
   if (machine->calls.destroy)
     machine->calls.destroy(machine->calls.context);
-  if (machine->host_destroy)
-    machine->host_destroy(machine->host);
+  if (machine->loaded_destroy)
+    machine->loaded_destroy(machine->loaded);
   trax_space_destroy(&machine->space);
   free(machine->tm_stats);
   free(machine->tp_stats);
@@ -57,10 +57,10 @@ void trax_machine_destroy(trax_machine *machine) {
 }
 
 trax_status trax_machine_map(struct trax_machine *machine, uint32_t address, uint32_t bytes, unsigned permissions,
-                             uint8_t **host, trax_error *error) {
+                             uint8_t **loaded, trax_error *error) {
   if (machine->has_run)
     return trax_fail(error, "the machine has run: nothing can be loaded into it any more");
-  return trax_space_map(&machine->space, address, bytes, permissions, host, error);
+  return trax_space_map(&machine->space, address, bytes, permissions, loaded, error);
 }
 
 trax_status trax_machine_set_entry(struct trax_machine *machine, uint32_t entry, trax_error *error) {

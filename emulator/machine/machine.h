@@ -1,5 +1,5 @@
 /* One machine: configuration, memory, program, watches, and the outcome of its run. It knows no engine. Internal to the
-   library; emulator/program adds the program's symbols and buffers through the host members. */
+   library; emulator/program adds the program's symbols and buffers by the member `loaded`. */
 #ifndef TRAX_MACHINE_MACHINE_H
 #define TRAX_MACHINE_MACHINE_H
 
@@ -25,8 +25,8 @@ struct trax_machine {
   bool has_run;
 
   /* Owned by emulator/program: symbols, lines, buffers. Destroyed with the machine if not NULL. */
-  void *host;
-  void (*host_destroy)(void *host);
+  void *loaded;
+  void (*loaded_destroy)(void *loaded);
 
   struct trax_watch *watches; /* the first; NULL: none (machine/watch.h) */
 

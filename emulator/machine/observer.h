@@ -13,8 +13,7 @@
      before the issues of the same cycle and TM.
    - All calls are made by the host thread that called trax_machine_run.
 
-   A run without an observer pays nothing for this. In a run with one, the fast engine does not execute ahead of time.
- */
+   A run without an observer pays nothing for this. With one, the fast engine does not execute ahead of time. */
 #ifndef TRAX_MACHINE_OBSERVER_H
 #define TRAX_MACHINE_OBSERVER_H
 

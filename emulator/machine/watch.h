@@ -1,5 +1,4 @@
-/* Watches: checkpoints, the watchdog, a debugger and time lines, which inspect a machine between the cycles of its run.
- */
+/* Watches: checkpoints, the watchdog, a debugger and time lines inspect a machine between the cycles of its run. */
 #ifndef TRAX_MACHINE_WATCH_H
 #define TRAX_MACHINE_WATCH_H
 

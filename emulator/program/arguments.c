@@ -1,5 +1,4 @@
-/* The start of a program: the arguments of main, and which threads call main (docs/abi.md, "Program start").
- */
+/* The start of a program: the arguments of main, and the threads that call it (docs/abi.md, "Program start"). */
 #include <string.h>
 
 #include "program/program.h"
@@ -8,16 +7,16 @@
 
 trax_status trax_machine_set_arguments(trax_machine *machine, const char *const *arguments, size_t count,
                                        trax_error *error) {
-  const struct trax_host *host = trax_host_of(machine);
-  if (!host || machine->has_run)
-    return trax_fail(error, host ? "the program has run already" : "no program is loaded");
-  if (!trax_image_symbol(host->image, TRAX_ARGUMENTS_SYMBOL))
+  const struct trax_loaded *loaded = trax_loaded_of(machine);
+  if (!loaded || machine->has_run)
+    return trax_fail(error, loaded ? "the program has run already" : "no program is loaded");
+  if (!trax_image_symbol(loaded->image, TRAX_ARGUMENTS_SYMBOL))
     return count <= 1 ? TRAX_OK
                       : trax_fail(error,
                                   "%s: the program takes no arguments, as '%s': its main has no parameters or does "
                                   "not use them, or its symbol table was removed",
-                                  trax_image_path(host->image), arguments[1]);
-  const struct trax_symbol *object = trax_host_object(machine, TRAX_ARGUMENTS_SYMBOL, 8, error);
+                                  trax_image_path(loaded->image), arguments[1]);
+  const struct trax_symbol *object = trax_loaded_object(machine, TRAX_ARGUMENTS_SYMBOL, 8, error);
   if (!object)
     return TRAX_ERROR;
   uint64_t bytes = 4 * (count + 1);
@@ -25,23 +24,23 @@ trax_status trax_machine_set_arguments(trax_machine *machine, const char *const 
     bytes += strlen(arguments[i]) + 1;
   uint32_t pointer;
   trax_error reason;
-  if (bytes > UINT32_MAX || trax_host_take(machine, (uint32_t)bytes, &pointer, &reason) != TRAX_OK)
-    return trax_fail(error, "%s: its arguments do not fit into memory", trax_image_path(host->image));
-  trax_host_store_word(machine, object->address, (uint32_t)count);
-  trax_host_store_word(machine, object->address + 4, pointer);
+  if (bytes > UINT32_MAX || trax_loaded_take(machine, (uint32_t)bytes, &pointer, &reason) != TRAX_OK)
+    return trax_fail(error, "%s: its arguments do not fit into memory", trax_image_path(loaded->image));
+  trax_loaded_store_word(machine, object->address, (uint32_t)count);
+  trax_loaded_store_word(machine, object->address + 4, pointer);
   uint32_t text = pointer + 4 * ((uint32_t)count + 1);
   for (size_t i = 0; i < count; i++, pointer += 4) {
     const size_t size = strlen(arguments[i]) + 1;
-    trax_host_store_word(machine, pointer, text);
+    trax_loaded_store_word(machine, pointer, text);
     memcpy(machine->space.bytes + text, arguments[i], size);
     text += (uint32_t)size;
   }
-  trax_host_store_word(machine, pointer, 0);
+  trax_loaded_store_word(machine, pointer, 0);
   return TRAX_OK;
 }
 
-trax_status trax_host_name_program(struct trax_machine *machine, trax_error *error) {
-  const char *path = trax_image_path(trax_host_of(machine)->image), *slash = strrchr(path, '/');
+trax_status trax_loaded_set_name(struct trax_machine *machine, trax_error *error) {
+  const char *path = trax_image_path(trax_loaded_of(machine)->image), *slash = strrchr(path, '/');
   const char *name = slash ? slash + 1 : path;
   return trax_machine_set_arguments(machine, &name, 1, error);
 }
@@ -59,7 +58,7 @@ static bool is_text(const struct trax_machine *machine, uint32_t pc) {
 
 /* Finds the instruction behind the start code's call of main, where a thread ends. */
 static bool find_end(const struct trax_machine *machine, uint32_t *end) {
-  const trax_image *image = trax_host_of(machine)->image;
+  const trax_image *image = trax_loaded_of(machine)->image;
   const struct trax_symbol *start = trax_image_symbol(image, "_start"), *main = trax_image_symbol(image, "main");
   if (!start || !main || start->address != machine->entry)
     return false;
@@ -76,25 +75,25 @@ static bool find_end(const struct trax_machine *machine, uint32_t *end) {
 }
 
 trax_status trax_machine_main_on_thread_0(trax_machine *machine, trax_error *error) {
-  const struct trax_host *host = trax_host_of(machine);
-  if (!host || machine->has_run)
-    return trax_fail(error, host ? "the program has run already" : "no program is loaded");
-  const struct trax_symbol *others = trax_image_symbol(host->image, "__trax_others");
+  const struct trax_loaded *loaded = trax_loaded_of(machine);
+  if (!loaded || machine->has_run)
+    return trax_fail(error, loaded ? "the program has run already" : "no program is loaded");
+  const struct trax_symbol *others = trax_image_symbol(loaded->image, "__trax_others");
   uint32_t entry;
   if (others) {
-    const struct trax_symbol *waiting = trax_host_object(machine, "__trax_waiting", 4, error);
+    const struct trax_symbol *waiting = trax_loaded_object(machine, "__trax_waiting", 4, error);
     if (!waiting)
       return TRAX_ERROR;
-    trax_host_store_word(machine, waiting->address, (uint32_t)machine->stats.threads - 1);
+    trax_loaded_store_word(machine, waiting->address, (uint32_t)machine->stats.threads - 1);
     if (!is_text(machine, others->address))
       return trax_fail(error, "%s: its start code for other threads is at 0x%08x, where no instruction is",
-                       trax_image_path(host->image), others->address);
+                       trax_image_path(loaded->image), others->address);
     entry = others->address;
   } else if (!find_end(machine, &entry)) {
     return trax_fail(error,
                      "%s: main cannot be called on one thread: it has not the library's start code, or its symbol "
                      "table was removed",
-                     trax_image_path(host->image));
+                     trax_image_path(loaded->image));
   }
   machine->other_entry = entry;
   return TRAX_OK;

@@ -1,4 +1,4 @@
-/* The host's part of a machine: the program's image and the buffers bound to it. */
+/* The loaded program of a machine: its image and the buffers bound to it. */
 #ifndef TRAX_PROGRAM_PROGRAM_H
 #define TRAX_PROGRAM_PROGRAM_H
 
@@ -14,7 +14,7 @@ struct trax_bound_buffer {
   uint32_t address, bytes;
 };
 
-struct trax_host {
+struct trax_loaded {
   trax_image *image;
   struct trax_bound_buffer *buffers;
   size_t buffer_count;
@@ -28,28 +28,28 @@ struct trax_host {
 extern const char *const trax_register_names[TRAX_NUM_REGISTERS];
 
 /* --- loader.c, for arguments.c --- */
-/* Finds an object of at least `bytes` bytes in the program's data, which the host may fill; NULL with *error set
-   otherwise. */
-const struct trax_symbol *trax_host_object(const struct trax_machine *machine, const char *name, uint32_t bytes,
-                                           trax_error *error);
-void trax_host_store_word(struct trax_machine *machine, uint32_t address, uint32_t value);
-/* Takes memory behind image and buffers, where the heap begins. Error: there is too little. */
-trax_status trax_host_take(struct trax_machine *machine, uint32_t bytes, uint32_t *address, trax_error *error);
+/* Finds an object of at least `bytes` bytes in the program's data, which the emulator may fill. NULL, with *error set:
+   there is none. */
+const struct trax_symbol *trax_loaded_object(const struct trax_machine *machine, const char *name, uint32_t bytes,
+                                             trax_error *error);
+void trax_loaded_store_word(struct trax_machine *machine, uint32_t address, uint32_t value);
+/* Takes memory after image and buffers, where the heap begins. Error: there is too little. */
+trax_status trax_loaded_take(struct trax_machine *machine, uint32_t bytes, uint32_t *address, trax_error *error);
 
 /* --- unbound.c --- */
-/* Returns the name of the first symbol from number *from on, which is moved behind it, that is a struct trax_buffer to
-   which nothing is bound; NULL if there is none. Without debug information it may be another variable of that size. */
-const char *trax_host_unbound(const struct trax_machine *machine, size_t *from);
+/* Finds the first struct trax_buffer to which nothing is bound, from symbol number *from on, and moves *from past it.
+   Returns its name; NULL if there is none. Without debug information it may be another variable of that size. */
+const char *trax_loaded_unbound(const struct trax_machine *machine, size_t *from);
 
 /* --- arguments.c --- */
 /* The library's object for argc and argv, which programs have whose main uses them. */
 #define TRAX_ARGUMENTS_SYMBOL "__trax_arguments"
 /* Gives a main with parameters the program's name alone. */
-trax_status trax_host_name_program(struct trax_machine *machine, trax_error *error);
+trax_status trax_loaded_set_name(struct trax_machine *machine, trax_error *error);
 
-/* The machine's host part; NULL before a program is loaded. */
-static inline struct trax_host *trax_host_of(const struct trax_machine *machine) {
-  return machine->host;
+/* NULL: no program is loaded. */
+static inline struct trax_loaded *trax_loaded_of(const struct trax_machine *machine) {
+  return machine->loaded;
 }
 
 #endif

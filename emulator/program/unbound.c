@@ -38,23 +38,23 @@ static bool may_be_buffer(const struct trax_machine *machine, const struct trax_
   static const uint8_t zeros[sizeof(uint32_t) * 2];
   trax_error ignored;
   return symbol->type == TRAX_SYMBOL_OBJECT && symbol->bytes == sizeof zeros && strncmp(symbol->name, "__", 2) != 0 &&
-         trax_host_object(machine, symbol->name, sizeof zeros, &ignored) == symbol &&
+         trax_loaded_object(machine, symbol->name, sizeof zeros, &ignored) == symbol &&
          !(machine->space.restrictions[symbol->address / TRAX_GRANULE] & TRAX_RESTRICT_WRITE) &&
          memcmp(machine->space.bytes + symbol->address, zeros, sizeof zeros) == 0;
 }
 
-const char *trax_host_unbound(const struct trax_machine *machine, size_t *from) {
-  const struct trax_host *host = trax_host_of(machine);
+const char *trax_loaded_unbound(const struct trax_machine *machine, size_t *from) {
+  const struct trax_loaded *loaded = trax_loaded_of(machine);
   size_t count;
-  const struct trax_symbol *symbols = host ? trax_image_symbols(host->image, &count) : NULL;
+  const struct trax_symbol *symbols = loaded ? trax_image_symbols(loaded->image, &count) : NULL;
   while (symbols && *from < count) {
     const struct trax_symbol *symbol = &symbols[(*from)++];
     Dwarf_Die variable;
     bool bound = false;
-    for (size_t i = 0; i < host->buffer_count; i++)
-      bound |= strcmp(host->buffers[i].symbol, symbol->name) == 0;
+    for (size_t i = 0; i < loaded->buffer_count; i++)
+      bound |= strcmp(loaded->buffers[i].symbol, symbol->name) == 0;
     if (!bound && may_be_buffer(machine, symbol) &&
-        (!find_variable(trax_image_dwarf(host->image), symbol->name, &variable) || is_buffer_type(&variable)))
+        (!find_variable(trax_image_dwarf(loaded->image), symbol->name, &variable) || is_buffer_type(&variable)))
       return symbol->name;
   }
   return NULL;

@@ -173,8 +173,7 @@ static inline bool trax_ref_accesses_memory(const struct trax_ref_tp *tp) {
   return trax_ref_info(tp)->unit == TRAX_UNIT_MEMORY;
 }
 
-/* Whether the instruction accesses local memory; its address must be known. An atomic increment of local memory faults.
- */
+/* Whether the instruction accesses local memory; its address must be known. An increment of local memory faults. */
 static inline bool trax_ref_accesses_local(const struct trax_ref_tp *tp) {
   return trax_ref_accesses_memory(tp) && tp->address >= TRAX_LOCAL_BASE && !trax_ref_is(tp, TRAX_IS_ATOMIC);
 }

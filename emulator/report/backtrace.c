@@ -34,10 +34,10 @@ size_t trax_callers(const trax_image *image, struct trax_frame *frame, const str
 }
 
 /* "function at file:line, inlined into caller at file:line" */
-static void print_place(const struct trax_host *host, uint32_t pc, FILE *out) {
-  const struct trax_symbol *symbol = host ? trax_image_symbol_at(host->image, pc) : NULL;
+static void print_place(const struct trax_loaded *loaded, uint32_t pc, FILE *out) {
+  const struct trax_symbol *symbol = loaded ? trax_image_symbol_at(loaded->image, pc) : NULL;
   struct trax_source_line lines[INLINE_DEPTH];
-  const size_t count = host ? trax_image_lines(host->image, pc, lines, INLINE_DEPTH) : 0;
+  const size_t count = loaded ? trax_image_lines(loaded->image, pc, lines, INLINE_DEPTH) : 0;
   if (count && lines[0].function)
     fprintf(out, "%s", lines[0].function);
   else if (symbol)
@@ -75,7 +75,7 @@ static const char *place_text(struct places *places, uint32_t pc) {
   size_t size;
   FILE *out = open_memstream(&text, &size);
   if (out) {
-    print_place(trax_host_of(places->run->machine), pc, out);
+    print_place(trax_loaded_of(places->run->machine), pc, out);
     fclose(out);
   }
   if (!text) {
@@ -95,13 +95,13 @@ static void forget_places(struct places *places) {
 static void print_chain(struct places *places, uint32_t thread, FILE *out) {
   const struct trax_run *run = places->run;
   const struct trax_thread state = trax_run_thread(run, thread);
-  const struct trax_host *host = trax_host_of(run->machine);
+  const struct trax_loaded *loaded = trax_loaded_of(run->machine);
   struct trax_frame frame = {.pc = state.pc};
   const struct trax_thread_memory memory = {&run->machine->space, state.local};
   uint32_t callers[DEPTH];
   enum trax_unwound last = TRAX_OUTERMOST;
   memcpy(frame.registers, state.reg, sizeof frame.registers);
-  const size_t count = host ? trax_callers(host->image, &frame, &memory, callers, DEPTH, &last) : 0;
+  const size_t count = loaded ? trax_callers(loaded->image, &frame, &memory, callers, DEPTH, &last) : 0;
   fprintf(out, "%s\n", place_text(places, state.pc));
   for (size_t i = 0; i < count; ++i)
     fprintf(out, "    called by %s\n", place_text(places, callers[i]));

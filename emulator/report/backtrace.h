@@ -5,11 +5,6 @@
 #include "engine/run.h"
 #include "program/unwind.h"
 
-struct trax_host;
-
-/* Prints symbol and source lines of a place in the text, as in fault reports; prints nothing if neither is known. */
-void trax_print_place(const struct trax_host *host, const char *label, uint32_t pc, FILE *out);
-
 /* The memory that a thread's addresses refer to. */
 struct trax_thread_memory {
   const struct trax_space *space;

@@ -1,5 +1,4 @@
-/* The figures are those of SimTRaX, the public simulator of the paper's group, for 65 nm and 1 GHz as far as it states.
- */
+/* The figures are those of SimTRaX, the simulator of the paper's group: for 65 nm and 1 GHz, as far as documented. */
 #include "report/energy.h"
 
 #include "machine/timing.h"

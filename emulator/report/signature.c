@@ -7,12 +7,12 @@
 
 /* Finds the range of the signature's words: [*begin, *end). */
 static trax_status find(const trax_machine *machine, uint32_t *begin, uint32_t *end, trax_error *error) {
-  const struct trax_host *host = trax_host_of(machine);
-  if (!host)
+  const struct trax_loaded *loaded = trax_loaded_of(machine);
+  if (!loaded)
     return trax_fail(error, "signature: no program is loaded");
-  const char *path = trax_image_path(host->image);
-  const struct trax_symbol *first = trax_image_symbol(host->image, "begin_signature");
-  const struct trax_symbol *last = trax_image_symbol(host->image, "end_signature");
+  const char *path = trax_image_path(loaded->image);
+  const struct trax_symbol *first = trax_image_symbol(loaded->image, "begin_signature");
+  const struct trax_symbol *last = trax_image_symbol(loaded->image, "end_signature");
   if (!first || !last)
     return trax_fail(error, "%s: the program has no symbol %s, and so no signature", path,
                      first ? "end_signature" : "begin_signature");

@@ -16,6 +16,12 @@ const char *const trax_cause_names[TRAX_CAUSE_COUNT] = {
 #undef NAME
 };
 
+const char *const trax_cause_meanings[TRAX_CAUSE_COUNT] = {
+#define MEANING(ID, NAME, HEAD, MEANING) MEANING,
+    TRAX_CAUSES(MEANING)
+#undef MEANING
+};
+
 /* Whether values of the unit are counts, which are whole numbers. */
 static bool is_count(const char *unit) {
   return !strchr(unit, '/') && strcmp(unit, "s") != 0 && strcmp(unit, "J") != 0 && strcmp(unit, "W") != 0 &&
@@ -111,11 +117,6 @@ void trax_figures_visit(const struct trax_stats *stats, const struct trax_tm_sta
                         void (*visit)(void *context, const struct trax_figure *figure), void *context) {
   static const struct trax_stats no_stats = {0};
   static const struct trax_config no_config = TRAX_CONFIG_DEFAULT;
-  static const char *const cause_meanings[TRAX_CAUSE_COUNT] = {
-#define MEANING(ID, NAME, HEAD, MEANING) MEANING,
-      TRAX_CAUSES(MEANING)
-#undef MEANING
-  };
   const struct visitor visitor = {visit, context};
   if (!tm) {
     visit_run(&visitor, stats ? stats : &no_stats, config ? config : &no_config);
@@ -133,10 +134,10 @@ void trax_figures_visit(const struct trax_stats *stats, const struct trax_tm_sta
   for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; ++cause)
     sum += (double)tm->cycles[cause];
   for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; ++cause)
-    emit(&visitor, TRAX_GROUP_CAUSE, "causes.", trax_cause_names[cause], "thread-cycles", cause_meanings[cause],
+    emit(&visitor, TRAX_GROUP_CAUSE, "causes.", trax_cause_names[cause], "thread-cycles", trax_cause_meanings[cause],
          (long double)tm->cycles[cause]);
   for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; ++cause)
-    emit(&visitor, TRAX_GROUP_SHARE, "cause_percent.", trax_cause_names[cause], "per cent", cause_meanings[cause],
+    emit(&visitor, TRAX_GROUP_SHARE, "cause_percent.", trax_cause_names[cause], "per cent", trax_cause_meanings[cause],
          100 * (double)tm->cycles[cause] / sum);
   visit_instructions(&visitor, tm);
 }
@@ -366,8 +367,8 @@ static void print_ending(const trax_machine *machine, FILE *out) {
 }
 
 void trax_stats_print(const trax_machine *machine, FILE *out) {
-  const struct trax_host *host = trax_host_of(machine);
-  fprintf(out, "program  %s\n", host ? trax_image_path(host->image) : "(none)");
+  const struct trax_loaded *loaded = trax_loaded_of(machine);
+  fprintf(out, "program  %s\n", loaded ? trax_image_path(loaded->image) : "(none)");
   fprintf(out, "chip     %ux%u at %u MHz, %.12g GB/s\n", machine->config.chip.tms, machine->config.chip.tps_per_tm,
           machine->config.chip.clock_mhz, trax_memory_gbps(&machine->config));
   print_ending(machine, out);

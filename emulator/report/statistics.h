@@ -34,8 +34,9 @@ void trax_figures_visit(const struct trax_stats *stats, const struct trax_tm_sta
                         const struct trax_config *config,
                         void (*visit)(void *context, const struct trax_figure *figure), void *context);
 
-/* Names of causes, as in "causes.<cause>", and for the heads of narrow columns. */
+/* Names of causes, as in "causes.<cause>", their meanings, and heads of narrow columns. */
 extern const char *const trax_cause_names[TRAX_CAUSE_COUNT];
+extern const char *const trax_cause_meanings[TRAX_CAUSE_COUNT];
 extern const char *const trax_cause_heads[TRAX_CAUSE_COUNT];
 
 /* Checks the rule of accounting on the reported figures: the causes add up to threads x cycles. */

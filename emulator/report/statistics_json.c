@@ -102,14 +102,14 @@ static void put_fault(struct document *document, const trax_machine *machine) {
   put(document, object, "tm", json_integer(fault->tm));
   put(document, object, "tp", json_integer(fault->tp));
   put(document, object, "cycle", json_integer((json_int_t)fault->cycle));
-  const struct trax_host *host = trax_host_of(machine);
-  if (!host)
+  const struct trax_loaded *loaded = trax_loaded_of(machine);
+  if (!loaded)
     return;
-  const struct trax_symbol *symbol = trax_image_symbol_at(host->image, fault->pc);
+  const struct trax_symbol *symbol = trax_image_symbol_at(loaded->image, fault->pc);
   if (symbol)
     put(document, object, "symbol", text_value(symbol->name));
   struct trax_source_line line;
-  if (trax_image_lines(host->image, fault->pc, &line, 1)) {
+  if (trax_image_lines(loaded->image, fault->pc, &line, 1)) {
     put(document, object, "file", text_value(line.file));
     put(document, object, "line", json_integer(line.line));
   }
@@ -231,7 +231,7 @@ trax_status trax_stats_put_json(const trax_machine *machine, bool host, FILE *ou
     return trax_fail(error, "no statistics: the machine has not run");
   struct document document = {json_object(), false};
   json_t *root = document.root;
-  const struct trax_host *loaded = trax_host_of(machine);
+  const struct trax_loaded *loaded = trax_loaded_of(machine);
   put(&document, root, "trax_sim", json_string(TRAX_VERSION));
   put(&document, root, "program", text_value(loaded ? trax_image_path(loaded->image) : ""));
   put(&document, root, "status", json_string(trax_ending_name(machine)));

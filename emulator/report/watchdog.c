@@ -2,6 +2,8 @@
 
 #include "engine/run.h"
 #include "program/program.h"
+#include "report/place.h"
+#include "report/statistics.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -43,12 +45,12 @@ static trax_cause main_cause(const uint64_t *cycles) {
 }
 
 static void record_threads(struct trax_watchdog *watchdog, struct trax_run *run) {
-  const struct trax_host *host = trax_host_of(watchdog->machine);
+  const struct trax_loaded *loaded = trax_loaded_of(watchdog->machine);
   trax_run_export(run);
   for (uint32_t thread = 0; thread < run->machine->stats.threads; thread++) {
     watchdog->pc[thread] = trax_run_thread(run, thread).pc;
     watchdog->cause[thread] = main_cause(watchdog->charges[thread].cycles);
-    watchdog->symbol[thread] = host ? trax_image_symbol_at(host->image, watchdog->pc[thread]) : NULL;
+    watchdog->symbol[thread] = loaded ? trax_image_symbol_at(loaded->image, watchdog->pc[thread]) : NULL;
   }
 }
 
@@ -104,12 +106,7 @@ static bool alike(const struct trax_watchdog *watchdog, uint64_t a, uint64_t b) 
 }
 
 static void print_threads(const struct trax_watchdog *watchdog, uint64_t first, FILE *out) {
-  static const char *const names[TRAX_CAUSE_COUNT] = {
-#define NAME(ID, NAME, ...) NAME,
-      TRAX_CAUSES(NAME)
-#undef NAME
-  };
-  const struct trax_host *host = trax_host_of(watchdog->machine);
+  const struct trax_loaded *loaded = trax_loaded_of(watchdog->machine);
   const trax_cause cause = watchdog->cause[first];
   uint64_t threads = 0, issued = 0, waited = 0, all = 0;
   for (uint64_t i = first; i < watchdog->machine->stats.threads; i++)
@@ -123,13 +120,15 @@ static void print_threads(const struct trax_watchdog *watchdog, uint64_t first, 
   fprintf(out, "  %" PRIu64 " thread%s, as %" PRIu64 ": issued %.0f %%", threads, threads > 1 ? "s" : "", first,
           100 * (double)issued / (double)all);
   if (cause != TRAX_CAUSE_ISSUED)
-    fprintf(out, ", %s %.0f %%", names[cause], 100 * (double)waited / (double)all);
+    fprintf(out, ", %s %.0f %%", trax_cause_names[cause], 100 * (double)waited / (double)all);
   const struct trax_symbol *symbol = watchdog->symbol[first];
   fprintf(out, "; at 0x%08x", watchdog->pc[first]);
-  if (symbol)
-    fprintf(out, " in %s+0x%x", symbol->name, watchdog->pc[first] - symbol->address);
+  if (symbol) {
+    fprintf(out, " in ");
+    trax_print_symbol(symbol, watchdog->pc[first], out);
+  }
   struct trax_source_line line;
-  if (host && trax_image_lines(host->image, watchdog->pc[first], &line, 1))
+  if (loaded && trax_image_lines(loaded->image, watchdog->pc[first], &line, 1))
     fprintf(out, " at %s:%d", line.file, line.line);
   fprintf(out, "\n");
 }

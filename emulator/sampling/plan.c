@@ -74,9 +74,9 @@ uint32_t trax_slot_plan_handed_out(const trax_slot_sampling *asked, uint32_t que
     return place;
   if (asked->handed_out)
     return asked->handed_out[(size_t)(place / asked->block) * asked->queues + queue];
-  const uint32_t round = asked->tile * asked->queues, begun = place % round, before = queue * asked->tile;
-  const uint32_t more = begun > before ? begun - before : 0;
-  return place / round * asked->tile + (more < asked->tile ? more : asked->tile);
+  const uint64_t round = (uint64_t)asked->tile * asked->queues, begun = place % round;
+  const uint64_t before = (uint64_t)queue * asked->tile, more = begun > before ? begun - before : 0;
+  return (uint32_t)(place / round * asked->tile + (more < asked->tile ? more : asked->tile));
 }
 
 /* The last place at which `left` slots are left, and in each queue its equal share of them. It is a multiple of the

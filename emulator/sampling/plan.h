@@ -9,7 +9,8 @@
 
 #include "machine/machine.h"
 
-/* The caches' error after a warm-up, a part of the estimate. It is added to the half width (docs/sampling.md). */
+/* The error that caches cause after a warm-up, relative to the estimate. It is added to the interval's half width
+   (docs/sampling.md). */
 #define TRAX_SAMPLING_BIAS 0.01
 
 struct trax_slot_plan {
@@ -35,8 +36,7 @@ void trax_slot_plan_draw(struct trax_slot_plan *plan, size_t count);
 double trax_slot_plan_size(const struct trax_slot_plan *plan, uint32_t unit);
 double trax_slot_plan_cost_before(const struct trax_slot_plan *plan, uint32_t slot);
 
-/* The number of slots of a queue, and how many of them it has handed out when `place`, a multiple of the block, begins.
- */
+/* The number of slots of a queue, and how many of them it has handed out at `place`, a multiple of the block. */
 uint32_t trax_slot_plan_queue_slots(const trax_slot_sampling *asked, uint32_t queue);
 uint32_t trax_slot_plan_handed_out(const trax_slot_sampling *asked, uint32_t queue, uint32_t place);
 

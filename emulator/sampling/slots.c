@@ -8,8 +8,7 @@
    Several queues have a counter each, and advance at different rates: one with cheap slots is ahead of the others. The
    place of a slot is the sum of the counters when it is handed out. The counters are set to the values predicted for
    that place. With equal counters, cheap slots would be measured more often than they occur. Units lie where no queue
-   is near its end.
- */
+   is near its end. */
 #include "sampling/slots.h"
 
 #include "sampling/estimate.h"
@@ -180,8 +179,7 @@ static void end_unit(struct trax_slots *slots, double at, uint64_t t) {
   add_unit_counts(slots, (double)(slots->done - before) / size, t);
 }
 
-/* Returns the cycle of the next inspection, half-way to the cycle in which the place is expected to reach the target.
- */
+/* Returns the cycle of the next inspection: half-way to the one in which the place should reach the target. */
 static uint64_t next_inspection(const struct trax_slots *slots, uint64_t t) {
   if (slots->phase == END)
     return TRAX_NEVER;

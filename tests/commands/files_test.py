@@ -176,8 +176,7 @@ def renderer():
         refused(INPUT, "trax-render", "a.obj", *words, *keep, "--program", f"{name}/program.elf", f"--{name}", f"other/{name}")
     os.makedirs("bench", exist_ok=True)
     shutil.copy("chip.cfg", "bench/chip.json")
-    for measure in ("hits",):
-        refused(INPUT, "trax-render", "a.obj", "-q", "--config", "bench/chip.json", f"--{measure}", "./bench/chip.json")
+    refused(INPUT, "trax-render", "a.obj", "-q", "--config", "bench/chip.json", "--hits", "./bench/chip.json")
     # Endings that no writer has, and no name at all.
     for name in ("x.jpg", "x.obj", "x.trax", "x.PNGS", "x.view", "folder.d/x.p", "x.1"):
         refused("there is no writer for .", "trax-render", "a.obj", *words, "-o", name)

@@ -26,6 +26,8 @@ import compare  # noqa: E402
 import inputs  # noqa: E402
 from kinds import KINDS, OWN_STATUS, SAME_NAME  # noqa: E402
 from runs import CRASHED, run, with_message  # noqa: E402
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import interrupts  # noqa: E402
 
 OLD = b"the former output\n"
 
@@ -92,6 +94,7 @@ def main():
         return 1
     binaries = options.bin.resolve()
     keep = options.keep or pathlib.Path(tempfile.gettempdir())
+    interrupts.end_by_signals()
     failed = 0
     with tempfile.TemporaryDirectory(dir=options.keep) as scratch:
         tempfile.tempdir = scratch

@@ -1,12 +1,12 @@
 """Commands of the pages: commands_test.py SOURCE BUILD [--update] [PAGE...]
 
-- Blocks of `sh` are run, each page in a folder of its own, and `text` behind one is what it prints (blocks.py has the
-kinds). - Of blocks of `sh long`, and of `code` that is a command, the program and its options must exist. Those of
-trax-render are
-  also started, without their files: a file that is not there must be all that is wrong.
+- A block of `sh` is run, the blocks of each page in a folder of its own. A block of `text` behind it is what it prints
+  (blocks.py has the kinds).
+- In a block of `sh long`, and in `code` that is a command, the program and its options must exist. A command of
+  trax-render is also started without its files: the missing file must be its only fault.
 
-Stand-ins (small meshes, small programs) have the names that pages use for files of the reader's. --update writes into
-the pages what the commands print. tests/tutorial does the tutorial's two pages."""
+Small meshes and programs stand in for the reader's files that the pages name. --update writes the commands' output into
+the pages. tests/tutorial tests the tutorial's two pages."""
 
 import functools
 import json
@@ -45,8 +45,7 @@ def ball():
 
 
 def glb(points, faces):
-    data = b"".join(struct.pack("<3f", *point)
-                    for point in points) + b"".join(struct.pack("<3H", *face) for face in faces)
+    data = b"".join([struct.pack("<3f", *point) for point in points] + [struct.pack("<3H", *face) for face in faces])
     data += bytes(-len(data) % 4)
     vertices = 12 * len(points)
     low, high = [min(axis) for axis in zip(*points)], [max(axis) for axis in zip(*points)]
@@ -55,10 +54,10 @@ def glb(points, faces):
         "buffers": [{"byteLength": len(data)}],
         "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
         "bufferViews": [{"buffer": 0, "byteLength": vertices},
-                        {"buffer": 0, "byteOffset": vertices, "byteLength": 6 * len(faces)}], "accessors": [{
-                            "bufferView": 0, "componentType": 5126, "count": len(points), "type": "VEC3", "min": low,
-                            "max": high
-                        }, {"bufferView": 1, "componentType": 5123, "count": 3 * len(faces), "type": "SCALAR"}]
+                        {"buffer": 0, "byteOffset": vertices, "byteLength": 6 * len(faces)}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": len(points), "type": "VEC3", "min": low,
+                       "max": high},
+                      {"bufferView": 1, "componentType": 5123, "count": 3 * len(faces), "type": "SCALAR"}]
     }).encode()
     text += b" " * (-len(text) % 4)
     chunks = struct.pack("<2I", len(text), 0x4E4F534A) + text + struct.pack("<2I", len(data), 0x004E4942) + data
@@ -91,14 +90,14 @@ def stand_ins(root, binaries):
 
 @functools.cache
 def help_of(program):
-    """What lists the program's options."""
+    """A text that has the program's options."""
     done = subprocess.run([program, "--help"], capture_output=True, text=True, stdin=subprocess.DEVNULL, timeout=60,
                           check=False)
     text = done.stdout + done.stderr
     if set(re.findall(r"--[a-z][\w-]*", text)) - {"--help"}:
         return text
-    words = re.findall(rb"([a-z][a-z-]+)(?=\0)",
-                       program.read_bytes())  # a test's program without help: its strings, and their ends
+    # A test's program has no help: take its strings and their ends.
+    words = re.findall(rb"([a-z][a-z-]+)(?=\0)", program.read_bytes())
     return " ".join(f"--{word[at:].decode()}" for word in set(words) if len(word) < 40 for at in range(len(word) - 2))
 
 
@@ -151,10 +150,9 @@ class Commands:
             return None
         try:
             if words[0] == "ninja":
-                wrong = [
-                    word for at, word in enumerate(words[1:], 1) if not word.startswith("-") and words[at - 1] not in (
-                        "-C", "-j") and not word.isupper() and word not in self.targets
-                ]
+                wrong = [word for at, word in enumerate(words[1:], 1)
+                         if not word.startswith("-") and words[at - 1] not in ("-C", "-j") and not word.isupper()
+                         and word not in self.targets]
                 self.checked += 1
                 return f"`{command}`: no target {wrong[0]}" if wrong else None
             if words[:2] == ["cmake", "--preset"]:
@@ -171,8 +169,8 @@ class Commands:
             if word in ("--", "|", ">", "&&", ";"):
                 break
             option = word.split("=")[0].rstrip(",.")
-            if re.fullmatch(r"--[a-z][\w-]*", option) and not re.search(rf"(?<![\w-]){option}(?![\w-])",
-                                                                        text) and option not in ("--help", "--version"):
+            is_known = option in ("--help", "--version") or re.search(rf"(?<![\w-]){option}(?![\w-])", text)
+            if re.fullmatch(r"--[a-z][\w-]*", option) and not is_known:
                 return f"`{command}`: {words[0]} has no {option}"
         return None
 
@@ -202,13 +200,12 @@ class Commands:
         for words, block, _ in blocks:
             if kind(words, block) == "long" and not words.startswith("text"):
                 joined = block.replace("\\\n", " ")
-                lines = [line[2:]
-                         for line in joined.split("\n")[:1]] if words.startswith("console") else joined.split("\n")
-                commands += [
-                    part for line in lines for part in re.split(r"\s+(?:&&|\|\||\||;)\s+", line)
-                    if part and not part.startswith("#")
-                ]
-        return [fault for command in commands for fault in (self.check(command) or self.start(command), ) if fault]
+                lines = joined.split("\n")
+                if words.startswith("console"):
+                    lines = [lines[0][2:]]
+                commands += [part for line in lines for part in re.split(r"\s+(?:&&|\|\||\||;)\s+", line)
+                             if part and not part.startswith("#")]
+        return [fault for command in commands for fault in (self.check(command) or self.start(command),) if fault]
 
 
 def main():
@@ -231,7 +228,7 @@ def main():
                 for part in LINKED:
                     (root / part).symlink_to(build if part == "build" else source / part)
                 stand_ins(root, commands.binaries)
-                printed, _ = run_commands(blocks, root, root, ("sh", ), [commands.binaries])
+                printed, _ = run_commands(blocks, root, root, ("sh",), [commands.binaries])
             ran += len(printed)
             new, count = compare(text, blocks, printed, update)
             compared += count

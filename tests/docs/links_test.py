@@ -1,16 +1,17 @@
 """The pages hang together: links_test.py SOURCE
 
-- Every link leads to a file, every #anchor and every quoted chapter (`[isa.md](isa.md), "Order"`) to a heading of it. -
-Every `docs/PAGE.md, "Chapter"` in the sources, too. - `folder/file` is a file of the sources, `trax_name` a word of
-them. - docs/index.md and README.md lead to every page, directly or by another page; docs/index.md names every page of
-docs/. - A page begins with a title and a sentence, and has at most LINES lines besides generated lists; pages of
-results and GENERATED
-  may have long tables.
-- A page of results says once, with `*Measured with ...*`, which versions measured it: those that stand above its
-tables. - What is code stands between backticks: an indented block has no kind, and no test runs it. - VERSION has a
-chapter in CHANGELOG.md. - Every picture in docs/ is shown by a page, is what its name says, and is small.
+- Every link leads to a file, every #anchor and every quoted chapter (`[isa.md](isa.md), "Order"`) to a heading of it.
+- Every `docs/PAGE.md, "Chapter"` in the sources leads to a heading, too.
+- `folder/file` is a file of the sources, `trax_name` a word of them.
+- docs/index.md and README.md lead to every page, directly or by another page; docs/index.md names every page of docs/.
+- A page begins with a title and a sentence. It has at most LINES lines besides generated lists; pages of results and
+  those of GENERATED may have long tables.
+- A page of results says once, with `*Measured with ...*`, which versions measured it: those above its tables.
+- Code stands between backticks: an indented block has no kind, and no test runs it.
+- VERSION has a chapter in CHANGELOG.md.
+- A page shows every picture of docs/. A picture's format is that of its name, and a PNG is small.
 
-It also sees that it can fail."""
+The test also breaks each rule once and checks that it is noticed."""
 
 import pathlib
 import re
@@ -32,7 +33,7 @@ IN_SOURCES = re.compile(r"\bdocs/([\w/-]+\.md)\b(?:,[\s/*#]*\"([^\"]+)\")?")
 FILE = re.compile(
     r"`(?:\./)?(\w[\w.+-]*(?:/[\w.+-]+)+\.(?:c|h|cpp|py|td|def|sh|cmake|json|cfg|md|patch|inc|txt))(?::\d+)?`")
 NAME = re.compile(r"`(_*(?:trax|TRAX)_\w+)(?:\([^`]*\))?`")
-OTHERS = ("docs/llvm-releases.md", )  # names files of LLVM
+OTHERS = ("docs/llvm-releases.md",)  # names files of LLVM
 SOURCES = (".c", ".h", ".cpp", ".py", ".td", ".txt", ".in", ".sh", ".cmake", ".s", ".S", ".inc", ".def")
 
 
@@ -126,8 +127,8 @@ class Pages:
         reader's."""
         wrong = []
         for found in () if str(self.name(page)) in OTHERS else FILE.finditer(text):
-            if not re.search(r"\b[A-Z]{2,}\b", found[1]) and not found[1].startswith("out/") and not any(
-                    name.endswith("/" + found[1]) for name in self.files):
+            is_other = re.search(r"\b[A-Z]{2,}\b", found[1]) or found[1].startswith("out/")
+            if not is_other and not any(name.endswith("/" + found[1]) for name in self.files):
                 wrong.append(f"{self.name(page)}: there is no {found[1]}")
         return wrong + [
             f"{self.name(page)}: the sources have no {name}" for name in NAME.findall(text) if name not in self.words
@@ -155,8 +156,8 @@ class Pages:
         count, generated = 0, False
         results = "results" in name.parts or page.name in GENERATED
         for line in lines:
-            generated = (generated or
-                         re.match(r"<!-- \S+.*: begin -->", line)) and not re.match(r"<!-- \S+.*: end -->", line)
+            generated = generated or re.match(r"<!-- \S+.*: begin -->", line)
+            generated = generated and not re.match(r"<!-- \S+.*: end -->", line)
             count += not generated and not (results and line.startswith("|"))
         count -= sum(
             block.count("\n") for words, block, _ in read_blocks(text) if kind(words, block) == "help" or results)
@@ -221,8 +222,8 @@ class Pages:
     def sources(self):
         for folder in FOLDERS:
             for path in sorted((self.source / folder).rglob("*")):
-                if path.suffix in SOURCES and "fuzz-corpus" not in path.parts and path != pathlib.Path(
-                        __file__).resolve():
+                is_this = path == pathlib.Path(__file__).resolve()
+                if path.suffix in SOURCES and "fuzz-corpus" not in path.parts and not is_this:
                     yield path.relative_to(self.source), path.read_text(encoding="utf-8", errors="replace")
 
     def unnoticed(self):

@@ -29,11 +29,9 @@ SCENES = {
 PICTURE, SIZE, GAP = "docs/forest.png", "400x225", 8
 
 
-# Of a screen: the name of the text chunk in which the PNG has the cycles of the run that it shows, and the part of the
-# page.
-SCREEN, CYCLES, CLIP = "docs/explore.png", b"tEXtcycles\0", {
-    "x": 0, "y": 0, "width": 1400, "height": 1640, "scale": 0.68
-}
+SCREEN = "docs/explore.png"
+CYCLES = b"tEXtcycles\0"  # the name of the text chunk in which the picture has the cycles of the run that it shows
+CLIP = {"x": 0, "y": 0, "width": 1400, "height": 1640, "scale": 0.68}
 
 
 def take_screen(page, path, cycles):
@@ -66,8 +64,9 @@ def check_screen(source, binaries, folder, update):
         take_screen(folder / words[-1], source / SCREEN, cycles)
     shown = re.search(re.escape(CYCLES) + rb"(\d+)", (source / SCREEN).read_bytes())
     wrong = [] if caption[1] == f"{cycles:,}" else [f"docs/explaining.md: the page's run takes {cycles:,} cycles"]
-    return wrong + ([]
-                    if shown and int(shown[1]) == cycles else [f"{SCREEN}: does not show the run of {cycles:,} cycles"])
+    if not shown or int(shown[1]) != cycles:
+        wrong.append(f"{SCREEN}: does not show the run of {cycles:,} cycles")
+    return wrong
 
 
 def digits(value):
@@ -80,10 +79,8 @@ def row(scene, statistics, old):
     rays, paper = statistics["rays"], cells[4]
     deviation = "-" if paper == "-" else f"{statistics['mrps'] / float(paper) * 100 - 100:+.1f} %"
     return "| " + " | ".join([
-        cells[0], f"{statistics['cycles']:,}", f"{rays:,}",
-        digits(statistics["mrps"]), paper, deviation,
-        digits(statistics["flops"] / rays),
-        digits(statistics["memory"]["bytes"] / rays),
+        cells[0], f"{statistics['cycles']:,}", f"{rays:,}", digits(statistics["mrps"]), paper, deviation,
+        digits(statistics["flops"] / rays), digits(statistics["memory"]["bytes"] / rays),
         digits(statistics["memory"]["bandwidth_gbps"])
     ]) + " |\n"
 
@@ -123,9 +120,8 @@ def main():
         done = subprocess.run([binaries / words[0], *words[1:]], cwd=folder, capture_output=True, text=True,
                               check=False) if words else None
         if not done or done.returncode or read_png((folder / words[-1]).read_bytes())[0] != 40:
-            wrong.append(
-                f"README.md: the command of the picture's caption {'fails: ' + done.stderr if done else 'is not there'}"
-            )
+            reason = "fails: " + done.stderr if done else "is not there"
+            wrong.append(f"README.md: the command of the picture's caption {reason}")
         wrong += [] if update else check_screen(source, binaries, folder, False)
         left = read_png((folder / "picture.png").read_bytes())[2]
         if update:

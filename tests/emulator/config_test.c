@@ -299,7 +299,7 @@ static void test_bad_files(void **state) {
   } files[] = {
       {"chip: {\n  tms = 0;\n};", ":2: chip.tms is 0; allowed are 1 to 64 TMs"},
       {"chip: {\n\n  tms = 65;\n};", ":3: chip.tms is 65; allowed are 1 to 64"},
-      {"chip: { tms = 2.5; };", ":1: chip.tms is 2.5; allowed are 1 to 64, without a fraction"},
+      {"chip: { tms = 2.5; };", ":1: chip.tms is 2.5; allowed are 1 to 64 TMs, without a fraction"},
       {"chip: { tms = \"4\"; };", ":1: chip.tms is \"4\", a string; allowed are 1 to 64 TMs"},
       {"chip: { tms = true; };", "chip.tms is true; allowed are 1 to 64 TMs"},
       {"chip: { tms = [1, 2]; };", "chip.tms is a list"},
@@ -348,8 +348,8 @@ static void test_former_names(void **state) {
   load_text("\ndcache: { lru = true; };", 24, ":2: unknown key \"dcache.lru\"; did you mean dcache.replacement?");
 }
 
-/* Every key in a file has a value of another type, out of range, not a power of two, a fraction, and a name that is not
-   quite its own. */
+/* Gives every key in a file a value of another type, one out of range, one that is no power of two, and a fraction, and
+   writes its name wrong. */
 static void test_every_key_wrong_in_a_file(void **state) {
   (void)state;
   for (size_t i = 0; i < trax_config_key_count; ++i) {

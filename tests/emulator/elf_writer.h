@@ -40,7 +40,7 @@ struct elf_file {
 struct elf_file elf_write(const struct elf_program *program);
 void elf_save(const char *path, const struct elf_file *file);
 
-/* The places of headers and sections in a file, for tests that damage them. */
+/* Headers and sections of a file, for tests that damage them. */
 Elf32_Ehdr *elf_header(struct elf_file *file);
 Elf32_Phdr *elf_program_header(struct elf_file *file, unsigned index);
 /* By name; NULL if there is none. */

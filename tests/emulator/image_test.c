@@ -111,7 +111,7 @@ static void test_source_lines(void **state) {
   trax_image_close(image);
 }
 
-/* Opens a copy of `program` after `damage`; it must be refused with a message that names the file and says `message`.
+/* Opens a copy of `program` after `damage`. It must be refused with a message that names the file and says `message`.
  */
 static void refuse(const char *program, void (*damage)(struct elf_file *file), const char *message) {
   struct elf_file file = program_file(program);

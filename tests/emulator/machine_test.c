@@ -277,7 +277,7 @@ static trax_machine *run_mix(void) {
   return machine;
 }
 
-/* The work of the program is known: 96 threads, 50 rounds of 17 instructions, 4 before and 1 behind. */
+/* The program executes, in each of 96 threads, 4 instructions, 50 rounds of 17, and 1. */
 static void test_counts_of_a_known_program(void **state) {
   (void)state;
   trax_machine *machine = run_mix();

@@ -21,7 +21,7 @@ extern const char *const program_names[]; /* NULL-terminated */
 /* The file of a program; of an unknown name its bytes are NULL. */
 struct elf_file program_file(const char *name);
 
-/* The addresses in the data of `copy`. */
+/* Addresses in the data of the program `copy`. */
 enum { COPY_INPUT = DATA, COPY_OUTPUT = DATA + 8, COPY_HEAP = DATA + 16, COPY_HEAP_END = DATA + 20 };
 
 #endif

@@ -1,4 +1,4 @@
-/* Look-ups whose work is counted, because their results are right even if they search everything. */
+/* Counts the work of look-ups, whose results are right even if they search everything. */
 #define _GNU_SOURCE /* MAP_ANONYMOUS */
 #include <setjmp.h>
 #include <signal.h>
@@ -65,7 +65,7 @@ static void on_fault(int number, siginfo_t *info, void *context) {
 }
 
 /* A binary search touches few of the pages that have the breakpoints. */
-static void test_breakpoints_are_found_without_a_look_at_all(void **state) {
+static void test_breakpoints_are_found_by_a_binary_search(void **state) {
   (void)state;
   const size_t page = (size_t)sysconf(_SC_PAGESIZE), size = sizeof(struct trax_gdb) + page;
   struct trax_gdb *gdb = mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -91,6 +91,6 @@ static void test_breakpoints_are_found_without_a_look_at_all(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_the_watchdog_looks_up_each_thread_once),
-                                     cmocka_unit_test(test_breakpoints_are_found_without_a_look_at_all)};
+                                     cmocka_unit_test(test_breakpoints_are_found_by_a_binary_search)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,6 +12,9 @@ import time
 
 from toolchain import HOST_COMPILER, Failure, Progress, SetupError, Target, require_host_compiler, require_programs, run
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import interrupts  # noqa: E402
+
 MAX_CYCLES = 1_000_000_000
 
 
@@ -49,7 +52,8 @@ def add_options(parser, name, seeds):
 
 
 def prepare(options, name, packages=None):
-    """Completes the options; returns the target. Raises SetupError."""
+    """Completes the options; returns the target. Raises SetupError. From now on a signal ends the tool."""
+    interrupts.end_by_signals()
     options.work = (options.work or options.build / "fuzz" / name).resolve()
     require_programs({"gcc": "gcc", **(packages or {})})
     target = Target(options.build, options.cflags.split())

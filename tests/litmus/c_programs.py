@@ -14,6 +14,9 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+import interrupts  # noqa: E402
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 SOURCES = os.path.join(HERE, "..", "c")
 LIMIT = 4000000000  # instructions
@@ -90,6 +93,7 @@ def main():
             arguments[i:i + 2] = [f"--level={arguments[i + 1]}"]
             break
     options = parser.parse_args(arguments)
+    interrupts.end_by_signals()
     programs = {name: flags for name, flags in threaded().items() if re.search(options.only, name)}
     good, problems = 0, []
     with tempfile.TemporaryDirectory() as directory, concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:

@@ -15,6 +15,9 @@ import sys
 import tempfile
 import threading
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+import interrupts  # noqa: E402
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 FEW_RUNS, MOST_RUNS = 4000, 1000000  # of those that are to show the forbidden outcome
 SECONDS = 3600
@@ -96,6 +99,7 @@ def main():
     arguments = [f"--levels={value}" if word == "--levels" else word
                  for word, value, before in zip(sys.argv[1:], sys.argv[2:] + [""], sys.argv[:-1]) if before != "--levels"]
     options = parser.parse_args(arguments)
+    interrupts.end_by_signals()
     names = sorted(name[:-2] for name in os.listdir(HERE) if name.endswith(".c") and re.search(options.only, name))
     good = bool(names)
     with tempfile.TemporaryDirectory() as directory, concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:

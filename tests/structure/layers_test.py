@@ -2,10 +2,10 @@
 
   layers_test.py SOURCE
 
-The packages of trax-eval import one another in the same way. A table is read from its chapter: a row for each folder, and in its second column what the folder may include. Rows stand from
-the top layer to the bottom one, so a folder may only name those below it: there is no circle. The test also sees that it can
-fail: with includes added to a copy of a file of each folder that look up or, in the ray tracer, at what the emulator keeps to
-itself."""
+The packages of trax-eval import one another in the same way. Each table is read from its chapter. It has a row for each folder, and the
+second column names the folders that the folder may include. Rows go from the top layer to the bottom one, and a row names only folders
+of lower rows, so there is no circle. The test adds forbidden includes and imports to copies of files of each folder and checks that
+they are noticed."""
 
 import os
 import re

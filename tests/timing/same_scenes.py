@@ -20,6 +20,9 @@ import sys
 import tempfile
 import time
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+import interrupts  # noqa: E402
+
 # What the old installation calls it: what the new one does. Of the JSON (a path, and a mapping of its values) and of CSV files.
 JSON_NAMES = {
     "configuration.dcache.lru": ("configuration.dcache.replacement", {False: "fifo", True: "lru"}),
@@ -225,6 +228,7 @@ def main():
     parser.add_argument("--only", default="", help="runs in whose name it is found, as 'dragon, era, 4x32 with l2'")
     parser.add_argument("--jobs", type=int, default=1, help="pairs of runs at once (default %(default)s)")
     options = parser.parse_args()
+    interrupts.end_by_signals()
     begin = time.monotonic()
     try:
         with tempfile.TemporaryDirectory(prefix="same-scenes.") as folder:

@@ -4,6 +4,7 @@
 #include "generate.h"
 
 #include "sampling/estimate.h"
+#include "sampling/plan.h"
 
 #include <math.h>
 #include <string.h>
@@ -410,6 +411,16 @@ static void refusals_of_queues(void **state) {
   }
 }
 
+/* A round of all queues has 2^32 slots. */
+static void large_tiles(void **state) {
+  (void)state;
+  const trax_slot_sampling asked = {.slots = 3u << 30, .queues = 4, .tile = 1u << 30, .block = 1};
+  assert_int_equal(trax_slot_plan_handed_out(&asked, 0, 5), 5);
+  assert_int_equal(trax_slot_plan_handed_out(&asked, 1, 5), 0);
+  assert_int_equal(trax_slot_plan_handed_out(&asked, 1, (1u << 30) + 7), 7);
+  assert_int_equal(trax_slot_plan_handed_out(&asked, 0, (1u << 30) + 7), 1u << 30);
+}
+
 static void refusals(void **state) {
   (void)state;
   static double wrong[ITEMS / BLOCK + 1];
@@ -455,7 +466,7 @@ int main(void) {
       cmocka_unit_test(quantiles),          cmocka_unit_test(by_hand),        cmocka_unit_test(coverage),
       cmocka_unit_test(everything),         cmocka_unit_test(some_of_it),     cmocka_unit_test(repeatable),
       cmocka_unit_test(as_asked),           cmocka_unit_test(several_queues), cmocka_unit_test(refusals),
-      cmocka_unit_test(refusals_of_queues), cmocka_unit_test(large_sizes),
+      cmocka_unit_test(refusals_of_queues), cmocka_unit_test(large_sizes),    cmocka_unit_test(large_tiles),
   };
   return cmocka_run_group_tests(tests, guess, NULL);
 }

@@ -132,6 +132,23 @@ def test_limits(programs, scratch):
         check(usage.ru_maxrss < limit << 10, f"{words}: {usage.ru_maxrss} kB")
 
 
+TOOL = """
+import concurrent.futures, subprocess, interrupts
+interrupts.end_by_signals()
+with concurrent.futures.ThreadPoolExecutor(2) as pool:
+    for done in [pool.submit(subprocess.run, ["sleep", "600"]) for _ in range(9)]:
+        done.result()
+"""
+
+
+def test_tools(scratch):
+    """A tool whose threads run programs, as tests/fuzz/csmith.py."""
+    tests = str(pathlib.Path(__file__).resolve().parents[1])
+    for number in SIGNALS:
+        command = ["env", f"PYTHONPATH={tests}", sys.executable, "-B", "-c", TOOL]
+        interrupted(command, scratch, scratch / f"tool-{number}", number, None)
+
+
 def main():
     programs = pathlib.Path(sys.argv[1]).resolve()
     with tempfile.TemporaryDirectory() as temporary:
@@ -140,6 +157,7 @@ def main():
         test_limits(programs, scratch)
         test_orphans(programs)
         test_signals(programs, scratch)
+        test_tools(scratch)
     return 1 if checking.failures else 0
 
 

@@ -29,6 +29,8 @@ import sys
 import tarfile
 
 import dejagnu
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+import interrupts  # noqa: E402
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ARCHIVE = "/usr/src/gcc-12/gcc-12.*-dfsg.tar.xz"
@@ -302,6 +304,7 @@ def main():
             arguments[place:place + 2] = [f"--levels={arguments[place + 1]}"]
             break
     options = parser.parse_args(arguments)
+    interrupts.end_by_signals()
     options.build = os.path.abspath(options.build)
 
     for name in ("clang", "trax-sim"):

@@ -82,8 +82,7 @@ trax_status trax_machine_load_bytes(trax_machine *machine, const char *path, con
 trax_status trax_machine_bind(trax_machine *machine, const char *symbol, const void *bytes, uint32_t size,
                               trax_error *error);
 trax_status trax_machine_bind_file(trax_machine *machine, const char *symbol, const char *path, trax_error *error);
-/* Sets *bytes to the contents of a bound buffer, valid until the machine is destroyed. Error: no such buffer is bound.
- */
+/* Sets *bytes to the contents of a bound buffer, valid until the machine is destroyed. Error: no such buffer. */
 trax_status trax_machine_read_buffer(trax_machine *machine, const char *symbol, const uint8_t **bytes, uint32_t *size,
                                      trax_error *error);
 
@@ -180,15 +179,13 @@ trax_status trax_machine_advance(trax_machine *machine, uint64_t cycle, bool *en
 /* A callback between cycles: all cycles before `cycle` are over. It sets *next to the cycle before which it is called
    again, UINT64_MAX for never. If it returns false, the run ends with TRAX_INTERRUPTED. */
 typedef bool trax_look(void *context, trax_machine *machine, uint64_t cycle, uint64_t *next);
-/* Adds a callback, first called before cycle `cycle`, or at the run's beginning if that is later. Error: out of memory.
- */
+/* Adds a callback, first called before cycle `cycle`, or at the run's beginning if later. Error: out of memory. */
 trax_status trax_machine_look(trax_machine *machine, uint64_t cycle, trax_look *look, void *context, trax_error *error);
 
 /* Between cycles (after trax_machine_advance, and in a trax_look), these functions and the statistics below return the
    state at that time. */
 uint64_t trax_machine_cycle(const trax_machine *machine); /* the next cycle; after the run, its length in cycles */
-/* Reads registers r0 to r31 and the pc of a thread, numbered TM * TPs + TP. Errors: no run under way, no such thread.
- */
+/* Reads registers r0 to r31 and the pc of thread TM * TPs + TP. Errors: no run is under way, no such thread. */
 trax_status trax_machine_read_registers(const trax_machine *machine, uint32_t thread, uint32_t registers[32],
                                         uint32_t *pc, trax_error *error);
 /* Sets *bytes and *size to an object of the program, by its symbol, at any time; valid until the machine is destroyed.

@@ -172,6 +172,41 @@ def obstacles(tools, _):
             )
 
 
+def exchanged(tools, _):
+    """Two files exchange names, and another process gives one of the names to a folder. The other file's contents stay: under
+    their former name, or if that has been replaced, in a temporary file that the message names."""
+    kept = []
+    for taken, other in ("ab", "ba"):
+        folder = tools.fresh("guest-files", "Q q\nF a 20000 1 644 0\nF b 10 2 644 0\n") / "q"
+        whole = contents(folder / other)
+        with subprocess.Popen(
+            tools.simulate("--checkpoint", tools.root / "none"),
+            cwd=folder.parent,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            bufsize=0,
+        ) as process:
+            process.stdin.write(b"Q q\nR a c\nR b a\nR c b\nZ\n")
+            output = b""
+            while output.count(b"R 0\n") < 3:
+                output += process.stdout.read(100)
+            (folder / taken).unlink()
+            (folder / taken).mkdir()
+            message = process.communicate(timeout=60)[1].decode()
+        left = [path.name for path in folder.iterdir() if contents(path) == whole]
+        kept += left
+        tools.check(
+            f"exchanged, {taken} is taken",
+            process.returncode == 1
+            and "cannot be written" in message
+            and len(left) == 1
+            and (left[0] == other or f"(complete in {left[0]})" in message),
+            (process.returncode, message, os.listdir(folder)),
+        )
+    tools.check("exchanged: a temporary file", sum(name.startswith(".trax-") for name in kept) == 1, kept)
+
+
 def library(tools, options):
     if not options.library:
         return
@@ -203,4 +238,4 @@ def outputs(tools, _):
     tools.check("beside the program's files", status == 0 and (folder / "q" / "b").exists(), message)
 
 
-PARTS = {"limits": limits, "moved": moved, "resumed": resumed, "obstacles": obstacles, "library": library, "outputs": outputs}
+PARTS = {"limits": limits, "moved": moved, "resumed": resumed, "obstacles": obstacles, "exchanged": exchanged, "library": library, "outputs": outputs}

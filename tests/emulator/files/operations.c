@@ -36,7 +36,7 @@ static void fill(unsigned count, unsigned seed) {
     memcpy(buffer + i, buffer, PERIOD);
 }
 
-/* Hashes words, because the machine's program is simulated. The bytes behind the last are zeros. */
+/* Hashes words, not bytes, to save simulated time. The bytes after the last one are zeros. */
 static unsigned digest(size_t count) {
   unsigned hash = (unsigned)count, word;
   for (size_t i = 0; i < count; i += sizeof word) {
@@ -169,7 +169,7 @@ static void begin(const char *name) {
 }
 
 #if IS_HOST
-/* The parts that a sequence finds. */
+/* Makes the files and folders with which a sequence begins. */
 static void prepare(char operation, char *words[]) {
   char first[600], second[600];
   in_folder(words[1], first);

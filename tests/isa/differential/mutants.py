@@ -16,6 +16,9 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../.."))
+import interrupts  # noqa: E402
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 SECTION = re.compile(r"^### (?P<name>\S+)$(?:(?!^#).)*?(?:^IMM is bits (?P<immediate>.*?)$(?:(?!^#).)*?)?"
                      r"^Semantics: `(?P<statement>.*?)`$", re.MULTILINE | re.DOTALL)
@@ -104,6 +107,7 @@ def main():
     parser.add_argument("--every", type=int, default=1, help="of the changes every so many (default: all)")
     parser.add_argument("--first", action="store_true", help="one change of each instruction")
     options = parser.parse_args()
+    interrupts.end_by_signals()
     with open(os.path.join(HERE, "..", "..", "..", "docs", "isa.md"), encoding="utf-8") as file:
         manual = file.read()
     cases = []

@@ -19,6 +19,9 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
+import interrupts  # noqa: E402
+
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[2]
 MEASURED = HERE / "measured.csv"
@@ -122,6 +125,7 @@ def main():
     what.add_argument("--check", action="store_true", help="compare the table with measured.csv")
     parser.add_argument("--bin", type=pathlib.Path, default=ROOT / "build/bin")
     options = parser.parse_args()
+    interrupts.end_by_signals()
     if options.check:
         check()
         return

@@ -15,6 +15,9 @@ import pathlib
 import subprocess
 import sys
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
+import interrupts  # noqa: E402
+
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[2]
 FOUND = HERE / "found.csv"
@@ -75,6 +78,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=2, help="functions at a time (default: %(default)s)")
     parser.add_argument("--bin", type=pathlib.Path, default=ROOT / "build/bin")
     options = parser.parse_args()
+    interrupts.end_by_signals()
     if options.measure:
         measure(options)
     before, old, after = parts()

@@ -12,8 +12,8 @@
 int trax_beneath_open(int folder, const char *path, int flags);
 
 /* Writes a whole file, under a temporary name that does not depend on `path`, and renames it. An error leaves the
-   earlier file of that name. Refused: a link, a device, a pipe and a folder of that name. shown: the path in messages.
- */
+   earlier file of that name. A link, a device, a pipe and a folder of that name are refused. shown: the path in
+   messages. */
 trax_status trax_beneath_write(int folder, const char *path, const char *shown, const void *bytes, size_t size,
                                trax_error *error);
 /* Whether this could be done now. */

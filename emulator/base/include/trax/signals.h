@@ -23,15 +23,14 @@ void trax_catch_signals(void);
 void trax_catch_signal(int number);
 /* Restores the default actions. */
 void trax_default_signals(void);
-/* fork() with the default actions in the child. A plain fork() leaves the child the handlers until it calls exec: a signal
-   that arrives before only sets the child's copy of trax_signal, and the child goes on. The child receives the signal
-   `last` when its parent ends. */
-pid_t trax_fork(int last);
-/* Waits for a child's end. When *interrupt, which may be NULL, becomes true, the child receives the signal `last`, and
-   the result is TRAX_INTERRUPTED. TRAX_ERROR: errno has the reason. */
-trax_status trax_wait_for_child(pid_t child, int last, const volatile int *interrupt, int *status);
-/* Ends this process when the one ends whose number is in the environment variable TRAX_PARENT, if that is its parent; at
-   once if it has ended already. */
+/* fork() with the default actions in the child. After a plain fork() the child would have the handlers until it calls
+   exec, and would only note a signal. The child receives `signal` when the thread that calls this ends. */
+pid_t trax_fork(int signal);
+/* Waits for a child's end and sets *status, as waitpid does. When *interrupt becomes true, the child receives `signal`,
+   and the result is TRAX_INTERRUPTED; interrupt may be NULL. TRAX_ERROR: errno has the reason. */
+trax_status trax_wait_for_child(pid_t child, int signal, const volatile int *interrupt, int *status);
+/* Ends this process when its parent ends, if the environment variable TRAX_PARENT has the parent's number; at once if
+   the parent has ended already. */
 void trax_end_with_parent(void);
 /* Ends the program by the signal in trax_signal, which must not be 0. */
 __attribute__((noreturn)) void trax_end_by_signal(void);

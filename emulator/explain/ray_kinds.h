@@ -1,7 +1,7 @@
 /* The kind of ray that a thread works for (docs/isa.md, "Traps"): the kind that it counted last, from the trap that
    counts it until the thread's next count of items. */
-#ifndef TRAX_EXPLAIN_KINDS_H
-#define TRAX_EXPLAIN_KINDS_H
+#ifndef TRAX_EXPLAIN_RAY_KINDS_H
+#define TRAX_EXPLAIN_RAY_KINDS_H
 
 #include "explain/span.h"
 #include "trax/abi.h"
