@@ -150,8 +150,7 @@ static void test_mtl_errors(void **state) {
     struct trax_mesh mesh;
     trax_error error = {{0}};
     test_text("bad.mtl", bad[i].text);
-    if (trax_mesh_import(&mesh, &path, 1, &(struct trax_import_options){.in_process = true}, NULL, &error) !=
-        TRAX_ERROR)
+    if (trax_mesh_import(&mesh, &path, 1, &(struct trax_import_options){0}, NULL, &error) != TRAX_ERROR)
       fail_msg("accepted: %s", bad[i].text);
     assert_contains(error.message, bad[i].message);
   }
@@ -242,7 +241,7 @@ static void test_textures(void **state) {
   trax_scene_release(&scene);
   trax_mesh_release(&mesh);
 
-  const struct trax_import_options plain = {.in_process = true, .no_textures = true};
+  const struct trax_import_options plain = {.no_textures = true};
   assert_int_equal(trax_mesh_import(&mesh, &path, 1, &plain, &report, &error), TRAX_OK);
   assert_true(mesh.texture_count == 0 && report.missing_files == 0 && report.bad_images == 0);
   build_good(&scene, &mesh, NULL);
@@ -302,7 +301,7 @@ static void test_resampling(void **state) {
     assert_texel(mesh.texels[i], 90, 160, 230, 255);
   trax_mesh_release(&mesh);
 
-  const struct trax_import_options small = {.in_process = true, .texture_size = 8};
+  const struct trax_import_options small = {.texture_size = 8};
   assert_int_equal(trax_mesh_import(&mesh, &path, 1, &small, NULL, &error), TRAX_OK);
   assert_true(mesh.textures[1].log2_width == 3 && mesh.textures[1].log2_height == 3);
   for (uint32_t i = 0; i < 64; i++) {
@@ -362,7 +361,7 @@ static void test_long_names(void **state) {
   struct trax_material_override override;
   snprintf(diffuse, sizeof diffuse, "%s=1,1,1", names[1]);
   assert_int_equal(trax_override_diffuse(&override, diffuse, &error), TRAX_OK);
-  const struct trax_import_options options = {.in_process = true, .overrides = &override, .override_count = 1};
+  const struct trax_import_options options = {.overrides = &override, .override_count = 1};
   assert_int_equal(trax_mesh_import(&mesh, &path, 1, &options, NULL, &error), TRAX_OK);
   assert_true(mesh.materials[0].surface.diffuse[1] == 0 && mesh.materials[1].surface.diffuse[1] == 1);
   trax_mesh_release(&mesh);
@@ -473,8 +472,7 @@ static void test_corner_errors(void **state) {
     struct trax_mesh mesh;
     trax_error error = {{0}};
     const char *path = test_text("bad.obj", bad[i].text);
-    if (trax_mesh_import(&mesh, &path, 1, &(struct trax_import_options){.in_process = true}, NULL, &error) !=
-        TRAX_ERROR)
+    if (trax_mesh_import(&mesh, &path, 1, &(struct trax_import_options){0}, NULL, &error) != TRAX_ERROR)
       fail_msg("accepted: %s", bad[i].text);
     assert_contains(error.message, bad[i].message);
   }
@@ -694,6 +692,10 @@ static void test_gltf(void **state) {
   trax_mesh_release(&mesh);
 }
 
+#define RED_PNG                                                                                                        \
+  "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4"                                 \
+  "z8AAAAMBAQDJ/pLvAAAAAElFTkSuQmCC"
+
 /* The extension's own example shows the lower left quarter of an image, turned clockwise by 90 degrees. */
 static void test_gltf_uv_transforms(void **state) {
   (void)state;
@@ -705,6 +707,7 @@ static void test_gltf_uv_transforms(void **state) {
       {"\"offset\":[0,1],\"rotation\":1.57079632679,\"scale\":[0.5,0.5]", {{0, 0}, {0, 0.5f}, {0.5f, 0.5f}, {0.5f, 0}}},
       {"\"offset\":[0,1],\"scale\":[1,-1]", {{0, 0}, {1, 0}, {1, 1}, {0, 1}}},
       {"\"offset\":[0.25,-0.5]", {{0.25f, 1.5f}, {1.25f, 1.5f}, {1.25f, 0.5f}, {0.25f, 0.5f}}},
+      {"\"texCoord\":1", {{0, 0}, {0, 0}, {1, 1}, {1, 1}}},
       /* scaled first, then turned by atan(3/4) */
       {"\"rotation\":0.643501109,\"scale\":[5,10]", {{0, 1}, {4, 4}, {10, -4}, {6, -7}}}};
   static const float corners[] = {0, 1, 0, 1, 1, 0, 1, 0, 0, 0, 0, 0, /* uvs, v down */ 0, 0, 1, 0, 1, 1, 0, 1};
@@ -716,27 +719,30 @@ static void test_gltf_uv_transforms(void **state) {
   write_png("four.png", four, 2, 2);
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
     char json[3000];
-    const int length =
-        snprintf(json, sizeof json,
-                 "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
-                 "\"extensionsUsed\":[\"KHR_texture_transform\"],\"images\":[{\"uri\":\"four.png\"}],"
-                 "\"textures\":[{\"source\":0}],\"materials\":[{\"normalTexture\":{\"index\":0},"
-                 "\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0,\"extensions\":"
-                 "{\"KHR_texture_transform\":{%s}}}}}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,"
-                 "\"TEXCOORD_0\":1,\"COLOR_0\":0},\"indices\":2,\"material\":0}]}],"
-                 "\"bufferViews\":[{\"buffer\":0,\"byteLength\":80},"
-                 "{\"buffer\":0,\"byteOffset\":80,\"byteLength\":12}],\"accessors\":["
-                 "{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\"},"
-                 "{\"bufferView\":0,\"byteOffset\":48,\"componentType\":5126,\"count\":4,\"type\":\"VEC2\"},"
-                 "{\"bufferView\":1,\"componentType\":5123,\"count\":6,\"type\":\"SCALAR\"}],"
-                 "\"buffers\":[{\"byteLength\":92,\"uri\":\"quad.bin\"}]}",
-                 cases[i].transform);
+    const int length = snprintf(
+        json, sizeof json,
+        "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
+        "\"extensionsUsed\":[\"KHR_texture_transform\"],\"images\":[{\"uri\":\"four.png\"},{\"uri\":\"" RED_PNG "\"}],"
+        "\"textures\":[{\"source\":0},{\"source\":1}],\"materials\":[{\"normalTexture\":{\"index\":0},"
+        "\"emissiveFactor\":[0.5,1,1],\"emissiveTexture\":{\"index\":1},"
+        "\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0,\"extensions\":"
+        "{\"KHR_texture_transform\":{%s}}}}}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,"
+        "\"TEXCOORD_0\":1,\"TEXCOORD_1\":3,\"COLOR_0\":0},\"indices\":2,\"material\":0}]}],"
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":80},"
+        "{\"buffer\":0,\"byteOffset\":80,\"byteLength\":12}],\"accessors\":["
+        "{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\"},"
+        "{\"bufferView\":0,\"byteOffset\":48,\"componentType\":5126,\"count\":4,\"type\":\"VEC2\"},"
+        "{\"bufferView\":1,\"componentType\":5123,\"count\":6,\"type\":\"SCALAR\"},"
+        "{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":\"VEC2\"}],"
+        "\"buffers\":[{\"byteLength\":92,\"uri\":\"quad.bin\"}]}",
+        cases[i].transform);
     assert_true((size_t)length < sizeof json);
     struct trax_mesh mesh;
     struct trax_import_report report;
     import_good(&mesh, test_text("quad.gltf", json), &report);
     assert_int_equal(report.unread, TRAX_UNREAD_COLOURS | TRAX_UNREAD_NORMAL_MAPS);
     assert_int_equal(mesh.triangle_count, 2);
+    assert_colour(mesh.materials[0].surface.emission, 0.5f, 0, 0);
     for (uint32_t t = 0; t < 2; t++)
       for (int corner = 0; corner < 3; corner++) {
         const float *place = mesh.vertices[mesh.triangles[t].vertices[corner]], *uv = mesh.uvs[t][corner];
@@ -792,7 +798,7 @@ static void test_overrides(void **state) {
   assert_int_equal(trax_override_diffuse(&all[2], red, &error), TRAX_OK);
   const char *path = test_text("two.obj", TRIANGLE "usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\n");
   struct trax_mesh mesh;
-  const struct trax_import_options options = {.in_process = true, .overrides = all, .override_count = 3};
+  const struct trax_import_options options = {.overrides = all, .override_count = 3};
   assert_int_equal(trax_mesh_import(&mesh, &path, 1, &options, NULL, &error), TRAX_OK);
   const struct trax_material *a = surface(&mesh, "a"), *b = surface(&mesh, "b");
   assert_true(a->kind == TRAX_MATERIAL_GLASS && a->ior == 2 && a->emission[0] == 3 && a->diffuse[1] == 0);

@@ -477,7 +477,7 @@ static void make_nonfinite(struct setup *setup, uint32_t rays) {
   fclose(file);
 
   const char *const paths[] = {path};
-  struct trax_import_options options = {.in_process = true};
+  struct trax_import_options options = {0};
   struct trax_import_report report;
   trax_error error;
   if (trax_mesh_import(&setup->mesh, paths, 1, &options, &report, &error) != TRAX_ERROR)
