@@ -249,8 +249,6 @@ struct scene_box scene_box_around(const struct scene_box boxes[2]);
 /* A node around such boxes. */
 void scene_node_write(void *node, enum trax_node_layout layout, const struct scene_box boxes[2],
                       const trax_scene_ref children[2]);
-/* The names of the layouts from TRAX_NODE_LAYOUTS on, which earlier versions had; ended by NULL. */
-extern const char *const scene_removed_layouts[];
 /* Do rays visit hardly more of the tree if its boxes are on the scene's grid, in each of its larger parts? */
 bool scene_grid_suits(const struct scene_tree *tree);
 /* The boxes of a node as they are stored. */

@@ -175,8 +175,8 @@ static trax_status read_elements(struct ply_reader *reader) {
       continue;
     reader->current = element;
     for (reader->current_number = 0; reader->current_number < element->count; reader->current_number++) {
-      trax_status result = scene_is_interrupted(reader->polygon_work.interrupt) ? TRAX_INTERRUPTED
-                                                                                : read_record(reader, element);
+      trax_status result =
+          scene_is_interrupted(reader->polygon_work.interrupt) ? TRAX_INTERRUPTED : read_record(reader, element);
       if (result != TRAX_OK)
         return result;
     }

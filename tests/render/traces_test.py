@@ -265,7 +265,7 @@ def rays(reader):
             primary = {(ray.x, ray.y): (ray.triangle + 1) % 2**32 for ray in traced if ray.kind == 0}
             check(primary == shown, "triangles of the rays from the eye are not those of --id-picture")
             check_way(traced)
-    for words, message in ((["--sampled"], "leaves out"), (["--engine", "embree"], "Embree"), (["--fast-math"], "--fast-math"),
+    for words, message in ((["--sampled"], "leaves out"), (["--engine", "embree"], "Embree"),
                            (["--frames", "2"], "--frames"), (["--prepare", "d"], "--prepare")):
         out = [] if "--prepare" in words else ["-o", "q.png"]
         done = call("trax-render", *SIZE, *words, *out, "--ray-trace", "no.bin", status=1)
