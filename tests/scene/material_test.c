@@ -278,20 +278,24 @@ static void test_merged_textures(void **state) {
 /* A texture of one colour keeps it at any size; means keep the mean of the light. */
 static void test_resampling(void **state) {
   (void)state;
-  static rgba grey[100 * 37], board[64 * 64], edge[64 * 64];
+  static rgba grey[100 * 37], board[64 * 64], edge[64 * 64], line[64 * 64];
   for (size_t i = 0; i < sizeof grey / sizeof *grey; i++)
     memcpy(grey[i], (const rgba){90, 160, 230, 255}, sizeof *grey);
   for (size_t i = 0; i < 64 * 64; i++) {
     const unsigned char value = (i + i / 64) % 2 ? 255 : 0;
     memcpy(board[i], (const rgba){value, value, value, 255}, sizeof *board);
     /* transparent texels have a colour that must not be seen */
-    memcpy(edge[i], value ? (const rgba){255, 255, 255, 255} : (const rgba){255, 0, 0, 0}, sizeof *edge);
+    memcpy(edge[i], value ? (const rgba){0, 255, 255, 255} : (const rgba){255, 0, 0, 0}, sizeof *edge);
+    memset(line[i], i % 64 == 32 || i % 64 == 63 ? 255 : 0, 3);
+    line[i][3] = 255;
   }
   write_png("grey.png", grey, 100, 37);
   write_png("board.png", board, 64, 64);
   write_png("edge.png", edge, 64, 64);
+  write_png("line.png", line, 64, 64);
   test_text("sizes.mtl", "newmtl grey\nmap_Kd grey.png\nnewmtl board\nmap_Kd board.png\n"
-                         "newmtl edge\nmap_Kd edge.png\nmap_d edge.png\n");
+                         "newmtl edge\nmap_Kd edge.png\nmap_d edge.png\nnewmtl line\nmap_Kd line.png\n"
+                         "newmtl clamped\nmap_Kd -clamp on line.png\n");
   const char *path = test_text("sizes.obj", "mtllib sizes.mtl\n" TRIANGLE "vt 0 0\nusemtl grey\nf 1/1 2/1 3/1\n");
   struct trax_mesh mesh;
   trax_error error;
@@ -308,8 +312,12 @@ static void test_resampling(void **state) {
     const uint32_t texel = mesh.texels[mesh.textures[1].first_texel + i];
     assert_true(abs((int)(texel & 255) - 180) <= 1); /* 255 * sqrt(1/2), not the 188 of a mean of sRGB */
     const uint32_t holed = mesh.texels[mesh.textures[2].first_texel + i];
-    assert_true((holed & 0xFFFFFF) == 0xFFFFFF);
+    assert_true((holed & 0xFFFFFF) == 0xFFFF00);
     assert_true(abs((int)(holed >> 24) - 128) <= 1);
+    /* A tent 16 columns wide: 255 * sqrt(0.4375 / 8) and 255 * sqrt(0.5625 / 8) on either side of a line. */
+    static const uint32_t lined[2][8] = {{60, 0, 0, 60, 68, 0, 0, 68}, {0, 0, 0, 60, 68, 0, 0, 113}};
+    for (int clamp = 0; clamp < 2; clamp++)
+      assert_int_equal(mesh.texels[mesh.textures[3 + clamp].first_texel + i] & 255, lined[clamp][i % 8]);
   }
   trax_mesh_release(&mesh);
 }
@@ -692,9 +700,10 @@ static void test_gltf(void **state) {
   trax_mesh_release(&mesh);
 }
 
+/* One pixel of 188, 0, 0. */
 #define RED_PNG                                                                                                        \
-  "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4"                                 \
-  "z8AAAAMBAQDJ/pLvAAAAAElFTkSuQmCC"
+  "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADE"                                           \
+  "lEQVR4nGPYw8AAAAI4AL0jbUIJAAAAAElFTkSuQmCC"
 
 /* The extension's own example shows the lower left quarter of an image, turned clockwise by 90 degrees. */
 static void test_gltf_uv_transforms(void **state) {
@@ -742,7 +751,7 @@ static void test_gltf_uv_transforms(void **state) {
     import_good(&mesh, test_text("quad.gltf", json), &report);
     assert_int_equal(report.unread, TRAX_UNREAD_COLOURS | TRAX_UNREAD_NORMAL_MAPS);
     assert_int_equal(mesh.triangle_count, 2);
-    assert_colour(mesh.materials[0].surface.emission, 0.5f, 0, 0);
+    assert_colour(mesh.materials[0].surface.emission, 0.5f * 0.502886f, 0, 0);
     for (uint32_t t = 0; t < 2; t++)
       for (int corner = 0; corner < 3; corner++) {
         const float *place = mesh.vertices[mesh.triangles[t].vertices[corner]], *uv = mesh.uvs[t][corner];
