@@ -27,7 +27,7 @@ packages=(
   cmake ninja-build gcc g++ pkg-config python3                            # to build
   llvm-19-dev libclang-19-dev libclang-common-19-dev libc++-19-dev
   libelf-dev libdw-dev libconfig-dev libjansson-dev libxxhash-dev         # linker, emulator
-  libassimp-dev libembree-dev libpng-dev libjpeg-dev libtinyexr-dev liblzma-dev zlib1g-dev libgmp-dev  # ray tracer's host side
+  libembree-dev libpng-dev libjpeg-dev libtinyexr-dev liblzma-dev zlib1g-dev libgmp-dev  # ray tracer's host side
   newlib-source                                                           # the mathematical functions of binary64
   glmark2-data                                                            # the demo's bunny
 )

@@ -63,7 +63,6 @@ accept_hit(const char *triangle, bool any, float scaled, float determinant, floa
   return true;
 }
 
-
 /* Coordinates are renamed so that the direction's largest component is the third, and sheared and scaled so that the
    ray is the third axis. offset_ are the coordinates' places in a vertex, in bytes. */
 struct triangle_ray {

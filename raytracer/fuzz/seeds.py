@@ -8,9 +8,9 @@ or, for scenes, views and pictures, the file itself.
 import glob
 import gzip
 import hashlib
+import json
 import lzma
 import os
-import random
 import struct
 import subprocess
 import sys
@@ -76,19 +76,29 @@ add_case("trax-scene-mesh", "glass:2", ("a.ply", PLY), ("a.png", image))
 add_case("trax-scene-mesh", "", ("a.ply", BINARY_PLY))
 add_case("trax-scene-mesh", "", ("a.obj", gzip.compress(OBJ, mtime=0)), ("a.mtl", MTL), ("a.png", image))
 add_case("trax-scene-mesh", "", ("a.ply", lzma.compress(PLY)), ("a.png", image))
-GLTF = (b'{"scenes":[{"nodes":[0]}],"nodes":[{"children":[1,2]},{},{"mesh":0}],'
-        b'"extensionsRequired":["KHR_texture_transform"]}')
-GLTF_1 = b'{"scenes":{"s":{"nodes":["a"]}},"nodes":{"a":{"children":["b"]},"b":{}}}'
-add_case("trax-scene-mesh", "", ("a.gltf", GLTF))
-add_case("trax-scene-mesh", "", ("a.gltf", GLTF_1))
-glb = b"glTF" + struct.pack("<4I", 2, 20 + len(GLTF), len(GLTF), 0x4E4F534A) + GLTF
-add_case("trax-scene-mesh", "", ("a.glb", glb))
+GLTF = json.dumps({
+    "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 3]}], "extensionsRequired": ["KHR_texture_transform"],
+    "nodes": [{"children": [1, 2], "rotation": [0, 0, 0.6, 0.8], "scale": [1, -2, 1]}, {"camera": 0, "translation": [0, 0, 4]}, {"mesh": 0},
+              {"mesh": 0, "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, 0, 0, 1]}],
+    "cameras": [{"type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1}}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 0, "TEXCOORD_0": 1}, "indices": 2, "material": 0, "mode": 5},
+                               {"attributes": {"POSITION": 0}, "mode": 2}]}],
+    "materials": [{"name": "a", "alphaMode": "MASK", "emissiveFactor": [1, 2, 3], "pbrMetallicRoughness": {
+        "metallicFactor": 0.5, "roughnessFactor": 0.5, "metallicRoughnessTexture": {"index": 1},
+        "baseColorTexture": {"index": 0, "extensions": {"KHR_texture_transform": {"offset": [0, 1], "rotation": 1, "scale": [2, 3]}}}}}],
+    "textures": [{"source": 0, "sampler": 0}, {"source": 1}], "samplers": [{"wrapS": 33071}], "images": [{"uri": "a.png"}, {"bufferView": 2}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
+                  {"bufferView": 1, "componentType": 5121, "count": 4, "type": "VEC2", "normalized": True},
+                  {"bufferView": 1, "byteOffset": 8, "componentType": 5123, "count": 4, "type": "SCALAR"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 16},
+                    {"buffer": 0, "byteOffset": 64, "byteLength": len(image)}], "buffers": [{"byteLength": 64 + len(image), "uri": "b.bin"}]}).encode()
+BUFFER = struct.pack("<12f8B4H", 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 1, 0, 0, 255, 0, 0, 255, 255, 255, 0, 1, 2, 3) + image
+add_case("trax-scene-mesh", "", ("a.gltf", GLTF), ("a.png", image), ("b.bin", BUFFER))
+CHUNKS = GLTF.replace(b', "uri": "b.bin"', b"") + b" " * (-len(GLTF.replace(b', "uri": "b.bin"', b"")) % 4)
+glb = b"glTF" + struct.pack("<4I", 2, 28 + len(CHUNKS) + len(BUFFER), len(CHUNKS), 0x4E4F534A) + CHUNKS
+add_case("trax-scene-mesh", "", ("a.glb", glb + struct.pack("<2I", len(BUFFER), 0x004E4942) + BUFFER), ("a.png", image))
 comb = b"".join(b"v %d %d 0\n" % (i, 5 * (i // 2 % 2)) for i in range(40)) + b"f " + b" ".join(b"%d" % (i + 1) for i in range(40))
 add_case("trax-scene-mesh", "", ("a.obj", comb))
-
-numbers = random.Random(1)
-for _ in range(24):
-    add_case("trax-scene-assimp", "", ("a", bytes(numbers.randrange(256) for _ in range(600))), ("a.png", image))
 
 for view in glob.glob(os.path.join(here, "..", "views", "*.view")):
     with open(view, "rb") as file:

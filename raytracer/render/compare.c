@@ -9,25 +9,24 @@
 
 #include <stdio.h>
 
-trax_status run_on_host(struct trax_picture *picture, enum engine engine, const struct options *options,
-                        const struct trax_frame *frame, trax_progress_line *progress, struct live *live,
-                        trax_error *error) {
+trax_status run_on_host(struct trax_picture *picture, const struct job *job, enum engine engine, trax_error *error) {
   static const char *const names[] = {
       [ENGINE_NATIVE] = "native twin", [ENGINE_EMBREE] = "Embree", [ENGINE_EXACT] = "exact picture"};
-  struct step step = {.line = progress, .name = names[engine], .live = live};
+  const struct options *options = job->options;
+  struct step step = {.line = job->progress, .name = names[engine], .live = job->live};
   struct trax_render_run run = {.progress = show_step,
                                 .progress_context = &step,
                                 .interrupt = &trax_signal,
                                 .layers = options->layers,
                                 .exactly = engine == ENGINE_EXACT};
   step.run = &run;
-  live_begin(live, frame);
+  live_begin(job->live, job->frame);
   double begun = trax_seconds();
-  trax_status status = engine == ENGINE_NATIVE ? trax_render_twin(picture, frame, options->threads, &run, error)
-                                               : trax_render_embree(picture, frame, &run, error);
-  trax_progress_line_clear(progress);
+  trax_status status = engine == ENGINE_NATIVE ? trax_render_twin(picture, job->frame, options->threads, &run, error)
+                                               : trax_render_embree(picture, job->frame, &run, error);
+  trax_progress_line_clear(job->progress);
   if (status == TRAX_OK)
-    status = live_end(live, picture, error);
+    status = live_end(job->live, picture, error);
   if (status == TRAX_OK && !options->quiet)
     printf("rays        %llu in %.3f s on this computer\n", (unsigned long long)run.rays, trax_seconds() - begun);
   return status;
@@ -35,41 +34,40 @@ trax_status run_on_host(struct trax_picture *picture, enum engine engine, const 
 
 enum finder { BY_TWIN, BY_EMBREE, WITHOUT_ERROR };
 
-/* What the rays hit. */
-static trax_status find_hits(struct trax_hits *hits, enum finder finder, bool holes, unsigned threads,
-                             const struct trax_frame *frame, trax_progress_line *progress, trax_error *error) {
+/* Finds what the rays from the eye hit; with holes, behind those. */
+static trax_status find_hits(struct trax_hits *hits, const struct job *job, enum finder finder, bool holes,
+                             trax_error *error) {
   static const char *const names[] = {"hits", "Embree's hits", "exact hits"};
-  struct step step = {.line = progress, .name = names[finder]};
+  struct step step = {.line = job->progress, .name = names[finder]};
   struct trax_render_run run = {
       .progress = show_step, .progress_context = &step, .interrupt = &trax_signal, .holes = holes};
-  trax_status status = finder == BY_TWIN     ? trax_hits_native(hits, frame, threads, &run, error)
-                       : finder == BY_EMBREE ? trax_hits_embree(hits, frame, &run, error)
-                                             : trax_hits_exact(hits, frame, &run, error);
-  trax_progress_line_clear(progress);
+  trax_status status = finder == BY_TWIN     ? trax_hits_native(hits, job->frame, job->options->threads, &run, error)
+                       : finder == BY_EMBREE ? trax_hits_embree(hits, job->frame, &run, error)
+                                             : trax_hits_exact(hits, job->frame, &run, error);
+  trax_progress_line_clear(job->progress);
   return status;
 }
 
-/* The device program's against exact ones; how many are Embree's. */
-static trax_status judge_hits(struct trax_hits_difference *difference, uint64_t *embree, const struct trax_frame *frame,
-                              trax_progress_line *progress, trax_error *error) {
+/* Compares the device program's hits with exact ones. *embree: how many are the same as Embree's. */
+static trax_status judge_hits(struct trax_hits_difference *difference, uint64_t *embree, const struct job *job,
+                              trax_error *error) {
   struct trax_hits hits[3] = {{0}};
   trax_status status = TRAX_OK;
   for (int finder = BY_TWIN; finder <= WITHOUT_ERROR && status == TRAX_OK; finder++)
-    status = find_hits(&hits[finder], finder, false, 0, frame, progress, error);
+    status = find_hits(&hits[finder], job, finder, false, error);
   if (status == TRAX_OK) {
-    trax_hits_judge(difference, &hits[BY_TWIN], &hits[WITHOUT_ERROR], frame);
-    *embree = trax_hits_same(&hits[BY_TWIN], &hits[BY_EMBREE], frame);
+    trax_hits_judge(difference, &hits[BY_TWIN], &hits[WITHOUT_ERROR], job->frame);
+    *embree = trax_hits_same(&hits[BY_TWIN], &hits[BY_EMBREE], job->frame);
   }
   for (int finder = BY_TWIN; finder <= WITHOUT_ERROR; finder++)
     trax_hits_release(&hits[finder]);
   return status;
 }
 
-static trax_status compare_hits(const struct trax_frame *frame, trax_progress_line *progress, bool *agrees,
-                                trax_error *error) {
+static trax_status compare_hits(const struct job *job, bool *agrees, trax_error *error) {
   struct trax_hits_difference difference;
   uint64_t embree;
-  const trax_status status = judge_hits(&difference, &embree, frame, progress, error);
+  const trax_status status = judge_hits(&difference, &embree, job, error);
   if (status != TRAX_OK)
     return status;
   const uint64_t beyond = difference.holes + difference.wrong;
@@ -84,11 +82,10 @@ static trax_status compare_hits(const struct trax_frame *frame, trax_progress_li
   return TRAX_OK;
 }
 
-trax_status measure_hits(const char *path, const struct trax_frame *frame, trax_progress_line *progress,
-                         trax_error *error) {
+trax_status measure_hits(const struct job *job, trax_error *error) {
   struct trax_hits_difference difference;
   uint64_t embree;
-  const trax_status status = judge_hits(&difference, &embree, frame, progress, error);
+  const trax_status status = judge_hits(&difference, &embree, job, error);
   if (status != TRAX_OK)
     return status;
   const struct figure figures[] = {
@@ -96,20 +93,24 @@ trax_status measure_hits(const char *path, const struct trax_frame *frame, trax_
       {"tied", (double)difference.tied},     {"beyond", (double)(difference.holes + difference.wrong)},
       {"holes", (double)difference.holes},   {"embree", (double)embree}};
   trax_output output;
-  if (trax_output_open(&output, path, error) != TRAX_OK)
+  if (trax_output_open(&output, job->options->hits, error) != TRAX_OK)
     return TRAX_ERROR;
   figures_print(output.file, figures, sizeof figures / sizeof *figures);
   return trax_output_commit(&output, error); /* which notices what could not be written */
 }
 
-trax_status write_hits(const struct options *options, const struct trax_frame *frame, trax_progress_line *progress,
-                       trax_error *error) {
+trax_status write_hits(const struct job *job, trax_error *error) {
+  static const enum finder finders[] = {[ENGINE_FAST] = BY_TWIN,
+                                        [ENGINE_REFERENCE] = BY_TWIN,
+                                        [ENGINE_NATIVE] = BY_TWIN,
+                                        [ENGINE_EMBREE] = BY_EMBREE,
+                                        [ENGINE_EXACT] = WITHOUT_ERROR};
+  const struct options *options = job->options;
   struct trax_hits hits = {0};
   struct trax_picture picture = {0};
-  trax_status status = find_hits(&hits, options->engine >= ENGINE_EMBREE ? BY_EMBREE : BY_TWIN, true, options->threads,
-                                 frame, progress, error);
+  trax_status status = find_hits(&hits, job, finders[options->engine], true, error);
   if (status == TRAX_OK)
-    status = trax_hits_picture(&picture, &hits, frame, error);
+    status = trax_hits_picture(&picture, &hits, job->frame, error);
   if (status == TRAX_OK)
     status = trax_picture_write(&picture, options->id_picture, error);
   if (status == TRAX_OK && !options->quiet)
@@ -119,14 +120,14 @@ trax_status write_hits(const struct options *options, const struct trax_frame *f
   return status;
 }
 
-trax_status compare(const struct trax_picture *picture, const struct options *options, const struct trax_frame *frame,
-                    trax_progress_line *progress, bool *agrees, trax_error *error) {
+trax_status compare(const struct trax_picture *picture, const struct job *job, bool *agrees, trax_error *error) {
   struct trax_picture other = {0};
   struct trax_difference difference;
-  struct options quietly = *options;
-  quietly.quiet = true;
-  quietly.layers = false;
-  trax_status status = run_on_host(&other, ENGINE_EMBREE, &quietly, frame, progress, NULL, error);
+  struct options options = *job->options;
+  const struct job quietly = {.options = &options, .frame = job->frame, .progress = job->progress};
+  options.quiet = true;
+  options.layers = false;
+  trax_status status = run_on_host(&other, &quietly, ENGINE_EMBREE, error);
   if (status != TRAX_OK)
     return status;
   trax_picture_compare(&difference, picture, &other, 2);
@@ -139,17 +140,13 @@ trax_status compare(const struct trax_picture *picture, const struct options *op
     printf("            %.4f %% of the floats within 2/255 of their brightness, largest difference %.3g/255\n", percent,
            difference.most);
   *agrees = percent >= 99.9;
-  if (frame->params->features & TRAX_FEATURE_BIT(PATHS)) { /* of which one in thousands takes another turn */
+  if (job->frame->params->features & TRAX_FEATURE_BIT(PATHS)) { /* of which one in thousands takes another turn */
     const double deviation = 100 * (other_light > 0 ? light / other_light - 1 : light > 0);
     printf("            light of the whole picture %+.4f %%\n", deviation);
     *agrees = percent >= 99 && deviation > -0.2 && deviation < 0.2;
   }
 
-  if (frame->fast_math) {
-    printf("twin        not compared: it is strict, the program is not\n");
-    return TRAX_OK;
-  }
-  status = run_on_host(&other, ENGINE_NATIVE, &quietly, frame, progress, NULL, error);
+  status = run_on_host(&other, &quietly, ENGINE_NATIVE, error);
   if (status != TRAX_OK)
     return status;
   trax_picture_compare(&difference, picture, &other, 0);
@@ -160,14 +157,13 @@ trax_status compare(const struct trax_picture *picture, const struct options *op
     printf("twin        %llu pixels differ, by %u at (%u, %u) and less elsewhere\n",
            (unsigned long long)difference.unequal, difference.largest, difference.x, difference.y);
   *agrees = *agrees && difference.unequal == 0;
-  return compare_hits(frame, progress, agrees, error);
+  return compare_hits(job, agrees, error);
 }
 
-trax_status trace_rays(const struct options *options, const struct trax_frame *frame,
-                       const struct trax_picture *picture, trax_progress_line *progress, trax_error *error) {
-  struct step step = {.line = progress, .name = "trace of the rays"};
+trax_status trace_rays(const struct job *job, const struct trax_picture *picture, trax_error *error) {
+  struct step step = {.line = job->progress, .name = "trace of the rays"};
   struct trax_render_run run = {.progress = show_step, .progress_context = &step, .interrupt = &trax_signal};
-  const trax_status status = trax_ray_trace_write(options->ray_trace, frame, picture, &run, error);
-  trax_progress_line_clear(progress);
+  const trax_status status = trax_ray_trace_write(job->options->ray_trace, job->frame, picture, &run, error);
+  trax_progress_line_clear(job->progress);
   return status;
 }

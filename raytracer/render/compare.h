@@ -2,28 +2,21 @@
 #ifndef TRAX_RENDER_COMPARE_H
 #define TRAX_RENDER_COMPARE_H
 
-#include "live.h"
-#include "trax/progress.h"
+#include "steps.h"
 
-/* The picture by one of the engines of this computer; live may be NULL. */
-trax_status run_on_host(struct trax_picture *picture, enum engine engine, const struct options *options,
-                        const struct trax_frame *frame, trax_progress_line *progress, struct live *live,
-                        trax_error *error);
+/* Renders the picture by one of the engines that need no emulator. */
+trax_status run_on_host(struct trax_picture *picture, const struct job *job, enum engine engine, trax_error *error);
 
-/* --compare. *agrees: all comparisons came out well. */
-trax_status compare(const struct trax_picture *picture, const struct options *options, const struct trax_frame *frame,
-                    trax_progress_line *progress, bool *agrees, trax_error *error);
+/* --compare. *agrees: whether all comparisons came out well. */
+trax_status compare(const struct trax_picture *picture, const struct job *job, bool *agrees, trax_error *error);
 
 /* --hits: what --compare says of hits, as JSON. */
-trax_status measure_hits(const char *path, const struct trax_frame *frame, trax_progress_line *progress,
-                         trax_error *error);
+trax_status measure_hits(const struct job *job, trax_error *error);
 
 /* --id-picture. */
-trax_status write_hits(const struct options *options, const struct trax_frame *frame, trax_progress_line *progress,
-                       trax_error *error);
+trax_status write_hits(const struct job *job, trax_error *error);
 
 /* --ray-trace; picture: of the same frame by another engine, or NULL. */
-trax_status trace_rays(const struct options *options, const struct trax_frame *frame,
-                       const struct trax_picture *picture, trax_progress_line *progress, trax_error *error);
+trax_status trace_rays(const struct job *job, const struct trax_picture *picture, trax_error *error);
 
 #endif

@@ -7,9 +7,8 @@
 #define MOST_OCCLUSION_POINTS (1u << 16)
 
 bool options_rendered(const struct options *options) {
-  return options->output || options->progress_png || options->prepare || options->keep ||
-         options->stats || options->compare || options->cost_picture || options->cost_values ||
-         trax_explain_wanted(&options->explain);
+  return options->output || options->progress_png || options->prepare || options->keep || options->stats ||
+         options->compare || options->cost_picture || options->cost_values || trax_explain_wanted(&options->explain);
 }
 
 trax_status options_check(const struct options *options, trax_error *error) {
@@ -35,8 +34,9 @@ trax_status options_check(const struct options *options, trax_error *error) {
       (options->program || options->no_specialise || options->sampled || options->stats || options->keep ||
        options->compare || options->cost_picture || options->cost_values || options->progress_png ||
        trax_explain_wanted(&options->explain)))
-    return trax_fail(error, "--layers is of a program that records, and has no run time: nothing else can be told of "
-                            "its run, and neither --program nor --no-specialise has one");
+    return trax_fail(error,
+                     "--layers needs a program that records and therefore has no run time to report: it excludes "
+                     "--program, --no-specialise, --stats, --compare, --sampled and what explains a run");
   const trax_slot_sampling *sampling = &options->sampling;
   if (!options->sampled &&
       (sampling->fraction > 0 || sampling->error > 0 || sampling->seed || sampling->unit || sampling->warm_up))
@@ -50,15 +50,7 @@ trax_status options_check(const struct options *options, trax_error *error) {
     return trax_fail(error, "--sampled leaves out most of the run: there is nothing to compare, explain or prepare");
   if (options->sampled && options->source)
     return trax_fail(error, "--sampled: of another --source the native twin's picture would be another one");
-  if (options->frame.fast_math && (options->sampled || options->ray_trace))
-    return trax_fail(error, "--fast-math: its picture and rays are not the native twin's, which --sampled and "
-                            "--ray-trace are about");
-  if (options->frame.fast_math && (options->no_specialise || options->program))
-    return trax_fail(error, "--fast-math needs a program compiled for the picture; %s asks for another",
-                     options->program ? "--program" : "--no-specialise");
   if (options->engine > ENGINE_REFERENCE) {
-    if (options->frame.fast_math)
-      return trax_fail(error, "--fast-math needs the emulator: it is about the program that is compiled for it");
     if (options->stats)
       return trax_fail(error, "--stats needs the emulator: the other engines have no machine to tell about");
     if (options->cost_picture || options->cost_values || trax_explain_wanted(&options->explain))
@@ -86,9 +78,9 @@ trax_status options_check(const struct options *options, trax_error *error) {
     return trax_fail(error, "--cost without --cost-picture or --cost-values");
   if (options->explain.source_folder_count && !options->explain.explore)
     return trax_fail(error, "--source-folder without --explore");
-  if (options->frames > 1 && (options->stats || options->keep || options->cost_picture || options->cost_values ||
-                              options->compare || options->id_picture || options->ray_trace ||
-                              trax_explain_wanted(&options->explain)))
+  if (options->frames > 1 &&
+      (options->stats || options->keep || options->cost_picture || options->cost_values || options->compare ||
+       options->id_picture || options->ray_trace || trax_explain_wanted(&options->explain)))
     return trax_fail(error, "--frames makes pictures only: --stats, --keep, --compare and the like are for one");
   if (options->ray_trace && options->engine >= ENGINE_EMBREE)
     return trax_fail(error, "--ray-trace: the rays are the device program's, which Embree does not run");

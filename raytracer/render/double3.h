@@ -1,4 +1,4 @@
-/* Vectors in binary64, for the reference pictures. */
+/* Vectors in binary64, for Embree's pictures. */
 #ifndef TRAX_RENDER_DOUBLE3_H
 #define TRAX_RENDER_DOUBLE3_H
 

@@ -1,6 +1,6 @@
-/* The reference pictures: Embree finds the hits, in binary32, or they are found without error (exact.c); binary64
+/* Pictures to compare with: Embree finds the hits, in binary32, or they are found without error (exact.c); binary64
    shades them. They share two things with the device program: the camera's arithmetic, and the points of the sampler,
-   which tests/render/light_test.c judges. They share neither BVH, intersection, shading nor tables of lights. */
+   which tests/render/light_test.c judges. They share neither BVH, intersection, shading nor parameters of paths. */
 #include "embree.h"
 
 #include "reach.h"
@@ -184,7 +184,7 @@ trax_status embree_commit(RTCDevice device, RTCScene scene, const struct trax_sc
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, source->triangle_count);
     if (!vertices || !indices) {
       rtcReleaseGeometry(geometry);
-      return trax_fail(error, "out of memory for the reference of %u triangles", source->triangle_count);
+      return trax_fail(error, "out of memory for Embree's scene of %u triangles", source->triangle_count);
     }
     for (uint32_t i = 0; i < source->triangle_count; i++) {
       memcpy(vertices + 9 * (size_t)i, source->triangles[i].v0, 36);
@@ -197,7 +197,7 @@ trax_status embree_commit(RTCDevice device, RTCScene scene, const struct trax_sc
   }
   rtcCommitScene(scene);
   enum RTCError failure = rtcGetDeviceError(device);
-  return failure ? trax_fail(error, "Embree could not build the reference scene (error %d)", (int)failure) : TRAX_OK;
+  return failure ? trax_fail(error, "Embree could not build the scene (error %d)", (int)failure) : TRAX_OK;
 }
 
 static trax_status build_scene(RTCDevice device, struct embree *embree, trax_error *error) {
@@ -206,10 +206,10 @@ static trax_status build_scene(RTCDevice device, struct embree *embree, trax_err
     return embree_commit(device, embree->scene, source, error);
   rtcSetSceneFlags(embree->scene, RTC_SCENE_FLAG_ROBUST);
   if (!exact_attach(device, embree->scene, source))
-    return trax_fail(error, "out of memory for the reference of %u triangles", source->triangle_count);
+    return trax_fail(error, "out of memory for Embree's scene of %u triangles", source->triangle_count);
   rtcCommitScene(embree->scene);
   enum RTCError failure = rtcGetDeviceError(device);
-  return failure ? trax_fail(error, "Embree could not build the reference scene (error %d)", (int)failure) : TRAX_OK;
+  return failure ? trax_fail(error, "Embree could not build the scene (error %d)", (int)failure) : TRAX_OK;
 }
 
 static trax_status render(struct embree *embree, trax_error *error) {
@@ -221,7 +221,7 @@ static trax_status render(struct embree *embree, trax_error *error) {
   for (unsigned i = 0; i < started; i++)
     pthread_join(threads[i], NULL);
   if (started == 0)
-    return trax_fail(error, "cannot start a thread for the reference");
+    return trax_fail(error, "cannot start a thread for Embree's picture");
   return embree->finished_rows < embree->frame->params->height ? TRAX_INTERRUPTED : TRAX_OK;
 }
 
@@ -232,7 +232,7 @@ static trax_status run_embree(struct embree *embree, trax_error *error) {
   embree->scene = rtcNewScene(device);
   trax_status status = build_scene(device, embree, error);
   if (status == TRAX_OK && !embree_prepare_lights(embree))
-    status = trax_fail(error, "out of memory for the lights of the reference");
+    status = trax_fail(error, "out of memory for the lights of Embree's picture");
   if (status == TRAX_OK)
     status = render(embree, error);
   free(embree->emitters);

@@ -1,6 +1,6 @@
-/* What embree*.c share: how it finds hits, as Embree does or without error. */
-#ifndef TRAX_RENDER_REFERENCE_H
-#define TRAX_RENDER_REFERENCE_H
+/* What embree*.c share. Hits are Embree's, or found without error. */
+#ifndef TRAX_RENDER_EMBREE_H
+#define TRAX_RENDER_EMBREE_H
 
 #include "exact.h"
 #include "hits.h"
@@ -20,9 +20,9 @@ struct embree_emitter {
 struct embree {
   RTCScene scene;
   const struct trax_frame *frame;
-  struct trax_picture *picture; /* to fill, or else: */
-  struct trax_hits *hits;       /* of one ray a pixel, and nothing is shaded */
-  bool exactly;           /* hits are those of exact.h, else Embree's own */
+  struct trax_picture *picture;                   /* to fill, or else: */
+  struct trax_hits *hits;                         /* of one ray a pixel, and nothing is shaded */
+  bool exactly;                                   /* hits are those of exact.h, else Embree's own */
   struct trax_light lights[TRAX_VIEW_MAX_LIGHTS]; /* those that shine */
   uint32_t light_count;
   struct embree_emitter *emitters; /* from malloc */
@@ -54,8 +54,8 @@ static inline bool embree_needs(const struct embree *embree, enum trax_feature f
 }
 
 /* embree_path.c: the light of one sample, linear, of a picture with one of TRAX_PATH_FEATURES. */
-struct double3 embree_path(const struct embree *embree, struct pixel pixel, uint32_t sample,
-                           struct trax_layers *seen, uint64_t *rays);
+struct double3 embree_path(const struct embree *embree, struct pixel pixel, uint32_t sample, struct trax_layers *seen,
+                           uint64_t *rays);
 
 /* embree_light.c: where the light comes from. */
 struct embree_arrival {

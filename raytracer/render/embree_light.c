@@ -1,4 +1,4 @@
-/* Lights and emitting triangles in binary64, for the reference pictures: from the view and the scene, not from the
+/* Lights and emitting triangles in binary64, for Embree's pictures: from the view and the scene, not from the
    tables that lighting.c prepares for the device program. */
 #include "embree.h"
 

@@ -1,4 +1,4 @@
-/* Materials in binary64, for the reference pictures: written from the publications, apart from raytracer/device. */
+/* Materials in binary64, for Embree's pictures: written from the publications, apart from raytracer/device. */
 #include "embree.h"
 
 #define PI 3.14159265358979323846

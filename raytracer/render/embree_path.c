@@ -1,17 +1,18 @@
-/* The reference's pictures of several lights, mirrors, glass, rough layers, textures, holes, and paths. What is
-   computed is what device/path.h describes; how, is in binary64 and written apart from it. Both take the same points
-   from the sampler (device/sampler.h), so that their pictures can be compared pixel by pixel. */
+/* Embree's pictures of several lights, mirrors, glass, rough layers, textures, holes, and paths. They follow the
+   description in device/path.h, in binary64 and in code of their own. Both programs take the same points from the
+   sampler (device/sampler.h), so that their pictures can be compared pixel by pixel. */
 #include "embree.h"
 
 #define PI 3.14159265358979323846
 #define MOST_HOLES 1024
 #define SURE_DEPTH 3
 #define MOST_CORRECTION 4
+#define MOST_MIRRORS 8 /* without --paths */
 
 struct sample {
   const struct embree *embree;
   const struct trax_render_params *params;
-  const struct trax_path_params *path;
+  const struct trax_frame_options *options;
   uint32_t number, key, depth;
   bool random; /* --paths */
   uint64_t *rays;
@@ -266,20 +267,29 @@ static struct double3 lit_at_random(const struct sample *sample, const struct su
   return scaled(choices, lit_by(sample, surface, number, place));
 }
 
+/* How far rays of ambient occlusion go: a part of the diagonal of the scene's box. */
+static double reach_of(const struct trax_frame *frame) {
+  const float *low = frame->scene->header->bounds_min, *high = frame->scene->header->bounds_max;
+  const struct double3 diagonal = minus(from(high), from(low));
+  const double part = frame->options.occlusion_reach;
+  return (part > 0 ? part : TRAX_DEFAULT_REACH) * sqrt(dot(diagonal, diagonal));
+}
+
 /* The part of the ambient light that the rays towards it, cosine-distributed, do not find blocked. */
 static double open_part(const struct sample *sample, const struct surface *surface) {
   struct embree_surface diffuse = surface->at;
+  const uint32_t rays = sample->options->occlusion;
+  const double reach = reach_of(sample->embree->frame);
   uint32_t open = 0;
   diffuse.layered = false;
-  for (uint32_t i = 0; i < sample->path->occlusion_rays; i++) {
-    const struct two place =
-        exactly(random_words(sample->path->occlusion_rays * sample->number + i,
-                             DIMENSION_SCATTER + DIMENSIONS_OF_SURFACE * sample->depth, sample->key));
+  for (uint32_t i = 0; i < rays; i++) {
+    const struct two place = exactly(random_words(
+        rays * sample->number + i, DIMENSION_SCATTER + DIMENSIONS_OF_SURFACE * sample->depth, sample->key));
     struct double3 direction;
     open += embree_sample(&diffuse, place.x, place.y, 0, &direction) &&
-            light_reaches(sample, surface->start, direction, (double)sample->path->occlusion_reach);
+            light_reaches(sample, surface->start, direction, reach);
   }
-  return (double)open / sample->path->occlusion_rays;
+  return (double)open / rays;
 }
 
 static struct double3 lit_by_all(const struct sample *sample, const struct surface *surface) {
@@ -340,20 +350,29 @@ static double share_of_emission(const struct sample *sample, const struct surfac
   return own > 0 ? share * own / (own + chosen) : 0;
 }
 
-struct double3 embree_path(const struct embree *embree, struct pixel pixel, uint32_t number,
-                           struct trax_layers *seen, uint64_t *rays) {
+/* Linear; pixels have gamma 2. */
+static struct double3 background_of(const struct trax_render_params *params) {
+  const double r = (params->background & 255) / 255.0, g = (params->background >> 8 & 255) / 255.0,
+               b = (params->background >> 16 & 255) / 255.0;
+  return (struct double3){r * r, g * g, b * b};
+}
+
+struct double3 embree_path(const struct embree *embree, struct pixel pixel, uint32_t number, struct trax_layers *seen,
+                           uint64_t *rays) {
   const struct trax_render_params *params = embree->frame->params;
   struct sample sample = {.embree = embree,
                           .params = params,
-                          .path = (const struct trax_path_params *)(params + 1),
+                          .options = &embree->frame->options,
                           .number = number,
                           .random = embree_needs(embree, TRAX_FEATURE_PATHS),
                           .rays = rays};
-  sample.key = hash_word(pixel.packed ^ hash_word(sample.path->seed));
+  sample.key = hash_word(pixel.packed ^ hash_word(sample.options->seed));
   const struct place place = sample.random ? random_point(number, DIMENSION_PIXEL, sample.key) : sample_place(number);
   const struct vector camera = camera_direction(params, pixel, place);
   struct double3 origin = from(params->eye), direction = {(double)camera.x, (double)camera.y, (double)camera.z};
-  struct double3 light = {0, 0, 0}, weight = {1, 1, 1};
+  const struct double3 background = background_of(params);
+  const uint32_t most = sample.options->paths ? sample.options->paths : MOST_MIRRORS + 1;
+  struct double3 light = {0, 0, 0}, throughput = {1, 1, 1};
   struct surface scatterer = {0};
   double density = 0; /* of the direction in solid angle; 0: there was no choice */
   *seen = (struct trax_layers){.triangle = TRAX_NO_TRIANGLE, .shadow = TRAX_SHADOW_NOT_ASKED};
@@ -362,7 +381,7 @@ struct double3 embree_path(const struct embree *embree, struct pixel pixel, uint
     struct surface surface;
     double distance;
     if (!find_surface(&surface, &sample, origin, direction, &distance))
-      return plus_scaled(light, 1, times(weight, from(sample.path->background)));
+      return plus_scaled(light, 1, times(throughput, background));
     if (sample.depth == 0)
       seen->triangle = surface.hit.triangle;
 
@@ -370,9 +389,9 @@ struct double3 embree_path(const struct embree *embree, struct pixel pixel, uint
     if (largest_of(from(material->emission)) > 0) {
       const double share =
           density > 0 ? share_of_emission(&sample, &scatterer, density, &surface, distance, direction) : 1;
-      light = plus_scaled(light, share, times(weight, from(material->emission)));
+      light = plus_scaled(light, share, times(throughput, from(material->emission)));
     }
-    if (sample.depth >= sample.path->max_depth)
+    if (sample.depth >= most)
       return light;
 
     if (material->kind == TRAX_MATERIAL_MIRROR || material->kind == TRAX_MATERIAL_GLASS) {
@@ -380,26 +399,26 @@ struct double3 embree_path(const struct embree *embree, struct pixel pixel, uint
       direction = deflect(&sample, &surface, &through);
       origin = through ? surface.behind : surface.start;
       if (through || material->kind == TRAX_MATERIAL_MIRROR)
-        weight = times(weight, surface.at.specular);
+        throughput = times(throughput, surface.at.specular);
       density = 0;
       continue;
     }
     if (!sample.random)
-      return plus_scaled(light, 1, times(weight, lit_by_all(&sample, &surface)));
+      return plus_scaled(light, 1, times(throughput, lit_by_all(&sample, &surface)));
 
-    light = plus_scaled(light, 1, times(weight, lit_at_random(&sample, &surface)));
+    light = plus_scaled(light, 1, times(throughput, lit_at_random(&sample, &surface)));
     const struct two choice = point_for(&sample, DIMENSION_CHOICE), scatter = point_for(&sample, DIMENSION_SCATTER);
     if (!embree_sample(&surface.at, scatter.x, scatter.y, choice.x, &direction))
       return light;
     const struct double3 part = embree_evaluate(&surface.at, direction, &density);
-    weight = times(weight, scaled(1 / density, part));
-    if (!(largest_of(weight) > 0))
+    throughput = times(throughput, scaled(1 / density, part));
+    if (!(largest_of(throughput) > 0))
       return light;
     if (sample.depth >= SURE_DEPTH) {
-      const double chance = fmin(fmax(largest_of(weight), 0x1p-10), 0.95);
+      const double chance = fmin(fmax(largest_of(throughput), 0x1p-10), 0.95);
       if (choice.y >= chance)
         return light;
-      weight = scaled(1 / chance, weight);
+      throughput = scaled(1 / chance, throughput);
     }
     origin = surface.start;
     scatterer = surface;

@@ -7,6 +7,7 @@
 #include "steps.h"
 #include "trax/message.h"
 #include "trax/run_progress.h"
+#include "trax/signals.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -31,31 +32,31 @@ static trax_status general_program(struct trax_program *program, const struct op
   return TRAX_OK;
 }
 
-/* What of the chip decides about the program. */
+/* The properties of the chip that a program is compiled for. */
 struct chosen {
   unsigned queues;
   uint32_t icache_bytes;
 };
 
 /* The specialised program, or, with a note, the general one. */
-static trax_status find_program(struct trax_program *program, const struct options *options,
-                                const struct trax_frame *frame, const struct chosen *chosen,
-                                const volatile int *interrupt, trax_error *error) {
+static trax_status find_program(struct trax_program *program, const struct job *job, const struct chosen *chosen,
+                                trax_error *error) {
+  const struct options *options = job->options;
   if (options->program || options->no_specialise)
-    return general_program(program, options, frame, error);
+    return general_program(program, options, job->frame, error);
   char root[TRAX_PATH_SIZE], note[256] = "";
   struct trax_specialise_options specialise = {.root = root,
                                                .source = options->source,
                                                .cache = options->cache,
                                                .icache_bytes = chosen->icache_bytes,
                                                .queues = chosen->queues,
-                                               .interrupt = interrupt,
+                                               .interrupt = &trax_signal,
                                                .transient = options->frames > 1,
                                                .record = options->layers};
   if (!installation(root))
     return trax_fail(error, "the place of trax-render itself is not known: %s", strerror(errno));
   program->specialised = false;
-  trax_status status = trax_program_specialise(program, frame, &specialise, note, error);
+  trax_status status = trax_program_specialise(program, job->frame, &specialise, note, error);
   if (status == TRAX_OK && program->specialised && *note && !options->quiet)
     trax_message("trax-render", TRAX_MESSAGE_NOTE, "%s", note);
   if (status != TRAX_OK || program->specialised)
@@ -63,7 +64,7 @@ static trax_status find_program(struct trax_program *program, const struct optio
   if (!options->quiet)
     trax_message("trax-render", TRAX_MESSAGE_NOTE, "the general program renders, there is no specialised one: %s",
                  note);
-  return general_program(program, options, frame, error);
+  return general_program(program, options, job->frame, error);
 }
 
 /* --- the machine --- */
@@ -153,35 +154,34 @@ static trax_status write_costs(const struct trax_costs *costs, const struct opti
   return status;
 }
 
-/* The picture by the twin, which also tells what parts are worth simulating. */
+/* Renders the picture by the twin, whose accesses predict which parts are worth simulating. */
 static trax_status begin_sampling(struct trax_picture_sampling *sampling, struct trax_picture *picture,
-                                  const struct options *options, const struct trax_frame *frame,
-                                  const struct trax_program *program, trax_machine *machine,
-                                  trax_progress_line *progress, struct live *live, const volatile int *interrupt,
+                                  const struct job *job, const struct trax_program *program, trax_machine *machine,
                                   trax_error *error) {
-  struct step step = {.line = progress, .name = "predicting", .live = live};
-  struct trax_render_run twin = {.progress = show_step, .progress_context = &step, .interrupt = interrupt};
+  struct step step = {.line = job->progress, .name = "predicting", .live = job->live};
+  struct trax_render_run twin = {.progress = show_step, .progress_context = &step, .interrupt = &trax_signal};
   step.run = &twin;
-  sampling->slots = options->sampling;
+  sampling->slots = job->options->sampling;
   if (!(sampling->slots.fraction > 0) && !(sampling->slots.error > 0))
     sampling->slots.fraction = DEFAULT_FRACTION;
-  return trax_picture_sampling_init(sampling, picture, frame, program, machine, &twin, error);
+  return trax_picture_sampling_init(sampling, picture, job->frame, program, machine, &twin, error);
 }
 
-/* What is rendered, in a line. */
-static const char *describe(char *text, size_t size, const struct options *options, const struct trax_frame *frame) {
+/* The picture in a line. */
+static const char *describe(char *text, size_t size, const struct job *job) {
+  const struct options *options = job->options;
   const char *slash = strrchr(options->meshes[0], '/');
   char more[32] = "", view[128] = "";
   if (options->mesh_count > 1)
     snprintf(more, sizeof more, " and %zu more", options->mesh_count - 1);
   if (options->view)
     snprintf(view, sizeof view, ", view %.100s", options->view);
-  snprintf(text, size, "%.200s%s%s, %ux%u", slash ? slash + 1 : options->meshes[0], more, view, frame->params->width,
-           frame->params->height);
+  snprintf(text, size, "%.200s%s%s, %ux%u", slash ? slash + 1 : options->meshes[0], more, view,
+           job->frame->params->width, job->frame->params->height);
   return text;
 }
 
-/* A run of which somebody sees how far it has come. */
+/* A run whose progress is shown. */
 struct shown_run {
   struct trax_run_progress progress;
   struct live *live;
@@ -201,86 +201,100 @@ static void print_note(const char *text) {
   trax_message("trax-render", TRAX_MESSAGE_NOTE, "%s", text);
 }
 
-/* A program that records takes more cycles: nobody is told them. */
+/* The cycles of a program that records are those of no other: none are printed. */
 static const char *engine_of(const struct options *options) {
   return options->layers ? "functional" : options->engine == ENGINE_REFERENCE ? "reference" : "fast";
 }
 
-/* One picture by one program. */
-static trax_status run_program(struct trax_picture *picture, const struct options *options,
-                               const struct trax_frame *frame, const struct trax_view *view,
-                               const struct trax_program *program, trax_progress_line *progress, struct live *live,
-                               const volatile int *interrupt, trax_error *error) {
+/* Runs the loaded program. *doubt: about a prediction; NULL: none. */
+static trax_status run_loaded(struct trax_picture *picture, const struct job *job, const struct trax_program *program,
+                              trax_machine *machine, struct trax_costs *costs, const char **doubt, trax_error *error) {
+  const struct options *options = job->options;
+  struct shown_run shown = {{.line = job->progress, .step = "rendering"}, options->sampled ? NULL : job->live, machine};
+  char title[512];
+  struct trax_explain_options explain = options->explain;
+  explain.note = options->quiet ? NULL : print_note;
+  struct trax_simulated_options run = {
+      .explain = &explain,
+      .costs = costs,
+      .title = describe(title, sizeof title, job),
+      .layers = options->layers,
+      .is_twin = !options->program && !options->source,
+      .run = {.output = stderr,
+              .total_items = (uint64_t)job->frame->params->width * job->frame->params->height,
+              .progress = show_run,
+              .progress_context = &shown,
+              .interrupt = &trax_signal,
+              .engine = engine_of(options),
+              .host_threads = options->threads}};
+  struct trax_picture_sampling sampling = {0};
+  trax_status status = TRAX_OK;
+  live_begin(job->live, job->frame);
+  if (options->sampled) {
+    status = begin_sampling(&sampling, picture, job, program, machine, error);
+    run.run.slots = &sampling.slots;
+    run.run.total_items = 0; /* most are left out */
+  }
+  if (status == TRAX_OK)
+    status = trax_simulated_run(picture, job->frame, machine, &run, error);
+  *doubt = options->program ? "another program" : sampling.doubt;
+  trax_picture_sampling_release(&sampling);
+  trax_progress_line_clear(job->progress);
+  if (status == TRAX_FAULT)
+    trax_machine_print_fault(machine, stderr);
+  return status;
+}
+
+/* Runs the loaded program, and prints and writes what the options ask of the run. */
+static trax_status render_loaded(struct trax_picture *picture, const struct job *job,
+                                 const struct trax_program *program, trax_machine *machine, trax_error *error) {
+  const struct options *options = job->options;
   const bool writes_costs = options->cost_picture || options->cost_values;
+  const char *doubt = NULL;
+  struct trax_costs costs = {0};
+  trax_status status = TRAX_OK;
+  if (writes_costs)
+    status = trax_costs_init(&costs, job->frame->params->width, job->frame->params->height,
+                             options->cost ? options->cost : "cycles", error);
+  if (status == TRAX_OK)
+    status = run_loaded(picture, job, program, machine, writes_costs ? &costs : NULL, &doubt, error);
+  if (status == TRAX_OK && !options->quiet && !options->layers)
+    print_machine(machine, doubt);
+  if (status == TRAX_OK && options->stats)
+    status = trax_stats_write_json(machine, options->stats, error);
+  if (status == TRAX_OK)
+    status = live_end(job->live, picture, error);
+  if (status == TRAX_OK && writes_costs)
+    status = write_costs(&costs, options, error);
+  trax_costs_release(&costs);
+  return status;
+}
+
+static trax_status run_program(struct trax_picture *picture, const struct job *job, const struct trax_program *program,
+                               trax_error *error) {
+  const struct options *options = job->options;
   if (trax_files_check_input(options->import.files, program->path, error) != TRAX_OK)
     return TRAX_ERROR;
   trax_config *config = trax_config_create();
-  trax_status status = config ? emulated_config(config, options, frame, error) : trax_fail(error, "out of memory");
+  trax_status status = config ? emulated_config(config, options, job->frame, error) : trax_fail(error, "out of memory");
   trax_machine *machine = status == TRAX_OK ? trax_machine_create(config, error) : NULL;
   if (status == TRAX_OK)
-    status = machine ? trax_simulated_load(machine, frame, program, error) : TRAX_ERROR;
+    status = machine ? trax_simulated_load(machine, job->frame, program, error) : TRAX_ERROR;
   if (status == TRAX_OK && options->keep)
-    status = prepare_write(options->keep, frame, view, program, machine, error);
-  if (status == TRAX_OK && !options->prepare) {
-    struct trax_costs costs = {0};
-    struct shown_run shown = {{.line = progress, .step = "rendering"}, options->sampled ? NULL : live, machine};
-    char title[512];
-    struct trax_explain_options explain = options->explain;
-    explain.note = options->quiet ? NULL : print_note;
-    struct trax_simulated_options run = {.explain = &explain,
-                                         .title = describe(title, sizeof title, options, frame),
-                                         .layers = options->layers,
-                                         .is_twin = !options->program && !options->source,
-                                         .run = {.output = stderr,
-                                                 .total_items = (uint64_t)frame->params->width * frame->params->height,
-                                                 .progress = show_run,
-                                                 .progress_context = &shown,
-                                                 .interrupt = interrupt,
-                                                 .engine = engine_of(options),
-                                                 .host_threads = options->threads}};
-    if (writes_costs) {
-      run.costs = &costs;
-      status = trax_costs_init(&costs, frame->params->width, frame->params->height,
-                               options->cost ? options->cost : "cycles", error);
-    }
-    struct trax_picture_sampling sampling = {0};
-    live_begin(live, frame);
-    if (status == TRAX_OK && options->sampled) {
-      status = begin_sampling(&sampling, picture, options, frame, program, machine, progress, live, interrupt, error);
-      run.run.slots = &sampling.slots;
-      run.run.total_items = 0; /* most are left out */
-    }
-    if (status == TRAX_OK)
-      status = trax_simulated_run(picture, frame, machine, &run, error);
-    const char *const doubt = options->program ? "another program" : sampling.doubt;
-    trax_picture_sampling_release(&sampling);
-    trax_progress_line_clear(progress);
-    if (status == TRAX_FAULT)
-      trax_machine_print_fault(machine, stderr);
-    if (status == TRAX_OK && !options->quiet && !options->layers)
-      print_machine(machine, doubt);
-    if (status == TRAX_OK && options->stats)
-      status = trax_stats_write_json(machine, options->stats, error);
-    if (status == TRAX_OK)
-      status = live_end(live, picture, error);
-    if (status == TRAX_OK && writes_costs)
-      status = write_costs(&costs, options, error);
-    trax_costs_release(&costs);
-  }
+    status = prepare_write(options->keep, job->frame, program, machine, error);
+  if (status == TRAX_OK && !options->prepare)
+    status = render_loaded(picture, job, program, machine, error);
   trax_machine_destroy(machine);
   trax_config_destroy(config);
   return status;
 }
 
-trax_status emulate(struct trax_picture *picture, const struct options *options, const struct trax_frame *frame,
-                    const struct trax_view *view, trax_progress_line *progress, struct live *live,
-                    const volatile int *interrupt, trax_error *error) {
+trax_status emulate(struct trax_picture *picture, const struct job *job, trax_error *error) {
   struct trax_program program;
-  trax_progress_line_show(progress, "compiling", -1, NULL);
   struct chosen chosen;
-  trax_status status = choose(&chosen, options, frame, error);
+  trax_progress_line_show(job->progress, "compiling", -1, NULL);
+  trax_status status = choose(&chosen, job->options, job->frame, error);
   if (status == TRAX_OK)
-    status = find_program(&program, options, frame, &chosen, interrupt, error);
-  return status == TRAX_OK ? run_program(picture, options, frame, view, &program, progress, live, interrupt, error)
-                           : status;
+    status = find_program(&program, job, &chosen, error);
+  return status == TRAX_OK ? run_program(picture, job, &program, error) : status;
 }

@@ -1,4 +1,4 @@
-/* Rays against triangles without error, for the reference that errors are measured by. Embree's BVH finds the triangles
+/* Rays against triangles without error, for the picture that errors are measured by. Embree's BVH finds the triangles
    whose boxes a ray may meet. Whether it meets them, and which is the nearest, is decided in binary64 where that is
    certain, else in double-double where that is, else in rational numbers. */
 #ifndef TRAX_RENDER_EXACT_H

@@ -181,7 +181,6 @@ void trax_frame_set_tiles(struct trax_render_params *params, uint32_t log2_side)
 
 /* --- features --- */
 
-
 trax_status trax_frame_init(struct trax_frame *frame, const struct trax_scene *scene, const struct trax_view *view,
                             const struct trax_frame_options *options, trax_error *error) {
   if (options->width < 1 || options->width > TRAX_RENDER_MAX_SIDE || options->height < 1 ||
@@ -204,7 +203,7 @@ trax_status trax_frame_init(struct trax_frame *frame, const struct trax_scene *s
   frame->params_size = (uint32_t)size;
   frame->scene = scene;
   frame->view = *view;
-  frame->fast_math = options->fast_math;
+  frame->options = *options;
 
   struct trax_render_params *params = frame->params;
   params->width = options->width;

@@ -2,6 +2,7 @@
 #include "inputs.h"
 
 #include "emulated.h"
+#include "trax/signals.h"
 #include "views.h"
 
 #include <math.h>
@@ -21,15 +22,15 @@ static void show_scene_step(void *context, const char *step, double fraction) {
 }
 
 static trax_status import_scene(struct inputs *inputs, const struct options *options, trax_progress_line *progress,
-                                const volatile int *interrupt, trax_error *error) {
+                                trax_error *error) {
   struct trax_import_options import = options->import;
   import.progress = show_scene_step;
   import.progress_context = progress;
-  import.interrupt = interrupt;
+  import.interrupt = &trax_signal;
   struct trax_build_options build = options->build;
   build.progress = show_scene_step;
   build.progress_context = progress;
-  build.interrupt = interrupt;
+  build.interrupt = &trax_signal;
   build.passes = options->program ? 0 : TRAX_DEFAULT_PASSES;
   trax_splits_choose(options->splits ? options->splits : options->program ? "1" : "auto", &build);
   trax_node_layout_choose(options->nodes ? options->nodes : options->program ? "binary" : "auto", &build);
@@ -51,7 +52,7 @@ static trax_status import_scene(struct inputs *inputs, const struct options *opt
 }
 
 static trax_status load_scene(struct inputs *inputs, const struct options *options, trax_progress_line *progress,
-                              const volatile int *interrupt, trax_error *error) {
+                              trax_error *error) {
   struct trax_scene *scene = &inputs->scene;
   for (size_t i = 0; i < options->mesh_count; i++)
     if (has_suffix(options->meshes[i], ".trax")) {
@@ -70,7 +71,7 @@ static trax_status load_scene(struct inputs *inputs, const struct options *optio
                            options->meshes[0]);
       return status;
     }
-  return import_scene(inputs, options, progress, interrupt, error);
+  return import_scene(inputs, options, progress, error);
 }
 
 /* --- views --- */
@@ -134,9 +135,9 @@ static trax_status change_view(struct trax_view *view, const struct camera_optio
 }
 
 trax_status inputs_load(struct inputs *inputs, const struct options *options, trax_progress_line *progress,
-                        const volatile int *interrupt, trax_error *error) {
+                        trax_error *error) {
   *inputs = (struct inputs){0};
-  trax_status status = load_scene(inputs, options, progress, interrupt, error);
+  trax_status status = load_scene(inputs, options, progress, error);
   if (status == TRAX_OK)
     status = load_view(inputs, options, error);
   if (status == TRAX_OK)

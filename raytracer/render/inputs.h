@@ -10,14 +10,14 @@ struct inputs {
   struct trax_scene scene;
   struct trax_mesh_camera *cameras; /* of the meshes */
   uint32_t camera_count;
-  struct trax_view view; /* before it orbits; in the scene's unit of length as the files have it */
+  struct trax_view view;         /* before it orbits; in the scene's unit of length as the files have it */
   char choice[VIEW_CHOICE_SIZE]; /* what was chosen for a view, in words; "": nothing */
-  bool inside;           /* of a closed room, which was found to be one */
-  float centre[3];       /* around which it orbits: in a room the eye itself */
+  bool inside;                   /* of a closed room, which was found to be one */
+  float centre[3];               /* around which it orbits: in a room the eye itself */
 };
 
 trax_status inputs_load(struct inputs *inputs, const struct options *options, trax_progress_line *progress,
-                        const volatile int *interrupt, trax_error *error);
+                        trax_error *error);
 /* Of the turntable's picture `number`, from 0. */
 void inputs_view(struct trax_view *view, const struct inputs *inputs, const struct options *options, unsigned number);
 void inputs_release(struct inputs *inputs);

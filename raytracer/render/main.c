@@ -39,7 +39,8 @@ static void print_outputs(const struct options *options, const struct inputs *in
     printf("inputs      %s\n", options->keep);
 }
 
-/* A picture with layers is that of a program that computes bytes, unless the frame needs a path. */
+/* The frame of a picture with layers asks for floats only with path.h: the floats of the paper's workload are
+   recorded. */
 static trax_status init_frame(struct trax_frame *frame, const struct options *options, const struct trax_scene *scene,
                               const struct trax_view *view, trax_error *error) {
   struct trax_frame_options chosen = options->frame;
@@ -64,25 +65,25 @@ static trax_status render_view(const struct options *options, struct inputs *inp
     *scaled += exponent;
     status = init_frame(&frame, options, &inputs->scene, view, error);
   }
+  const struct job job = {options, &frame, progress, live};
   if (status == TRAX_OK && options->hits)
-    status = measure_hits(options->hits, &frame, progress, error);
+    status = measure_hits(&job, error);
   if (status == TRAX_OK && options_rendered(options))
-    status = options->engine <= ENGINE_REFERENCE
-                 ? emulate(&picture, options, &frame, view, progress, live, &trax_signal, error)
-                 : run_on_host(&picture, options->engine, options, &frame, progress, live, error);
+    status = options->engine <= ENGINE_REFERENCE ? emulate(&picture, &job, error)
+                                                 : run_on_host(&picture, &job, options->engine, error);
   if (status == TRAX_OK && picture.layers)
     trax_layers_finish(&picture, &frame, *scaled);
   if (status == TRAX_OK && options->ray_trace)
-    status = trace_rays(options, &frame, picture.pixels ? &picture : NULL, progress, error);
+    status = trace_rays(&job, picture.pixels ? &picture : NULL, error);
   if (status == TRAX_OK && output)
     status = trax_picture_write(&picture, output, error);
   if (status == TRAX_OK && !options->quiet)
     print_outputs(options, inputs, output);
   if (status == TRAX_OK && options->id_picture)
-    status = write_hits(options, &frame, progress, error);
+    status = write_hits(&job, error);
   if (status == TRAX_OK && options->compare) {
     bool same = true;
-    status = compare(&picture, options, &frame, progress, &same, error);
+    status = compare(&picture, &job, &same, error);
     *agrees = *agrees && same;
   }
   trax_picture_release(&picture);
@@ -95,7 +96,7 @@ static trax_status render(const struct options *options, trax_progress_line *pro
   struct inputs inputs = {0};
   struct trax_view view;
   int scaled = 0;
-  trax_status status = inputs_load(&inputs, options, progress, &trax_signal, error);
+  trax_status status = inputs_load(&inputs, options, progress, error);
   if (status == TRAX_OK && options->write_view) {
     inputs_view(&view, &inputs, options, 0);
     status = trax_view_write(&view, options->write_view, error);

@@ -28,8 +28,8 @@ static const trax_option rows[] = {
      .meaning = "the picture: linear floats for .pfm and .exr, a PNG for .png"},
     {"layers", FIELD(layers),
      .meaning = "with -o FILE.exr: also the triangle of each pixel (its number in the meshes, from 1), its\n"
-                "distance from the eye (Z), normal (N.X, N.Y, N.Z) and shadow (0 not asked, 1 lit, 2 in\n"
-                "shadow), of the first ray; the emulated program records them, which has no run time"},
+                "distance from the eye (Z), normal (N.X, N.Y, N.Z) and shadow (0 no shadow ray, 1 lit, 2 in\n"
+                "shadow), by the first ray; on the emulator a program that records renders, without times"},
     {"size", .argument = "WxH", PARSED(take_size, frame),
      .meaning = "its size in pixels, 1x1 to 16384x16384 (default 1280x720)"},
     {"samples", .argument = "N", NUMBER(frame.samples, 1, TRAX_RENDER_MAX_SAMPLES),
@@ -39,7 +39,7 @@ static const trax_option rows[] = {
      .meaning = "a turntable: N pictures of a whole turn, PICTURE-0001.png and so on"},
     {"id-picture", .argument = "FILE.png", OUTPUT(id_picture, "png"),
      .meaning = "which triangle each pixel shows: its number in the meshes, from 1, as\n"
-                "R + 256 G + 65536 B; found natively, with --engine embree by Embree"},
+                "R + 256 G + 65536 B; found natively, or by --engine embree or exact"},
     {"show", .instead = "--progress-png FILE.png, and a viewer that loads a changed file again"},
     {"progress-png", .argument = "FILE.png", OUTPUT(progress_png, "png"),
      .meaning = "writes the picture again and again as it arrives; missing pixels are squares"},
@@ -132,9 +132,9 @@ static const trax_option rows[] = {
     {"profile-folded", .instead = "--explore FILE.html, or trax-sim --profile-folded with what --keep writes"},
     {"report", .instead = "run twice with --stats, once with --no-specialise, or trax-eval's sweep lean"},
     {"compare", FIELD(compare),
-     .meaning = "renders the reference and the native twin too and prints the differences;\n"
+     .meaning = "renders by Embree and by the native twin too and prints the differences;\n"
                 "exit status 1 if the twin's picture is not the same bit for bit, or less than\n"
-                "99.9 % of the pixels are within 2/255 of the reference (of paths 99 %, and the light\n"
+                "99.9 % of the pixels are within 2/255 of Embree's (of paths 99 %, and the light\n"
                 "of the whole picture within 0.2 %)"},
     {"hits", .argument = "FILE.json", OUTPUT(hits, "json"),
      .meaning = "how many pixels hit the nearest triangle, by the native twin, against exact arithmetic and\n"
@@ -153,7 +153,7 @@ static const trax_option rows[] = {
      .meaning = "the program that can render every picture, instead of one compiled for this one"},
     {"source", .argument = "DIR", FIELD(source),
      .meaning = "compiles the source in DIR, with its main.c, instead of the program that comes with trax;\n"
-                "to change a copy of lib/trax/raytracer"},
+                "to change a copy of lib/trax/raytracer; options of the compiler are in its flags.txt"},
     {"cache", .argument = "DIR", FIELD(cache), WRITTEN,
      .meaning = "where programs compiled for a picture are kept (default: XDG_CACHE_HOME/trax/programs,\n"
                 "or .cache/trax/programs in the home directory)"},
@@ -162,8 +162,8 @@ static const trax_option rows[] = {
     {"queues", .argument = "N", .parse = take_queues,
      .meaning = "how many queues the pixels wait in, 1 to 64; tms (default): one for each TM, whose\n"
                 "threads then share tiles and the cache's lines"},
-    {"fast-math", FIELD(frame.fast_math),
-     .meaning = "compiles the program with -ffast-math: its picture is not the twin's in every bit"},
+    {"fast-math", .instead = "-ffast-math in a file flags.txt of --source DIR, or trax-eval's experiment "
+                             "lib/trax/evaluation/experiments/triangles/fast-math.json"},
     {"stack", .argument = "N",
      .instead = "trax-eval has short stacks as an experiment, lib/trax/evaluation/experiments/stack"},
     TRAX_OPTION_GROUP("Sampled simulation"),

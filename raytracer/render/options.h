@@ -40,10 +40,10 @@ struct options {
   const char *id_picture; /* the same */
   const char *stats, *keep, *program;
   const char *ray_trace; /* every ray; NULL: not wanted */
-  const char *hits;         /* figures as JSON; NULL: not wanted */
-  const char *source;       /* of the specialised program; NULL: the installation's */
-  const char *cache; /* of specialised programs; NULL: the user's */
-  const char *cost;  /* what --cost-picture and --cost-values show */
+  const char *hits;      /* figures as JSON; NULL: not wanted */
+  const char *source;    /* of the specialised program; NULL: the installation's */
+  const char *cache;     /* of specialised programs; NULL: the user's */
+  const char *cost;      /* what --cost-picture and --cost-values show */
   const char *cost_picture, *cost_values;
   struct trax_explain_options explain;
   struct setting *settings; /* keys are copies */

@@ -73,12 +73,13 @@ static json_t *code_of(const struct trax_program *program) {
              : NULL;
 }
 
-trax_status prepare_write(const char *folder, const struct trax_frame *frame, const struct trax_view *view,
-                          const struct trax_program *program, trax_machine *machine, trax_error *error) {
+trax_status prepare_write(const char *folder, const struct trax_frame *frame, const struct trax_program *program,
+                          trax_machine *machine, trax_error *error) {
   const bool floats = frame->params->features & TRAX_FEATURE_BIT(FLOATS);
-  json_t *root = json_pack("{so* so so s{ss si si ss}}", "code", code_of(program), "features", features_of(frame),
-                           "view", view_of(view), "picture", "buffer", "image", "width", (int)frame->params->width,
-                           "height", (int)frame->params->height, "layout", floats ? "rgb float32" : "rgba uint8");
+  json_t *root =
+      json_pack("{so* so so s{ss si si ss}}", "code", code_of(program), "features", features_of(frame), "view",
+                view_of(&frame->view), "picture", "buffer", "image", "width", (int)frame->params->width, "height",
+                (int)frame->params->height, "layout", floats ? "rgb float32" : "rgba uint8");
   char *more = root ? json_dumps(root, 0) : NULL;
   json_decref(root);
   if (!more)

@@ -5,8 +5,8 @@
 #include "render.h"
 
 /* Of a machine that trax_simulated_load has loaded with the program. */
-trax_status prepare_write(const char *folder, const struct trax_frame *frame, const struct trax_view *view,
-                          const struct trax_program *program, trax_machine *machine, trax_error *error);
+trax_status prepare_write(const char *folder, const struct trax_frame *frame, const struct trax_program *program,
+                          trax_machine *machine, trax_error *error);
 /* The files that it writes, by number; NULL behind the last one. */
 const char *prepared_file(size_t number);
 

@@ -8,23 +8,12 @@
 #include <string.h>
 #include <trax.h>
 
-enum { ACCESSES = 4096 };
-
 struct tracer {
-  struct trax_access_log log; /* first: the log's functions get its address */
-  trax_access accesses[ACCESSES];
+  struct trax_visit_counter counter; /* of the ray; first: the log's functions get its address */
   const struct trax_scene *scene;
   void (*put)(FILE *out, const struct tracer *tracer, const struct trax_traced_ray *ray);
   trax_output output;
-  uint32_t nodes, triangles; /* of the ray so far */
 };
-
-static void count(struct trax_access_log *log) {
-  struct tracer *tracer = (struct tracer *)log;
-  for (const trax_access *access = tracer->accesses; access < log->end; access++)
-    ++*(*access & TRAX_ACCESS_TRIANGLE ? &tracer->triangles : &tracer->nodes);
-  log->end = tracer->accesses;
-}
 
 static void end_slot(struct trax_access_log *log, uint32_t slot, uint32_t rays) {
   (void)log, (void)slot, (void)rays;
@@ -32,9 +21,9 @@ static void end_slot(struct trax_access_log *log, uint32_t slot, uint32_t rays) 
 
 static void end_ray(struct trax_access_log *log, const struct trax_traced_ray *ray) {
   struct tracer *tracer = (struct tracer *)log;
-  count(log);
+  trax_visit_count(log);
   tracer->put(tracer->output.file, tracer, ray);
-  tracer->nodes = tracer->triangles = 0;
+  tracer->counter.nodes = tracer->counter.triangles = 0;
 }
 
 /* Its number in the meshes, as --id-picture shows it less 1; in scenes without these numbers its place in the file. */
@@ -83,8 +72,8 @@ static void put_binary(FILE *out, const struct tracer *tracer, const struct trax
   to = put_float(to, ray->triangle ? ray->distance : 0);
   to = put_float(to, ray->triangle ? ray->weight1 : 0);
   to = put_float(to, ray->triangle ? ray->weight2 : 0);
-  to = put_number(to, tracer->nodes, 4);
-  put_number(to, tracer->triangles, 4);
+  to = put_number(to, tracer->counter.nodes, 4);
+  put_number(to, tracer->counter.triangles, 4);
   fwrite(record, sizeof record, 1, out);
 }
 
@@ -98,7 +87,7 @@ static void put_csv(FILE *out, const struct tracer *tracer, const struct trax_tr
             (double)ray->weight1, (double)ray->weight2);
   else
     fputs(",,,,", out);
-  fprintf(out, "%u,%u\n", tracer->nodes, tracer->triangles);
+  fprintf(out, "%u,%u\n", tracer->counter.nodes, tracer->counter.triangles);
 }
 
 static void put_header(struct tracer *tracer, const struct trax_render_params *params, bool csv) {
@@ -123,7 +112,7 @@ static trax_status trace(struct tracer *tracer, const struct trax_frame *frame, 
   const size_t pixels = (size_t)frame->params->width * frame->params->height;
   struct trax_picture twin = {0};
   struct trax_render_run logged = *run;
-  logged.accesses = &tracer->log;
+  logged.accesses = &tracer->counter.log;
   trax_status status = trax_render_twin(&twin, frame, 1, &logged, error);
   if (status == TRAX_OK && picture && memcmp(twin.pixels, picture->pixels, pixels * sizeof *twin.pixels) != 0)
     status = trax_fail(error, "--ray-trace: the rays are the native twin's, and this program's picture is another one");
@@ -137,8 +126,9 @@ trax_status trax_ray_trace_write(const char *path, const struct trax_frame *fram
   struct tracer *tracer = calloc(1, sizeof *tracer);
   if (!tracer)
     return trax_fail(error, "out of memory");
-  tracer->log = (struct trax_access_log){
-      .end = tracer->accesses, .limit = tracer->accesses + ACCESSES, .full = count, .slot = end_slot, .ray = end_ray};
+  trax_visit_counter_init(&tracer->counter);
+  tracer->counter.log.slot = end_slot;
+  tracer->counter.log.ray = end_ray;
   tracer->scene = frame->scene;
   tracer->put = csv ? put_csv : put_binary;
   trax_status status = trax_output_open(&tracer->output, path, error);

@@ -1,5 +1,5 @@
 /* Pictures of a scene, three ways: by the device program on the emulator, by the same source compiled for the host (the
-   native twin), and by Embree (the reference). All take one frame: the bytes that the device program reads.
+   native twin), and by Embree. All take one frame: the bytes that the device program reads.
 
    Functions return TRAX_OK, TRAX_ERROR or TRAX_FAULT with the reason in *error, or TRAX_INTERRUPTED. */
 #ifndef TRAX_RENDER_H
@@ -19,14 +19,6 @@
 
 /* --- frame.c: what is rendered --- */
 
-struct trax_frame {
-  struct trax_render_params *params; /* with what render_params.h has behind it; from malloc */
-  uint32_t params_size;              /* bytes */
-  const struct trax_scene *scene;
-  struct trax_view view; /* Embree's lights are made of it */
-  bool fast_math;        /* the program is compiled with -ffast-math, the twin is not */
-};
-
 struct trax_frame_options {
   uint32_t width, height; /* pixels, 1 to TRAX_RENDER_MAX_SIDE */
   float ambient;          /* of the light: what surfaces send back that the light does not reach, 0 to 1 */
@@ -41,7 +33,14 @@ struct trax_frame_options {
   uint32_t occlusion;     /* rays for ambient occlusion, up to TRAX_RENDER_MAX_OCCLUSION; 0: none */
   double occlusion_reach; /* how far they go, as a part of the diagonal of the scene's box; 0: TRAX_DEFAULT_REACH */
   bool mark_rays;         /* the program counts each ray where it begins */
-  bool fast_math;         /* the program is compiled with -ffast-math */
+};
+
+struct trax_frame {
+  struct trax_render_params *params; /* with what render_params.h has behind it; from malloc */
+  uint32_t params_size;              /* bytes */
+  const struct trax_scene *scene;
+  struct trax_view view; /* Embree's picture takes lights, depth and reach from these, not from the parameters */
+  struct trax_frame_options options;
 };
 
 #define TRAX_DEFAULT_AMBIENT 0.12f
@@ -101,15 +100,14 @@ struct trax_program {
 };
 
 struct trax_specialise_options {
-  const char *root;              /* where trax is installed: bin, lib/trax */
-  const char *source;            /* the folder of the program's source; NULL: that of the installation */
-  const char *cache;             /* where compiled programs are kept; NULL: the user's (trax_program_cache) */
+  const char *root;   /* where trax is installed: bin, lib/trax */
+  const char *source; /* the folder of the program's source, perhaps with flags.txt; NULL: the installation's */
+  const char *cache;  /* where compiled programs are kept; NULL: the user's (trax_program_cache) */
   const volatile int *interrupt; /* polled; may be NULL */
   uint32_t icache_bytes;         /* a larger program is compiled for less code; 0: as many as the paper's 4096 */
   unsigned queues;               /* of pixels (device/slots.h); more than TRAX_MAX_QUEUES are as many; 0: 1 */
   bool transient;                /* of one of many pictures, as of a turntable: other programs stay in the cache */
-  bool record;                   /* it tells what trax/record.h says, too; not for measuring time: its stack is in
-                                    global memory */
+  bool record;                   /* it records (trax/record.h); its stack is in global memory: times mean nothing */
 };
 
 /* Compiles the device program for one picture, or finds it among those compiled before. Where that cannot be done,
@@ -135,8 +133,8 @@ trax_status trax_program_measure(struct trax_program_size *size, const char *pat
 
 struct trax_picture {
   uint32_t width, height;
-  uint32_t *pixels; /* row by row from the top left; R, G, B, A in the bytes from the lowest; from malloc */
-  float *radiance;  /* R, G, B for each pixel, linear, not bounded by 1; from malloc; NULL: of bytes only */
+  uint32_t *pixels;           /* row by row from the top left; R, G, B, A in the bytes from the lowest; from malloc */
+  float *radiance;            /* R, G, B for each pixel, linear, not bounded by 1; from malloc; NULL: of bytes only */
   struct trax_layers *layers; /* of each pixel (layers.h); from malloc; NULL: none */
 };
 
@@ -191,13 +189,14 @@ struct trax_render_run {
   const void *image;             /* out, of the twin, while it runs: what the program has written of its picture */
   uint64_t rays;                 /* out: rays traced; 0 with accesses, which know of them slot by slot */
   uint64_t kinds[TRAX_RAY_KIND_COUNT]; /* out, of the twin: the same by kind */
-  bool layers;                   /* the picture gets layers (layers.h) */
-  bool exactly;                  /* of Embree: hits without error (exact.h), of the rays that the device program has */
-  bool holes;                    /* of hits (hits.h): rays go on through holes and, if they are, missing back faces */
+  bool layers;                         /* the picture gets layers (layers.h) */
+  bool exactly; /* of Embree: hits without error (exact.h), of the rays that the device program has */
+  bool holes;   /* of hits (hits.h): rays go on through holes and, if they are, missing back faces */
   struct trax_access_log *accesses; /* of the twin, which then has one thread: told what it reads; NULL: nobody is */
 };
 
-/* twin.c: the device program on `threads` host threads (0: as many as the host has). One run at a time in a process: the program's globals are the process's. */
+/* twin.c: the device program on `threads` host threads (0: as many as the host has). One run at a time in a process:
+   the program's globals are the process's. */
 trax_status trax_render_twin(struct trax_picture *picture, const struct trax_frame *frame, unsigned threads,
                              struct trax_render_run *run, trax_error *error);
 
@@ -242,6 +241,17 @@ trax_status trax_costs_write_picture(const struct trax_costs *costs, const struc
 void trax_costs_print(const struct trax_costs *costs, const struct trax_cost_summary *summary, FILE *out);
 
 /* --- visits.c: how many nodes and triangles the rays of each pixel visit --- */
+
+/* A log that counts; nodes and triangles are set back by its functions `slot` or `ray`. */
+struct trax_visit_counter {
+  struct trax_access_log log; /* first: its functions get its address */
+  trax_access accesses[4096];
+  uint32_t nodes, triangles;
+};
+
+void trax_visit_counter_init(struct trax_visit_counter *counter);
+/* Counts the accesses since the last call. */
+void trax_visit_count(struct trax_access_log *log);
 
 struct trax_visits {
   uint32_t *nodes, *triangles; /* of the pixels, row by row; NULL: not known */

@@ -18,25 +18,50 @@
 #include <unistd.h>
 #include <xxhash.h>
 
-static const char *const flags[] = {"--target=trax", "-std=c17", "-O3", "-g", "-fdebug-compilation-dir=."};
-enum { FLAG_COUNT = sizeof flags / sizeof *flags, MOST_FLAGS = FLAG_COUNT + 3 };
 enum { PAPERS_CACHE = 4096 }; /* bytes: its instruction cache */
 
-/* The flags above and those that were chosen. What is recorded takes more stack than a TP has memory for. */
-static size_t chosen_flags(const char *chosen[MOST_FLAGS], bool fast_math, bool record) {
-  size_t count = 0;
-  for (; count < FLAG_COUNT; count++)
-    chosen[count] = flags[count];
-  if (fast_math)
-    chosen[count++] = "-ffast-math";
-  if (record) {
-    chosen[count++] = "-DTRAX_RECORD";
-    chosen[count++] = "-mstack=global";
+#define OWN_FLAGS "flags.txt" /* in the folder of --source */
+
+/* The compiler's options that depend neither on the picture nor on the attempt. */
+struct flags {
+  const char *words[32];
+  size_t count;
+  char own[1024]; /* those of the source */
+};
+
+static trax_status add_own_flags(struct flags *flags, const char *source, trax_error *error) {
+  char path[TRAX_PATH_SIZE], *rest = NULL;
+  uint8_t *bytes;
+  size_t size;
+  if (!join_path(path, source, OWN_FLAGS, "") || access(path, F_OK) != 0)
+    return TRAX_OK;
+  if (trax_read_file(path, sizeof flags->own - 1, &bytes, &size, error) != TRAX_OK)
+    return TRAX_ERROR;
+  memcpy(flags->own, bytes, size);
+  flags->own[size] = '\0';
+  free(bytes);
+  for (char *word = strtok_r(flags->own, " \t\n", &rest); word; word = strtok_r(NULL, " \t\n", &rest)) {
+    if (flags->count == sizeof flags->words / sizeof *flags->words)
+      return trax_fail(error, "%s: too many options", path);
+    flags->words[flags->count++] = word;
   }
-  return count;
+  return TRAX_OK;
 }
 
-/* What of the installation decides about the program. */
+/* source: NULL if it is the installation's. What is recorded takes more stack than a TP has memory for. */
+static trax_status choose_flags(struct flags *flags, const char *source, bool record, trax_error *error) {
+  static const char *const always[] = {"--target=trax", "-std=c17", "-O3", "-g", "-fdebug-compilation-dir=."};
+  flags->count = 0;
+  for (size_t i = 0; i < sizeof always / sizeof *always; i++)
+    flags->words[flags->count++] = always[i];
+  if (record) {
+    flags->words[flags->count++] = "-DTRAX_RECORD";
+    flags->words[flags->count++] = "-mstack=global";
+  }
+  return source ? add_own_flags(flags, source, error) : TRAX_OK;
+}
+
+/* The installed files that a compiled program depends on. */
 static const char *const ingredients[] = {
     "bin/trax-clang",    "bin/trax-ld",     "lib/trax/crt0.o",         "lib/trax/libc.a",
     "lib/trax/libgcc.a", "lib/trax/libm.a", "lib/trax/include/trax.h",
@@ -45,9 +70,9 @@ static const char *const ingredients[] = {
 
 /* --- the constants --- */
 
-/* As words, so that every bit is kept and no field is forgotten. */
+/* The text of the file of constants. They are words, so that every bit is kept and no field is forgotten. */
 static char *constants_text(const struct trax_frame *frame, unsigned queues) {
-  /* What is behind the parameters, as far as it is always there. */
+  /* The part behind the parameters that every picture has. */
   const bool path = frame->params->features & TRAX_PATH_FEATURES;
   const size_t behind =
       path ? sizeof(struct trax_path_params) : sizeof(struct trax_palette_entry) * (frame->scene->material_count > 0);
@@ -120,10 +145,10 @@ bool trax_is_source_name(const char *name) {
   return found;
 }
 
-/* Others may lie there, such as pictures of earlier runs: they are in the key, and no inputs. */
+/* Other files of the folder, such as pictures of earlier runs, are part of the key, but no inputs. */
 static void drop_other(const char *folder, const char *name) {
   char path[TRAX_PATH_SIZE];
-  if (!trax_is_source_name(name) && join_path(path, folder, name, ""))
+  if (!trax_is_source_name(name) && strcmp(name, OWN_FLAGS) != 0 && join_path(path, folder, name, ""))
     trax_reads_drop_path(path);
 }
 
@@ -152,11 +177,11 @@ static void hash_library(XXH3_state_t *state, const char *path) {
   XXH3_128bits_update(state, identity, sizeof identity);
 }
 
-/* Another number whenever programs are compiled in other ways from the same ingredients. */
+/* Changes with every change of the way in which programs are compiled from the same files. */
 #define WAYS_TO_COMPILE "4"
 
 static trax_status make_key(char key[33], const char *root, const char *source, const char *constants,
-                            const char *const *chosen, size_t chosen_count, uint32_t icache_bytes, trax_error *error) {
+                            const struct flags *flags, uint32_t icache_bytes, trax_error *error) {
   char headers[TRAX_PATH_SIZE];
   if (!join_path(headers, source, "trax", ""))
     return trax_fail(error, "%s: the path is too long", source);
@@ -173,8 +198,8 @@ static trax_status make_key(char key[33], const char *root, const char *source, 
   if (status == TRAX_OK)
     status = hash_folder(state, headers, error);
   hash_library(state, TRAX_LLVM_LIBRARY);
-  for (size_t i = 0; i < chosen_count; i++)
-    XXH3_128bits_update(state, chosen[i], strlen(chosen[i]) + 1);
+  for (size_t i = 0; i < flags->count; i++)
+    XXH3_128bits_update(state, flags->words[i], strlen(flags->words[i]) + 1);
   if (icache_bytes != PAPERS_CACHE)
     XXH3_128bits_update(state, &icache_bytes, sizeof icache_bytes);
   XXH3_128bits_update(state, constants, strlen(constants));
@@ -186,7 +211,7 @@ static trax_status make_key(char key[33], const char *root, const char *source, 
 
 /* --- compiling --- */
 
-/* The first line of what the compiler said, or how it ended. */
+/* Copies the first line that the compiler printed; if it printed none, says how it ended. */
 static void first_line(char line[160], int descriptor, int status) {
   char text[160];
   ssize_t got = pread(descriptor, text, sizeof text - 1, 0);
@@ -200,82 +225,98 @@ static void first_line(char line[160], int descriptor, int status) {
     snprintf(line, 160, "exit status %d", WEXITSTATUS(status));
 }
 
-/* Where things are, since the stack has room for some of these ways, and how large the code may become. */
+/* The places of data, since the stack has room for some of these ways only, and the size of the code. */
 struct places {
   bool params_in_memory; /* instead of constants, which may take registers */
-  bool paths_local;      /* what a path remembers in registers and on the stack, instead of in global memory */
+  bool paths_local;      /* struct path in registers and on the stack, instead of in global memory */
   bool small;            /* -O2 */
   bool stack_in_memory;  /* of trees deeper than usual, and of exact hits, whose functions' frames come on top */
 };
 
-/* What all attempts at a program have in common. */
+/* The inputs that all compilation attempts share. */
 struct recipe {
   const char *root, *source;
   bool own; /* the source is the installation's */
   const struct cache_work *work;
-  const char *const *flags;
-  size_t flag_count;
+  const struct flags *flags;
   const volatile int *interrupt;
 };
 
-/* TRAX_ERROR with the reason in *error if the compiler or the linker refuses, as for want of stack. */
-static trax_status compile(const struct recipe *recipe, const struct places *places, trax_error *error) {
-  const struct cache_work *work = recipe->work;
+/* A command line of the compiler. */
+struct command {
   char maps[3][2 * TRAX_PATH_SIZE + 32];
   char clang[TRAX_PATH_SIZE], source[TRAX_PATH_SIZE];
-  if (!join_path(clang, recipe->root, "bin/trax-clang", "") || !join_path(source, recipe->source, "main.c", ""))
-    return trax_fail(error, "%s: the path is too long", recipe->source);
-  /* The program shall not depend on the name of a folder that may soon be gone. */
-  const int cache = (int)(strrchr(work->folder, '/') - work->folder);
+  const char *words[64];
+  size_t count;
+};
+
+static void add_word(struct command *command, const char *word) {
+  command->words[command->count++] = word;
+}
+
+/* The program shall not depend on the name of a folder that may soon be gone. */
+static void map_folders(struct command *command, const struct recipe *recipe) {
+  const char *folder = recipe->work->folder;
+  const int cache = (int)(strrchr(folder, '/') - folder);
   for (int i = 0; i < 2; i++) { /* relative to the compilation's folder, it has a dot in front */
     const char *dot = i ? "./" : "";
-    snprintf(maps[i], sizeof maps[i], "-fdebug-prefix-map=%s%s=%s%.*s", dot, work->folder, dot, cache, work->folder);
+    snprintf(command->maps[i], sizeof command->maps[i], "-fdebug-prefix-map=%s%s=%s%.*s", dot, folder, dot, cache,
+             folder);
+    add_word(command, command->maps[i]);
   }
-  snprintf(maps[2], sizeof maps[2], "-fdebug-prefix-map=%s=source", recipe->source);
-  const char *arguments[MOST_FLAGS + 21], **next = arguments;
-  *next++ = clang;
-  for (size_t i = 0; i < recipe->flag_count; i++)
-    *next++ = recipe->flags[i];
-  *next++ = "-I";
-  *next++ = recipe->source;
-  if (places->params_in_memory)
-    *next++ = "-DTRAX_PARAMS_IN_MEMORY";
-  if (places->paths_local)
-    *next++ = "-DTRAX_PATHS_LOCAL";
-  if (places->small)
-    *next++ = "-O2";
-  if (places->stack_in_memory) {
-    *next++ = "-mstack=global";
-    *next++ = "-mstack-size=2k";
-  }
-  *next++ = maps[0];
-  *next++ = maps[1];
+  snprintf(command->maps[2], sizeof command->maps[2], "-fdebug-prefix-map=%s=source", recipe->source);
   if (!recipe->own)
-    *next++ = maps[2];
-  *next++ = "-include";
-  *next++ = work->header;
-  *next++ = source;
-  *next++ = "-o";
-  *next++ = work->program;
-  *next = NULL;
+    add_word(command, command->maps[2]);
+}
 
+static trax_status make_command(struct command *command, const struct recipe *recipe, const struct places *places,
+                                trax_error *error) {
+  command->count = 0;
+  if (!join_path(command->clang, recipe->root, "bin/trax-clang", "") ||
+      !join_path(command->source, recipe->source, "main.c", ""))
+    return trax_fail(error, "%s: the path is too long", recipe->source);
+  add_word(command, command->clang);
+  for (size_t i = 0; i < recipe->flags->count; i++)
+    add_word(command, recipe->flags->words[i]);
+  add_word(command, "-I");
+  add_word(command, recipe->source);
+  if (places->params_in_memory)
+    add_word(command, "-DTRAX_PARAMS_IN_MEMORY");
+  if (places->paths_local)
+    add_word(command, "-DTRAX_PATHS_LOCAL");
+  if (places->small)
+    add_word(command, "-O2");
+  if (places->stack_in_memory) {
+    add_word(command, "-mstack=global");
+    add_word(command, "-mstack-size=2k");
+  }
+  map_folders(command, recipe);
+  add_word(command, "-include");
+  add_word(command, recipe->work->header);
+  add_word(command, command->source);
+  add_word(command, "-o");
+  add_word(command, recipe->work->program);
+  add_word(command, NULL);
+  return TRAX_OK;
+}
+
+/* TRAX_ERROR with the reason in *error if the compiler or the linker refuses, as for want of stack. */
+static trax_status run_command(const struct command *command, const volatile int *interrupt, trax_error *error) {
   FILE *said = tmpfile();
   if (!said)
     return trax_fail(error, "no temporary file: %s", strerror(errno));
-  trax_reads_share();                          /* what the source includes is an input, too */
-  trax_reads_drop_path(recipe->work->program); /* an earlier attempt, which was measured */
   const pid_t child = trax_fork(SIGTERM);
   if (child == 0) {
     dup2(fileno(said), STDERR_FILENO);
     dup2(fileno(said), STDOUT_FILENO);
-    execv(clang, (char *const *)arguments);
+    execv(command->clang, (char *const *)command->words);
     _exit(127);
   }
   trax_status result = TRAX_OK;
   int status = 0;
   if (child < 0)
     result = trax_fail(error, "the compiler does not start: %s", strerror(errno));
-  else if ((result = trax_wait_for_child(child, SIGTERM, recipe->interrupt, &status)) == TRAX_ERROR)
+  else if ((result = trax_wait_for_child(child, SIGTERM, interrupt, &status)) == TRAX_ERROR)
     trax_fail(error, "the compiler is lost: %s", strerror(errno));
   if (result == TRAX_OK && (!WIFEXITED(status) || WEXITSTATUS(status) != 0)) {
     char line[160];
@@ -286,14 +327,23 @@ static trax_status compile(const struct recipe *recipe, const struct places *pla
   return result;
 }
 
+static trax_status compile(const struct recipe *recipe, const struct places *places, trax_error *error) {
+  struct command command;
+  if (make_command(&command, recipe, places, error) != TRAX_OK)
+    return TRAX_ERROR;
+  trax_reads_share();                          /* what the source includes is an input, too */
+  trax_reads_drop_path(recipe->work->program); /* an earlier attempt, which was measured */
+  return run_command(&command, recipe->interrupt, error);
+}
+
 static bool fits_cache(const char *program, uint32_t icache_bytes) {
   struct trax_program_size size;
   trax_error ignored;
   return trax_program_measure(&size, program, &ignored) == TRAX_OK && size.code_bytes <= icache_bytes;
 }
 
-/* The first of the ways for which there is stack enough. What is larger than the instruction cache, but for paths,
-   which are anyway, is compiled for less code. */
+/* Compiles in the first of the ways for which there is stack enough. A program larger than the instruction cache is
+   compiled for less code, unless it traces paths: those are larger in any case. */
 static trax_status build(const struct recipe *recipe, const struct trax_frame *frame, uint32_t icache_bytes,
                          trax_error *error) {
   static const struct places ways[] = {{.paths_local = true},
@@ -319,7 +369,7 @@ static trax_status build(const struct recipe *recipe, const struct trax_frame *f
   return status;
 }
 
-/* The general program takes the place of one that cannot be had, unless it cannot do the same. */
+/* The general program replaces one that cannot be compiled, unless it cannot do the same. */
 static trax_status note_or_error(const struct trax_frame *frame, const struct trax_specialise_options *options,
                                  const char *note, trax_error *error) {
   if (options->record)
@@ -328,8 +378,6 @@ static trax_status note_or_error(const struct trax_frame *frame, const struct tr
     return trax_fail(error, "--source %s: there is no program: %s", options->source, note);
   if (frame->params->features & TRAX_FEATURE_BIT(RAY_KINDS))
     return trax_fail(error, "--mark-rays: there is no program for it: %s", note);
-  if (frame->fast_math)
-    return trax_fail(error, "--fast-math: there is no program for it: %s", note);
   return TRAX_OK;
 }
 
@@ -338,10 +386,11 @@ trax_status trax_program_specialise(struct trax_program *program, const struct t
   char cache[TRAX_PATH_SIZE], key[33], elf[TRAX_PATH_SIZE], own[TRAX_PATH_SIZE];
   const char *const source = options->source ? options->source : own;
   trax_error reason;
-  const char *chosen[MOST_FLAGS];
-  const size_t chosen_count = chosen_flags(chosen, frame->fast_math, options->record);
+  struct flags flags;
   const uint32_t icache_bytes = options->icache_bytes ? options->icache_bytes : PAPERS_CACHE;
   note[0] = '\0';
+  if (choose_flags(&flags, options->source, options->record, error) != TRAX_OK)
+    return TRAX_ERROR;
   if (options->cache && snprintf(cache, sizeof cache, "%s", options->cache) >= (int)sizeof cache)
     return trax_fail(error, "--cache: the path is too long");
   if (!options->cache && !trax_program_cache(cache)) {
@@ -351,10 +400,9 @@ trax_status trax_program_specialise(struct trax_program *program, const struct t
   char *constants = constants_text(frame, options->queues);
   if (!constants)
     return trax_fail(error, "out of memory");
-  trax_status status =
-      join_path(own, options->root, SOURCE, "")
-          ? make_key(key, options->root, source, constants, chosen, chosen_count, icache_bytes, &reason)
-          : trax_fail(&reason, "%s: the path is too long", options->root);
+  trax_status status = join_path(own, options->root, SOURCE, "")
+                           ? make_key(key, options->root, source, constants, &flags, icache_bytes, &reason)
+                           : trax_fail(&reason, "%s: the path is too long", options->root);
   if (status == TRAX_OK && !cache_make_folders(cache)) {
     status = trax_fail(&reason, "%s cannot be written: %s", cache, strerror(errno));
     if (options->cache) {
@@ -371,9 +419,8 @@ trax_status trax_program_specialise(struct trax_program *program, const struct t
     if (status == TRAX_OK) {
       status = trax_write_file(work.header, constants, strlen(constants), &reason);
       if (status == TRAX_OK)
-        status = build(
-            &(struct recipe){options->root, source, !options->source, &work, chosen, chosen_count, options->interrupt},
-            frame, icache_bytes, &reason);
+        status = build(&(struct recipe){options->root, source, !options->source, &work, &flags, options->interrupt},
+                       frame, icache_bytes, &reason);
       if (status == TRAX_OK)
         status = cache_commit(&work, cache, key, options->transient, &reason);
       cache_end(&work);

@@ -1,9 +1,16 @@
-/* How far one step of the work has come, for the progress line and for whoever watches the picture arrive. */
+/* One picture of the command line, and the progress of one step of its making. */
 #ifndef TRAX_RENDER_STEPS_H
 #define TRAX_RENDER_STEPS_H
 
 #include "live.h"
 #include "trax/progress.h"
+
+struct job {
+  const struct options *options;
+  const struct trax_frame *frame;
+  trax_progress_line *progress;
+  struct live *live; /* NULL: nobody watches the picture arrive */
+};
 
 struct step {
   trax_progress_line *line;

@@ -29,17 +29,6 @@ static const struct {
     [TRAX_SCENE_TEXELS] = {"texels", sizeof(uint32_t)},
 };
 
-static trax_status refuse_layout(const struct checker *checker, uint32_t layout) {
-  for (uint32_t i = 0; scene_removed_layouts[i]; i++)
-    if (layout == TRAX_NODE_LAYOUTS + i)
-      return trax_fail(
-          checker->error,
-          "%s: its nodes are %s ones, which scene files no longer have: import the meshes again (trax-eval "
-          "has such nodes as an experiment)",
-          checker->name, scene_removed_layouts[i]);
-  return trax_fail(checker->error, "%s: nodes of an unknown layout, %u", checker->name, layout);
-}
-
 static trax_status check_header(const struct checker *checker, const struct trax_scene_header *header, size_t size) {
   const char *name = checker->name;
   trax_error *error = checker->error;
@@ -64,7 +53,7 @@ static trax_status check_header(const struct checker *checker, const struct trax
   if (header->base)
     return trax_fail(error, "%s: its references are addresses, for a device that has it at %08x", name, header->base);
   if (header->node_layout >= TRAX_NODE_LAYOUTS)
-    return refuse_layout(checker, header->node_layout);
+    return trax_fail(error, "%s: nodes of an unknown layout, %u: import the meshes again", name, header->node_layout);
   return TRAX_OK;
 }
 

@@ -58,11 +58,16 @@ static trax_status list_file(const char *path, const trax_input *input, trax_err
   return written && dprintf(list, "\n") > 0 ? TRAX_OK : trax_fail(error, "the list of files: %s", strerror(errno));
 }
 
+static uint64_t bytes_read;
+
+uint64_t scene_bytes_read(void) {
+  return bytes_read;
+}
+
 trax_status scene_load_file(struct scene_bytes *bytes, const char *path, struct scene_limits limits,
                             trax_error *error) {
   *bytes = (struct scene_bytes){0};
   trax_input input;
-  scene_reading();
   trax_status result = trax_input_open(&input, path, error);
   /* Of a pipe or a device nobody knows how much will come, as of packed data. */
   const size_t limit = input.is_regular || limits.plain < limits.unpacked ? limits.plain : limits.unpacked;
@@ -83,7 +88,7 @@ trax_status scene_load_file(struct scene_bytes *bytes, const char *path, struct 
     result = scene_unpack(bytes, limits.unpacked, path, error);
   }
   trax_input_close(&input);
-  scene_has_read(bytes->size);
+  bytes_read += bytes->size;
   return result;
 }
 

@@ -67,21 +67,16 @@ char *scene_referred_path(const char *referrer, const char *name);
 /* Reads such a file. No device and no pipe, which may never end. */
 trax_status scene_load_referred(struct scene_bytes *bytes, const char *path, struct scene_limits limits);
 
+/* The most memory that a mesh may take whose files have so many bytes: readers refuse what files make of few bytes. */
+static inline uint64_t scene_memory_for(uint64_t bytes) {
+  return ((uint64_t)1 << 30) + 1024 * bytes;
+}
+
+/* The bytes of all files that were read so far. */
+uint64_t scene_bytes_read(void);
+
 /* A copy of path without a final .xz or .gz, so that it ends as the unpacked file would; NULL when out of memory. */
 char *scene_unpacked_name(const char *path);
-
-/* --- memory.c: of an importer's process --- */
-
-/* From now on this process may take 1 GiB more, and 1,024 bytes for each byte that it reads. */
-void scene_limit_memory(void);
-/* While a file is read and unpacked, its own limits hold. scene_has_read: all of it, so many bytes. */
-void scene_reading(void);
-void scene_has_read(size_t bytes);
-
-/* --- gltf_check.c --- */
-
-/* Whether a glTF or GLB file's nodes form trees, and all extensions that it requires are known. */
-trax_status scene_check_gltf(struct scene_bytes file, const char *path, trax_error *error);
 
 /* --- image.c --- */
 
@@ -113,8 +108,8 @@ struct scene_textures {
   struct trax_mesh *mesh;
   const struct trax_import_options *options;
   struct trax_import_report *report;
-  /* An image within the mesh file: the bytes of its file, or its texels, to be released. NULL: there are none. */
-  bool (*embedded)(void *context, const char *name, struct scene_bytes *file, struct scene_image *image);
+  /* Sets the bytes of an image within the mesh file; false: it is a file of its own. NULL: there are none. */
+  bool (*embedded)(void *context, const char *name, struct scene_bytes *file);
   void *context;
   struct scene_texture **known;
   uint32_t count;
@@ -138,15 +133,12 @@ bool scene_reach(void *array, size_t record_size, uint32_t count, size_t *capaci
 /* Brings texture coordinates that are far from zero near it by whole repeats, and makes zeros of what is not finite. */
 void scene_mend_uvs(struct trax_mesh *mesh, struct trax_import_report *report);
 
-/* --- assimp_reader.c, obj_reader.c, ply_reader.c --- */
+/* --- gltf_reader.c, obj_reader.c, ply_reader.c --- */
 
-/* Import one file in this process. source_id and material of the triangles count within the file; report is added to.
- */
+/* Import one file. source_id and material of the triangles count within the file; report is added to. */
 typedef trax_status scene_reader(struct trax_mesh *mesh, const char *path, const struct trax_import_options *options,
                                  struct trax_import_report *report, trax_error *error);
-scene_reader scene_read_with_assimp, scene_read_obj, scene_read_ply;
-/* By the ending of the path. */
-scene_reader scene_read_mesh;
+scene_reader scene_read_gltf, scene_read_obj, scene_read_ply;
 
 /* Into 0 to 1; NaN and -0 become 0. */
 static inline float scene_clamp_colour(float value) {
@@ -194,24 +186,17 @@ struct scene_polygon_work {
   uint32_t (*triangles)[3];
   uint32_t capacity;
   uint64_t steps; /* that all polygons of the file have taken */
+  const volatile int *interrupt;
 };
 
 /* What the polygons of a file may take together: seconds. */
 #define SCENE_POLYGON_STEPS ((uint64_t)1 << 29)
-/* The most vertices of a polygon of formats that assimp reads, which cuts it itself in a time that is quadratic or
- * worse. */
-#define SCENE_ASSIMP_POLYGON 4096
 
 /* Cuts a simple polygon, convex or not, into count - 2 triangles over its own corners, from 0; *triangles is valid
    until the next call. Returns NULL, or why it was not cut. */
 const char *scene_cut_polygon(struct scene_polygon_work *work, float (*positions)[3], const uint32_t *corners,
                               uint32_t count, const uint32_t (**triangles)[3]);
 void scene_polygon_work_release(struct scene_polygon_work *work);
-
-/* --- mesh.c --- */
-
-/* The same in a child process, which is killed when *options->interrupt becomes true. */
-scene_reader scene_read_mesh_isolated;
 
 /* --- boxes, in host arithmetic --- */
 
@@ -264,8 +249,6 @@ struct scene_box scene_box_around(const struct scene_box boxes[2]);
 /* A node around such boxes. */
 void scene_node_write(void *node, enum trax_node_layout layout, const struct scene_box boxes[2],
                       const trax_scene_ref children[2]);
-/* The names of the layouts from TRAX_NODE_LAYOUTS on, which earlier versions had; ended by NULL. */
-extern const char *const scene_removed_layouts[];
 /* Do rays visit hardly more of the tree if its boxes are on the scene's grid, in each of its larger parts? */
 bool scene_grid_suits(const struct scene_tree *tree);
 /* The boxes of a node as they are stored. */

@@ -1,18 +1,11 @@
-/* Meshes: import in a child process, merge, refuse or drop what no ray can hit. */
-#define _GNU_SOURCE /* memfd_create */
+/* Meshes: import by the reader of each format, merge, refuse or drop what no ray can hit. */
 #include "internal.h"
 #include "trax/message.h"
-#include "trax/signals.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 void trax_mesh_release(struct trax_mesh *mesh) {
   free(mesh->vertices);
@@ -55,152 +48,29 @@ static trax_status generate(struct trax_mesh *mesh, const char *path, struct tra
   return result;
 }
 
-trax_status scene_read_mesh(struct trax_mesh *mesh, const char *path, const struct trax_import_options *options,
-                            struct trax_import_report *report, trax_error *error) {
+static trax_status read_mesh(struct trax_mesh *mesh, const char *path, const struct trax_import_options *options,
+                             struct trax_import_report *report, trax_error *error) {
+  static const struct {
+    const char *extension;
+    scene_reader *read;
+  } readers[] = {
+      {".ply", scene_read_ply}, {".obj", scene_read_obj}, {".gltf", scene_read_gltf}, {".glb", scene_read_gltf}};
   *mesh = (struct trax_mesh){0};
   if (trax_mesh_is_generated(path))
     return generate(mesh, path, report, error);
   char *name = scene_unpacked_name(path);
   if (!name)
     return scene_out_of_memory(error, path);
-  scene_reader *read = scene_has_extension(name, ".ply")   ? scene_read_ply
-                       : scene_has_extension(name, ".obj") ? scene_read_obj
-                                                           : scene_read_with_assimp;
+  scene_reader *read = NULL;
+  for (size_t i = 0; i < sizeof readers / sizeof *readers; i++)
+    if (scene_has_extension(name, readers[i].extension))
+      read = readers[i].read;
   free(name);
-  return read(mesh, path, options, report, error);
-}
-
-/* --- the child process --- */
-
-/* Processor time after which the importer is taken to hang: the largest scenes need a hundredth. */
-enum { max_import_seconds = 600 };
-
-/* The first record of what the child hands back; on success the mesh's arrays follow. */
-struct child_result {
-  trax_status status;
-  trax_error error;
-  struct trax_import_report report;
-  struct trax_mesh mesh; /* its counts; of its pointers only which are NULL */
-};
-
-/* The arrays of a mesh. */
-struct mesh_array {
-  void **records;
-  size_t size; /* of all records, bytes */
-};
-
-enum { mesh_arrays = 8 };
-
-static void list_arrays(struct mesh_array arrays[mesh_arrays], struct trax_mesh *mesh) {
-  unsigned n = 0;
-#define ARRAY(name, count) arrays[n++] = (struct mesh_array){(void **)&mesh->name, (count) * sizeof *mesh->name}
-  ARRAY(vertices, (size_t)mesh->vertex_count);
-  ARRAY(triangles, (size_t)mesh->triangle_count);
-  ARRAY(materials, (size_t)mesh->material_count);
-  ARRAY(textures, (size_t)mesh->texture_count);
-  ARRAY(cameras, (size_t)mesh->camera_count);
-  ARRAY(texels, (size_t)mesh->texel_count);
-  ARRAY(normals, mesh->normals ? (size_t)mesh->triangle_count : 0);
-  ARRAY(uvs, mesh->uvs ? (size_t)mesh->triangle_count : 0);
-#undef ARRAY
-}
-
-static bool write_arrays(FILE *out, struct trax_mesh *mesh) {
-  struct mesh_array arrays[mesh_arrays];
-  list_arrays(arrays, mesh);
-  for (unsigned i = 0; i < mesh_arrays; i++)
-    if (arrays[i].size && fwrite(*arrays[i].records, arrays[i].size, 1, out) != 1)
-      return false;
-  return true;
-}
-
-static _Noreturn void run_child(FILE *out, const char *path, const struct trax_import_options *options) {
-  setrlimit(RLIMIT_CPU, &(struct rlimit){max_import_seconds, max_import_seconds});
-  /* What a crashing importer prints is of no use to the user. */
-  int null = open("/dev/null", O_WRONLY);
-  if (null >= 0) {
-    dup2(null, STDOUT_FILENO);
-    dup2(null, STDERR_FILENO);
-  }
-  struct child_result result = {0};
-  scene_limit_memory();
-  result.status = scene_read_mesh(&result.mesh, path, options, &result.report, &result.error);
-  bool wrote = fwrite(&result, sizeof result, 1, out) == 1;
-  if (result.status == TRAX_OK)
-    wrote = wrote && write_arrays(out, &result.mesh);
-  _exit(wrote && fflush(out) == 0 ? 0 : 1);
-}
-
-/* Waits for the child, or kills it when *interrupt becomes true. */
-static trax_status wait_for_child(pid_t child, const char *path, const volatile int *interrupt, trax_error *error) {
-  int status;
-  const trax_status waited = trax_wait_for_child(child, SIGKILL, interrupt, &status);
-  if (waited == TRAX_ERROR)
-    return trax_fail(error, "%s: cannot wait for the importer: %s", path, strerror(errno));
-  if (waited == TRAX_INTERRUPTED)
-    return TRAX_INTERRUPTED;
-  if (WIFSIGNALED(status))
-    return trax_fail(error, "%s: the importer crashed on it (%s): the file is damaged or not a mesh", path,
-                     strsignal(WTERMSIG(status)));
-  if (WEXITSTATUS(status) != 0)
-    return trax_fail(error, "%s: the importer failed on it", path);
-  return TRAX_OK;
-}
-
-static trax_status receive_mesh(struct trax_mesh *mesh, FILE *in, const char *path, struct trax_import_report *report,
-                                trax_error *error) {
-  struct child_result result;
-  rewind(in);
-  if (fread(&result, sizeof result, 1, in) != 1)
-    return trax_fail(error, "%s: the importer failed on it", path);
-  if (result.status != TRAX_OK) {
-    if (error)
-      *error = result.error;
-    return result.status;
-  }
-  *report = result.report;
-  *mesh = result.mesh;
-  struct mesh_array arrays[mesh_arrays];
-  list_arrays(arrays, mesh);
-  for (unsigned i = 0; i < mesh_arrays; i++)
-    *arrays[i].records = NULL;
-  for (unsigned i = 0; i < mesh_arrays; i++) {
-    if (arrays[i].size == 0)
-      continue;
-    if (!(*arrays[i].records = malloc(arrays[i].size)))
-      return scene_out_of_memory(error, path);
-    if (fread(*arrays[i].records, arrays[i].size, 1, in) != 1)
-      return trax_fail(error, "%s: the importer's result is incomplete", path);
-  }
-  return TRAX_OK;
-}
-
-trax_status scene_read_mesh_isolated(struct trax_mesh *mesh, const char *path,
-                                     const struct trax_import_options *options, struct trax_import_report *report,
-                                     trax_error *error) {
-  *mesh = (struct trax_mesh){0};
-  int descriptor = memfd_create("mesh", MFD_CLOEXEC);
-  FILE *exchange = descriptor < 0 ? NULL : fdopen(descriptor, "w+b");
-  if (!exchange) {
-    if (descriptor >= 0)
-      close(descriptor);
-    return trax_fail(error, "%s: cannot start the importer: %s", path, strerror(errno));
-  }
-  fflush(NULL); /* or the child would write what is buffered a second time */
-  trax_status result;
-  pid_t child = trax_fork(SIGKILL);
-  if (child == 0)
-    run_child(exchange, path, options);
-  if (child < 0)
-    result = trax_fail(error, "%s: cannot start the importer: %s", path, strerror(errno));
-  else
-    result = wait_for_child(child, path, options->interrupt, error);
-  if (result == TRAX_OK)
-    result = receive_mesh(mesh, exchange, path, report, error);
-  fclose(exchange);
-  if (result != TRAX_OK)
-    trax_mesh_release(mesh);
-  return result;
+  return read ? read(mesh, path, options, report, error)
+              : trax_fail(error,
+                          "%s: not a mesh that can be read: its name ends in none of .ply, .obj, .gltf and .glb, with "
+                          ".xz or .gz if it is packed; Blender, for example, exports glTF from other formats",
+                          path);
 }
 
 /* --- names --- */
@@ -383,11 +253,10 @@ trax_status trax_mesh_import(struct trax_mesh *mesh, const char *const *paths, s
       options->progress(options->progress_context, paths[i], -1);
     struct trax_mesh part;
     struct trax_import_report part_report = {0};
-    result = (options->in_process ? scene_read_mesh : scene_read_mesh_isolated)(&part, paths[i], options, &part_report,
-                                                                                error);
+    result = read_mesh(&part, paths[i], options, &part_report, error);
     if (result == TRAX_OK)
       result = filter(&part, options, paths[i], &part_report, error);
-    if (result == TRAX_OK && scene_is_interrupted(options->interrupt))
+    if (scene_is_interrupted(options->interrupt))
       result = TRAX_INTERRUPTED;
     if (result == TRAX_OK) {
       scene_mend_normals(&part, &part_report);

@@ -10,8 +10,6 @@ const struct trax_node_format trax_node_formats[TRAX_NODE_LAYOUTS] = {
     [TRAX_NODES_QUANTISED] = {"quantised", sizeof(struct trax_quantised_node), true, sizeof(uint16_t)},
 };
 
-const char *const scene_removed_layouts[] = {"quantised8", "wide", "wide-quantised", "wide-quantised8", NULL};
-
 bool trax_node_layout_choose(const char *name, struct trax_build_options *build) {
   build->choose_nodes = strcmp(name, "auto") == 0;
   for (unsigned i = 0; i < TRAX_NODE_LAYOUTS; i++)

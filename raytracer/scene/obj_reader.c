@@ -1,5 +1,4 @@
-/* Wavefront OBJ with its material libraries. Read here and not by assimp, whose OBJ reader (5.2) silently leaves out a
-   vertex such as "v .5 0 0" and counts the following ones wrongly; and so that an error names its line.
+/* Wavefront OBJ with its material libraries. An error names its line.
 
    Read: v, vt, vn, f (absolute and relative indices, any polygon), usemtl, mtllib. Counted as other primitives: p, l.
    What concerns grouping, smoothing and free-form surfaces is skipped. */
@@ -263,10 +262,11 @@ trax_status scene_read_obj(struct trax_mesh *mesh, const char *path, const struc
                               .default_material = no_material,
                               .report = report,
                               .materials = {.mesh = mesh},
+                              .polygon_work = {.interrupt = options->interrupt},
                               .textures = {.mesh = mesh, .options = options, .report = report}};
   char *text = (char *)file.data, *line;
   for (unsigned lines; result == TRAX_OK && (lines = next_line(&text, &line)) > 0; reader.line += lines)
-    result = read_statement(&reader, line);
+    result = scene_is_interrupted(options->interrupt) ? TRAX_INTERRUPTED : read_statement(&reader, line);
   if (result == TRAX_OK && mesh->vertex_count == 0)
     result = trax_fail(error, "%s: not a mesh: no vertices in what should be an OBJ file", path);
   if (result == TRAX_OK && mesh->material_count == 0 &&

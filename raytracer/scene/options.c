@@ -49,15 +49,10 @@ trax_status trax_take_unpack_limit(void *target, const trax_option *option, cons
 trax_status trax_take_nodes(void *target, const trax_option *option, const char *value, trax_error *error) {
   struct trax_build_options build;
   *(const char **)member(target, option) = value;
-  for (size_t i = 0; scene_removed_layouts[i]; i++)
-    if (strcmp(value, scene_removed_layouts[i]) == 0)
-      return trax_option_refuse(option, value, error,
-                                "has been removed; trax-eval has it as an experiment, lib/trax/evaluation/experiments/"
-                                "nodes/%s.json",
-                                value);
   return trax_node_layout_choose(value, &build)
              ? TRAX_OK
-             : trax_option_refuse(option, value, error, "is none of auto, binary and quantised");
+             : trax_option_refuse(option, value, error,
+                                  "is none of auto, binary and quantised; trax-eval has others as experiments");
 }
 
 trax_status trax_take_splits(void *target, const trax_option *option, const char *value, trax_error *error) {

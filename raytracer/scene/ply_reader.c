@@ -1,5 +1,4 @@
-/* Stanford PLY, ASCII and binary of either byte order. Read here and not by assimp, whose PLY reader (5.2) crashes or
-   never ends on damaged files; and so that an error names its place.
+/* Stanford PLY, ASCII and binary of either byte order.
 
    Read: of "vertex" the coordinates x, y, z, the normal nx, ny, nz and the texture coordinates u, v or s, t; the
    polygons vertex_indices (or vertex_index) of "face" and the strips of "tristrips", in which -1 begins a new strip;
@@ -176,7 +175,8 @@ static trax_status read_elements(struct ply_reader *reader) {
       continue;
     reader->current = element;
     for (reader->current_number = 0; reader->current_number < element->count; reader->current_number++) {
-      trax_status result = read_record(reader, element);
+      trax_status result =
+          scene_is_interrupted(reader->polygon_work.interrupt) ? TRAX_INTERRUPTED : read_record(reader, element);
       if (result != TRAX_OK)
         return result;
     }
@@ -230,6 +230,7 @@ trax_status scene_read_ply(struct trax_mesh *mesh, const char *path, const struc
   reader->path = path;
   reader->error = error;
   reader->mesh = mesh;
+  reader->polygon_work.interrupt = options->interrupt;
   reader->start = reader->at = file.data;
   reader->end = file.data + file.size;
   result = scene_ply_header(reader);

@@ -178,6 +178,10 @@ static void fill_grid(struct grid *grid, uint32_t count) {
   }
 }
 
+static bool is_stopped(const struct scene_polygon_work *work) {
+  return work->steps >= SCENE_POLYGON_STEPS || scene_is_interrupted(work->interrupt);
+}
+
 static const char too_hard[] = "a polygon that takes too long to be cut into triangles";
 static const char no_memory[] = "not enough memory for a polygon";
 
@@ -198,7 +202,7 @@ static const char *cut_large(struct scene_polygon_work *work, uint32_t count) {
   fill_grid(&grid, count);
   bool search = true;
   uint32_t at = 1, made = 0, near[2] = {0, 2}; /* the corners beside what was cut last: their angles have changed */
-  for (uint32_t left = count; left > 2 && work->steps < SCENE_POLYGON_STEPS; left--) {
+  for (uint32_t left = count; left > 2 && !is_stopped(work); left--) {
     for (uint32_t tried = 0; search && !is_ear_in(&grid, at, &work->steps); search = tried < left) {
       const bool first = tried == 0 && is_ear_in(&grid, near[1], &work->steps);
       if (first || (tried == 0 && is_ear_in(&grid, near[0], &work->steps))) {
@@ -206,7 +210,7 @@ static const char *cut_large(struct scene_polygon_work *work, uint32_t count) {
         break;
       }
       at = grid.after[at];
-      if (++tried % 4096 == 0 && work->steps >= SCENE_POLYGON_STEPS)
+      if (++tried % 4096 == 0 && is_stopped(work))
         break;
     }
     const uint32_t before = grid.before[at], after = grid.after[at];
@@ -232,9 +236,10 @@ static const char *cut_large(struct scene_polygon_work *work, uint32_t count) {
 const char *scene_cut_polygon(struct scene_polygon_work *work, float (*positions)[3], const uint32_t *corners,
                               uint32_t count, const uint32_t (**triangles)[3]) {
   if (count > work->capacity) {
-    const uint64_t steps = work->steps;
+    const struct scene_polygon_work old = *work;
     scene_polygon_work_release(work);
-    work->steps = steps;
+    work->steps = old.steps;
+    work->interrupt = old.interrupt;
     work->points = malloc(count * sizeof(struct point));
     work->ring = malloc(count * sizeof *work->ring);
     work->triangles = malloc(count * sizeof *work->triangles);

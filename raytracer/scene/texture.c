@@ -174,7 +174,8 @@ trax_status scene_add_image(struct scene_textures *textures, const struct scene_
   struct trax_mesh_texture texture = {mesh->texel_count, log2_side(image->width, most), log2_side(image->height, most),
                                       flags};
   const uint32_t width = 1u << texture.log2_width, height = 1u << texture.log2_height, count = width * height;
-  if (mesh->texel_count > UINT32_MAX / sizeof(uint32_t) - count)
+  const uint64_t bytes = ((uint64_t)mesh->texel_count + count) * sizeof *mesh->texels;
+  if (bytes > UINT32_MAX || bytes > scene_memory_for(scene_bytes_read()))
     return trax_fail(error, "%s: the textures together are too large; --texture-size makes them smaller", name);
   void *grown = realloc(mesh->texels, ((size_t)mesh->texel_count + count) * sizeof *mesh->texels);
   if (!grown)
@@ -203,11 +204,7 @@ static trax_status load_image(const struct scene_textures *textures, struct scen
   *good = false;
   struct scene_bytes file, embedded;
   struct trax_import_report *report = textures->report;
-  if (textures->embedded && textures->embedded(textures->context, name, &embedded, image)) {
-    if (image->rgba) { /* as it is */
-      *good = true;
-      return TRAX_OK;
-    }
+  if (textures->embedded && textures->embedded(textures->context, name, &embedded)) {
     trax_error reason;
     *good = scene_decode_image(image, &embedded, name, &reason) == TRAX_OK;
     if (!*good && report->bad_images++ == 0)

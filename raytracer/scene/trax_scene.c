@@ -49,8 +49,8 @@ static size_t list_statistics(struct statistic list[max_statistics], const struc
     list[n++] = (struct statistic){"import.other", "", "points and lines skipped", (double)f->import.other_primitives};
     list[n++] = (struct statistic){"import.seconds", "s", "reading and parsing", f->import_seconds};
     list[n++] = (struct statistic){"build.seconds", "s", "BVH and layout", f->build_seconds};
-    list[n++] = (struct statistic){"memory.import", "B", "most resident in the importer's process", f->import_bytes};
-    list[n++] = (struct statistic){"memory.build", "B", "most resident in this process", f->build_bytes};
+    list[n++] = (struct statistic){"memory.import", "B", "most resident when the meshes were read", f->import_bytes};
+    list[n++] = (struct statistic){"memory.build", "B", "most resident in all", f->build_bytes};
   }
   list[n++] = (struct statistic){"scene.bytes", "B", "size of the file", (double)f->scene->size};
   list[n++] = (struct statistic){"scene.triangles", "", "", f->scene->triangle_count};
@@ -99,7 +99,7 @@ static trax_status check_files(trax_files *files, const struct arguments *argume
                                                    : TRAX_ERROR;
 }
 
-/* A file without a name, to which the importer's processes append. */
+/* A file without a name, to which the importer appends. */
 static trax_status begin_list(int *list, const char *path, trax_error *error) {
   *list = path ? memfd_create("files", MFD_CLOEXEC) : 0;
   if (*list < 0)
@@ -138,9 +138,9 @@ static trax_status write_json(const char *path, const struct statistic *list, si
   return result;
 }
 
-static double most_resident(int who) {
+static double most_resident(void) {
   struct rusage usage;
-  return getrusage(who, &usage) == 0 ? 1024.0 * (double)usage.ru_maxrss : 0;
+  return getrusage(RUSAGE_SELF, &usage) == 0 ? 1024.0 * (double)usage.ru_maxrss : 0;
 }
 
 static trax_status import_and_build(struct trax_scene *scene, struct figures *figures,
@@ -152,6 +152,7 @@ static trax_status import_and_build(struct trax_scene *scene, struct figures *fi
   if (result != TRAX_OK)
     return result;
   double imported = trax_seconds();
+  figures->import_bytes = most_resident();
   if (arguments->write_triangles)
     result = trax_mesh_write_triangles(&mesh, arguments->write_triangles, error);
   if (result != TRAX_OK || !arguments->output) {
@@ -168,8 +169,7 @@ static trax_status import_and_build(struct trax_scene *scene, struct figures *fi
   figures->imported = true;
   figures->import_seconds = imported - began;
   figures->build_seconds = trax_seconds() - imported;
-  figures->import_bytes = most_resident(RUSAGE_CHILDREN);
-  figures->build_bytes = most_resident(RUSAGE_SELF);
+  figures->build_bytes = most_resident();
   return result;
 }
 

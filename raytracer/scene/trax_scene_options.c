@@ -105,7 +105,7 @@ const trax_command scene_command = {
     .name = "trax-scene",
     .synopsis = "[options] MESH... -o SCENE\n--check SCENE [--stats] [--stats-json FILE]",
     .description =
-        "Imports meshes (PLY, OBJ with MTL, glTF, GLB and what else assimp reads, also as .xz or .gz), merges them, "
+        "Imports meshes (PLY, OBJ with MTL, glTF, GLB, also as .xz or .gz), merges them, "
         "builds\n"
         "the BVH and writes a scene file. The mesh generate:forest[:SEED] is made by the program itself.",
     .rows = rows,

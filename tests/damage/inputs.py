@@ -232,9 +232,6 @@ def make(binaries, folder):
     (folder / "mesh.bin").write_bytes(triangle)
     (folder / "mesh.gltf").write_text(json.dumps(gltf("mesh.bin")))
     (folder / "mesh.glb").write_bytes(glb(gltf(None), triangle))
-    (folder / "mesh.stl").write_bytes(
-        b" " * 80 + struct.pack("<I", 2) + struct.pack("<12fH", 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 1, 0, 0) * 2
-    )
     (folder / "binary.ply").write_bytes(
         PLY.split("0 0 0 255")[0].replace("ascii", "binary_little_endian").encode()
         + b"".join(struct.pack("<3fB", x, x * x, -x, 9) for x in range(4))

@@ -79,7 +79,7 @@ KINDS = {
     ),
     "mesh-binary": (
         300,
-        ["binary.ply", "mesh.stl", "mesh.glb", "mesh.obj"],
+        ["binary.ply", "mesh.glb", "mesh.obj"],
         mutate.of_bytes,
         [["trax-scene", "{x}", "-q", "-o", "{o}"]],
     ),

@@ -20,7 +20,7 @@ SIDE, ROOFS = 24, 5
 WIDTH, HEIGHT = 96, 64
 BUNNY = "/usr/share/glmark2/models/bunny.obj"
 CACHE, STACK = 4096, 512  # bytes
-OTHER_TESTS = {"triangles-moller-trumbore", "triangles-edges",
+OTHER_TESTS = {"triangles-moller-trumbore", "triangles-edges", "triangles-fast-math", "triangles-moller-trumbore-fast-math",
                "triangles-transform"}  # of triangles: some pixels may be others
 SMALL = ("order", "triangles", "era")  # whose programs fit in the instruction cache
 failures = 0

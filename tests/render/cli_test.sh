@@ -59,7 +59,7 @@ refuse "--material: 'wood' is not" "$render" "$box" -o x.png --material wood
 refuse "no material is named 'tin'" "$render" "$box" -o x.png --material tin=mirror
 refuse "--diffuse: 'red=2,0,0'" "$render" "$box" -o x.png --diffuse red=2,0,0
 refuse "--nodes: 'octal' is none of auto, binary and quantised" "$render" "$box" -o x.png --nodes octal
-refuse "--nodes: 'wide-quantised' has been removed; .*experiments/nodes/wide-quantised.json" "$render" "$box" -o x.png --nodes wide-quantised
+refuse "--nodes: 'wide-quantised' is none of auto, binary and quantised; trax-eval has others" "$render" "$box" -o x.png --nodes wide-quantised
 refuse "--texture-size: '3' is not a power of two" "$render" "$box" -o x.png --texture-size 3
 refuse "--normals: 'round' is none of file" "$render" "$box" -o x.png --normals round
 refuse '--background' "$render" "$box" -o x.png --background 12345g
@@ -78,8 +78,7 @@ refuse "--queues: '65' is neither tms nor a whole number from 1 to 64" "$render"
 refuse "--queues: '0' is neither" "$render" "$box" -o x.png --queues 0
 refuse '--queues needs a program.*--no-specialise' "$render" "$box" -o x.png --queues tms --no-specialise
 refuse '--queues needs the emulator' "$render" "$box" -o x.png --engine native --queues tms
-refuse '--fast-math needs a program.*--program asks' "$render" "$box" -o x.png --fast-math --program x.elf
-refuse '--fast-math needs the emulator' "$render" "$box" -o x.png --engine native --fast-math
+refuse '--fast-math has been removed; -ffast-math in a file flags.txt' "$render" "$box" -o x.png --fast-math
 refuse "--cost: 'time' is none of cycles" "$render" "$box" -o x.png --cost-picture c.png --cost time
 for option in '-o x.png' '--stats s.json' --compare '--explore p.html' '--cost-picture c.png' '--id-picture i.png'; do
   refuse '--prepare renders nothing' "$render" "$box" --prepare prepared $option

@@ -10,6 +10,14 @@ same() {
   grep -q '^twin        identical in every bit$' .out || fail "$*: $(cat .out)"
 }
 
+# again NAME ARGUMENTS...: the picture of the box as before, which was compared then.
+again() {
+  reason=$1
+  shift
+  "$bin/trax-render" "$source/box.obj" $view --size 64x36 -o x.png "$@" >.out 2>.err || fail "$reason: status $?: $(cat .out .err)"
+  "$bin/trax-compare" -q x.png box.png || fail "$reason: another picture"
+}
+
 view="--view $source/box.view"
 same "$source/box.obj" $view --size 64x36 --stats a.json
 cp x.png box.png
@@ -19,20 +27,18 @@ grep -q '"items": 2304' a.json || fail "not every pixel counted"
 fetched=$(sed -n 's/.*"instruction_read_bytes": \([0-9]*\).*/\1/p' a.json | head -n 1)
 [ "${fetched:-0}" -gt 0 ] && [ "$fetched" -le 32768 ] || fail "$fetched bytes of instructions fetched"
 for chip in 1x32 2x64; do # the same picture on any chip
-  same "$source/box.obj" $view --size 64x36 --config $chip
-  "$bin/trax-compare" -q x.png box.png || fail "$chip renders another picture"
+  again "$chip" --config $chip
 done
-same "$source/box.obj" $view --size 64x36 --config 1x32 --set memory.latency_cycles=7 --set dcache.bytes=1024
-"$bin/trax-compare" -q x.png box.png || fail "timing changes the picture"
+again "other times" --config 1x32 --set memory.latency_cycles=7 --set dcache.bytes=1024
 # Queues of pixels, as many as TMs, fewer, and more: every pixel once.
 for queues in 1 3 64 tms; do
-  same "$source/box.obj" $view --size 67x33 --config 6x32 --queues $queues --stats queues$queues.json
-  cp x.png queues$queues.png
-  "$bin/trax-compare" -q x.png queues1.png || fail "--queues $queues renders another picture"
-  grep -q '"items": 2211' queues$queues.json || fail "--queues $queues: not every pixel counted"
+  again "--queues $queues" --config 6x32 --queues $queues --stats queues$queues.json
+  grep -q '"items": 2304' queues$queues.json || fail "--queues $queues: not every pixel counted"
 done
 bytes() { sed -n 's/^ *"data_read_bytes": \([0-9]*\),*$/\1/p' "$1" | head -n 1; }
 if [ -r $bunny ]; then
+  "$bin/trax-scene" -q $bunny -o bunny.trax || fail "trax-scene"
+  bunny=bunny.trax
   for queues in 1 tms; do
     "$bin/trax-render" $bunny --view bunny --size 160x90 --config 8x32 --queues $queues -o x.png -q --stats bunny$queues.json || fail "bunny"
   done
@@ -48,14 +54,13 @@ same "$source/box.obj" $view --size 61x1
 grep -q 'pixels differ' .out || fail "8 bits: $(cat .out .err)"
 
 # The machine's statistics do not depend on what the host does.
-same "$source/box.obj" $view --size 64x36 --stats b.json
+again "again" --stats b.json
 for name in cycles instructions; do
   [ "$(grep -m1 "\"$name\"" a.json)" = "$(grep -m1 "\"$name\"" b.json)" ] || fail "$name differ between two runs"
 done
 
 # The reference engine: the same picture and the same statistics, all of them.
-same "$source/box.obj" $view --size 64x36 --engine reference --stats reference.json
-"$bin/trax-compare" -q x.png box.png || fail "the reference engine renders another picture"
+again "the reference engine" --engine reference --stats reference.json
 for file in a reference; do grep -v host_second $file.json >$file.figures; done
 cmp -s a.figures reference.figures || fail "the reference engine's statistics differ: $(diff a.figures reference.figures | head -n 4)"
 
@@ -64,14 +69,13 @@ thread_cycles=$(sed -n 's/^  "thread_cycles": \([0-9]*\).*/\1/p' a.json)
 instructions=$(sed -n 's/^  "instructions": \([0-9]*\).*/\1/p' a.json)
 for engine in fast reference; do
   for what in cycles $([ $engine = fast ] && echo instructions) wait_memory; do
-    "$bin/trax-render" "$source/box.obj" $view --size 64x36 --engine $engine -o x.png --cost $what \
-      --cost-picture $engine-$what.png --cost-values $engine-$what.csv --explore $engine.html >.out 2>.err || fail "--cost $what: $(cat .err)"
+    again "--cost $what" --engine $engine --cost $what --cost-picture $engine-$what.png --cost-values $engine-$what.csv \
+      $([ $what = cycles ] && echo --explore $engine.html)
     elsewhere=$(sed -n 's/^cost .* and \([0-9]*\) for no pixel$/\1/p' .out)
     sum=$(awk -F, 'NR > 1 { sum += $3 } END { printf "%d", sum }' $engine-$what.csv)
     grep -q " of a pixel: .* sum $sum, and" .out || fail "--cost-values sums to $sum, not: $(cat .out)"
     echo "$((sum + elsewhere))" >$engine-$what.total
     [ "$(wc -l <$engine-$what.csv)" -eq 2305 ] || fail "not every pixel has a value"
-    "$bin/trax-compare" -q x.png box.png || fail "the picture changes when it is explained"
   done
 done
 [ "$(cat fast-cycles.total)" -eq "$thread_cycles" ] || fail "cost $(cat fast-cycles.total), not $thread_cycles thread-cycles"
@@ -79,7 +83,7 @@ done
 for what in -cycles.png -cycles.csv -wait_memory.png -wait_memory.csv .html; do
   cmp -s fast$what reference$what || fail "the engines differ in $what"
 done
-"$bin/trax-render" "$source/box.obj" $view --size 64x36 -o x.png --cost-values x.pfm >.out 2>.err || fail "$(cat .err)"
+again "--cost-values x.pfm" --cost-values x.pfm
 tail -c 9216 x.pfm | od -An -v -tf4 -w256 | tac | tr -s ' ' '\n' | grep . | awk '{ printf "%.0f\n", $1 }' >pfm.values
 sed 1d fast-cycles.csv | cut -d, -f3 | awk '{ printf "%.0f\n", $1 }' | cmp -s - pfm.values || fail "PFM and CSV differ"
 head -n 2 x.pfm | tr '\n' ' ' | grep -qx 'Pf 64 36 ' || fail "x.pfm begins with $(head -n 2 x.pfm)"
@@ -140,19 +144,22 @@ for how in '' --no-specialise; do
 done
 "$bin/trax-compare" -q 8.png 8--no-specialise.png || fail "8 bits of precision: another picture"
 
-# -ffast-math is a program of its own, which the compiler may reorder.
+# A source of one's own may have options for the compiler: here, to reorder.
+cp -r "$bin/../lib/trax/raytracer" own-source
+printf -- '-ffast-math\n  -funroll-loops ' >own-source/flags.txt
 if [ -r $bunny ]; then
-  for method in '' --fast-math; do
-    "$bin/trax-render" $bunny --view bunny --size 48x27 --cache methods $method -o "method$method.png" --compare --stats m.json \
+  for method in '' '--source own-source'; do
+    "$bin/trax-render" $bunny --view bunny --size 48x27 --cache methods $method -o method.png --stats m.json \
       >.out 2>.err || fail "$method: $(cat .out .err)"
     grep -m1 '"cycles"' m.json
-    case $method in
-      *fast-math) grep -q '^twin        not compared' .out ;;
-      *) grep -q '^twin        identical in every bit$' .out ;;
-    esac || fail "$method: $(cat .out)"
   done >methods.cycles
-  [ "$(sort -u methods.cycles | wc -l)" -eq 2 ] || fail "--fast-math has no effect on time: $(cat methods.cycles)"
+  [ "$(sort -u methods.cycles | wc -l)" -eq 2 ] || fail "flags.txt has no effect on time: $(cat methods.cycles)"
 fi
+for text in -fno-such-option "$(seq -s ' ' 33)" "$(seq -s '' 600)"; do
+  echo "$text" >own-source/flags.txt
+  "$bin/trax-render" "$source/box.obj" $view --size 16x9 --source own-source -o y.png >.out 2>.err && fail "flags.txt: $text"
+  grep -q 'error: .*\(no-such-option\|flags.txt: too many options\|flags.txt: more than\)' .err || fail "flags.txt: $(cat .err)"
+done
 
 # Compiled once, by whichever of several processes comes first; an option of the picture makes another program.
 programs() { find "$1" -name '*.elf' | wc -l; }
@@ -198,8 +205,8 @@ note() {
 note 'bin/trax-clang' bare/bin/trax-render
 note '/dev/null/trax' env XDG_CACHE_HOME=/dev/null "$bin/trax-render"
 note 'neither XDG_CACHE_HOME nor HOME' env -u XDG_CACHE_HOME -u HOME "$bin/trax-render"
-bare/bin/trax-render "$source/box.obj" $view --size 16x9 -o y.png --fast-math >.out 2>.err && fail "--fast-math without a compiler"
-grep -q "error: --fast-math: there is no program for it: .*bin/trax-clang" .err && [ ! -e y.png ] || fail "--fast-math: $(cat .err)"
+bare/bin/trax-render "$source/box.obj" $view --size 16x9 -o y.png --mark-rays >.out 2>.err && fail "--mark-rays without a compiler"
+grep -q "error: --mark-rays: there is no program for it: .*bin/trax-clang" .err && [ ! -e y.png ] || fail "--mark-rays: $(cat .err)"
 "$bin/trax-render" "$source/box.obj" $view --size 64x36 --no-specialise -o x.png >.out 2>.err || fail "--no-specialise"
 [ -s .err ] && fail "--no-specialise has a note: $(cat .err)"
 "$bin/trax-compare" -q x.png box.png || fail "--no-specialise: another picture"

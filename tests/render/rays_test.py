@@ -17,7 +17,7 @@ from checking import check  # noqa: E402
 
 BIN = pathlib.Path(sys.argv[1]).resolve()
 KINDS = ["primary", "shadow", "occlusion", "diffuse", "glossy", "mirror", "glass", "other"]
-SIZE, PIXELS = "40x24", 40 * 24
+SIZE, PIXELS = "25x15", 25 * 15
 call = functools.partial(checking.call, BIN)
 
 
@@ -105,7 +105,7 @@ def compare_occlusion():
     """With everything else that a picture may have: the same bits from all three programs, and Embree's picture."""
     for parts, words in ((0, []), (63, []), (63, ["--samples", "4", "--smooth"]), (63, ["--one-sided", "--float", "--seed", "7"])):
         call("../tests/bin/render-gallery", "made", parts)
-        words = ["made/gallery.trax", *words, "--occlusion", "4", "--ambient", "0.6", "--occlusion-reach", "0.3", "--size", "40x28", "--config", "1x32"]
+        words = ["made/gallery.trax", *words, "--occlusion", "4", "--ambient", "0.6", "--occlusion-reach", "0.3", "--size", "24x17", "--config", "1x32"]
         result = call("trax-render", *words, "--compare", "-o", "x.png")
         check(re.search("^twin        identical in every bit$", result.stdout, re.M), parts, words, result.stdout)
         call("trax-render", *words, "--no-specialise", "-o", "y.png")

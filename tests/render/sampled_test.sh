@@ -146,7 +146,6 @@ refuse 'engine fast' --sampled --engine native
 refuse 'nothing to compare' --sampled --compare
 refuse 'nothing to compare' --sampled --explore x.html
 refuse 'nothing to compare' --sampled --cost-picture y.png
-refuse '--fast-math' --sampled --fast-math
 
 [ $failures -eq 0 ] && echo "sampled runs as expected"
 exit $((failures > 0))

@@ -291,14 +291,8 @@ CHANGE(used_reserve) {
 CHANGE(other_nodes) {
   UNUSED, header->node_layout = 77;
 }
-CHANGE(quantised8_nodes) {
-  UNUSED, header->node_layout = 2;
-}
-CHANGE(wide_quantised8_nodes) {
-  UNUSED, header->node_layout = 5;
-}
 CHANGE(next_nodes) {
-  UNUSED, header->node_layout = 6;
+  UNUSED, header->node_layout = TRAX_NODE_LAYOUTS;
 }
 static void *section_of(struct trax_scene_header *header, enum trax_scene_section_kind kind) {
   return (unsigned char *)header + header->sections[kind].offset;
@@ -398,9 +392,7 @@ static void test_messages(void **state) {
   expect(relocated, "its references are addresses, for a device that has it at 00002000");
   expect(used_reserve, "node 4: reserved words are not zero");
   expect(other_nodes, "nodes of an unknown layout, 77");
-  expect(quantised8_nodes, "its nodes are quantised8 ones, which scene files no longer have: import the meshes again");
-  expect(wide_quantised8_nodes, "its nodes are wide-quantised8 ones");
-  expect(next_nodes, "nodes of an unknown layout, 6");
+  expect(next_nodes, "nodes of an unknown layout, 2");
   expect(nan_uv, "triangle 6: a texture coordinate is not within 8192");
   expect(far_uv, "triangle 6: a texture coordinate is not within 8192");
   expect(no_uvs, "textures without texture coordinates");

@@ -6,7 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <time.h>
+#include <unistd.h>
 #include <zlib.h>
 
 /* The corners of triangle i of a mesh. */
@@ -126,7 +128,7 @@ static void test_ply_types(void **state) {
   for (size_t length = 0; length < size; length++) {
     const char *path = test_file("cut.ply", bytes, length);
     trax_error error;
-    struct trax_import_options options = {.in_process = true};
+    struct trax_import_options options = {0};
     assert_int_equal(trax_mesh_import(&mesh, &path, 1, &options, NULL, &error), TRAX_ERROR);
     assert_contains(error.message, "cut.ply:");
   }
@@ -343,7 +345,7 @@ static void test_large_polygons(void **state) {
   struct trax_mesh mesh;
   trax_error error;
   const double began = processor_seconds();
-  const struct trax_import_options options = {.in_process = true};
+  const struct trax_import_options options = {0};
   assert_int_equal(trax_mesh_import(&mesh, &path, 1, &options, NULL, &error), TRAX_ERROR);
   assert_true(processor_seconds() - began < 30);
   assert_contains(error.message, "large.ply:200012: a polygon that takes too long to be cut into triangles");
@@ -365,7 +367,7 @@ static void test_unpack_limit(void **state) {
   assert_int_equal(gzclose(file), Z_OK);
   struct trax_mesh mesh;
   trax_error error;
-  struct trax_import_options options = {.in_process = true, .unpack_limit = 19 << 20};
+  struct trax_import_options options = {.unpack_limit = 19 << 20};
   struct rusage before, after;
   getrusage(RUSAGE_SELF, &before);
   assert_int_equal(trax_mesh_import(&mesh, &path, 1, &options, NULL, &error), TRAX_ERROR);
@@ -421,7 +423,7 @@ static void test_materials(void **state) {
 
   const struct trax_material_override overrides[] = {{.colour = {0.25f, 0.25f, 0.25f}},
                                                      {.name = "grey", .colour = {1}}};
-  struct trax_import_options options = {.in_process = true, .overrides = overrides, .override_count = 2};
+  struct trax_import_options options = {.overrides = overrides, .override_count = 2};
   trax_error error;
   assert_int_equal(trax_mesh_import(&mesh, &path, 1, &options, NULL, &error), TRAX_OK);
   assert_true(material_of(&mesh, 1)->surface.diffuse[1] == 0.25f);
@@ -433,7 +435,7 @@ static void test_materials(void **state) {
   trax_scene_release(&scene);
   trax_mesh_release(&mesh);
   const struct trax_material_override wrong = {.name = "gray", .colour = {1}};
-  options = (struct trax_import_options){.in_process = true, .overrides = &wrong, .override_count = 1};
+  options = (struct trax_import_options){.overrides = &wrong, .override_count = 1};
   assert_int_equal(trax_mesh_import(&mesh, &path, 1, &options, NULL, &error), TRAX_ERROR);
   assert_contains(error.message, "no material is named 'gray'");
 
@@ -450,23 +452,20 @@ static void test_merge(void **state) {
   test_text("a.mtl", "newmtl a\nKd 1 0 0\n");
   const char *paths[] = {test_text("a.obj", "mtllib a.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 1 2\n"),
                          test_text("b.ply", square_ply)};
-  for (int in_process = 0; in_process < 2; in_process++) {
-    struct trax_mesh mesh;
-    struct trax_import_report report;
-    trax_error error;
-    struct trax_import_options options = {.in_process = in_process};
-    assert_int_equal(trax_mesh_import(&mesh, paths, 2, &options, &report, &error), TRAX_OK);
-    assert_int_equal(mesh.triangle_count, 4);
-    assert_int_equal(report.source_triangles, 5);
-    assert_int_equal(report.degenerate, 1);
-    const uint32_t ids[] = {0, 2, 3, 4}; /* 1 was dropped */
-    for (uint32_t t = 0; t < 4; t++)
-      assert_int_equal(mesh.triangles[t].source_id, ids[t]);
-    assert_corner(&mesh, 3, 0, 0.5f, -0.25f, -2);
-    assert_true(material_of(&mesh, 0)->surface.diffuse[1] == 0);
-    assert_true(material_of(&mesh, 1)->surface.diffuse[1] == 0.75f);
-    trax_mesh_release(&mesh);
-  }
+  struct trax_mesh mesh;
+  struct trax_import_report report;
+  trax_error error;
+  assert_int_equal(trax_mesh_import(&mesh, paths, 2, NULL, &report, &error), TRAX_OK);
+  assert_int_equal(mesh.triangle_count, 4);
+  assert_int_equal(report.source_triangles, 5);
+  assert_int_equal(report.degenerate, 1);
+  const uint32_t ids[] = {0, 2, 3, 4}; /* 1 was dropped */
+  for (uint32_t t = 0; t < 4; t++)
+    assert_int_equal(mesh.triangles[t].source_id, ids[t]);
+  assert_corner(&mesh, 3, 0, 0.5f, -0.25f, -2);
+  assert_true(material_of(&mesh, 0)->surface.diffuse[1] == 0);
+  assert_true(material_of(&mesh, 1)->surface.diffuse[1] == 0.75f);
+  trax_mesh_release(&mesh);
 }
 
 /* --- triangles that cannot be traced --- */
@@ -502,7 +501,7 @@ static void test_degenerate(void **state) {
   struct trax_mesh mesh;
   trax_error error;
   const char *path = test_text("flat.obj", "v 0 0 0\nv 1 0 0\nf 1 2 2\n");
-  struct trax_import_options keep = {.in_process = true, .keep_degenerate = true};
+  struct trax_import_options keep = {.keep_degenerate = true};
   assert_int_equal(trax_mesh_import(&mesh, &path, 1, &keep, NULL, &error), TRAX_OK);
   assert_int_equal(mesh.triangle_count, 1);
   trax_mesh_release(&mesh);
@@ -537,6 +536,12 @@ static void test_nonfinite(void **state) {
 #define PLY_START "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
 #define PLY_FACES "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n"
 
+#define POSITIONS "{\"attributes\":{\"POSITION\":0}}"
+#define GLTF_MESH(primitives) GLTF("[0]") "\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[" primitives "]}]"
+#define GLTF_ACCESSOR(more) ",\"accessors\":[{\"componentType\":5126,\"type\":\"VEC3\"," more "}]"
+#define GLTF_BYTES(length)                                                                                             \
+  "\"bufferViews\":[{\"buffer\":0,\"byteLength\":" length "}],\"buffers\":[{\"byteLength\":36,\"uri\":"                \
+  "\"data:application/octet-stream;base64,AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAAAAAAAAgD8AAAAA\"}]}"
 #define GLTF(roots) "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":" roots "}],"
 
 static const struct bad_mesh {
@@ -576,10 +581,53 @@ static const struct bad_mesh {
     {"inner.gltf", GLTF("[0,1]") "\"nodes\":[{\"children\":[1]},{}]}", "inner.gltf: a scene has node 1 as its own and"},
     {"absent.gltf", GLTF("[1]") "\"nodes\":[{}]}", "absent.gltf: a scene has a node that is not there"},
     {"child.gltf", GLTF("[0]") "\"nodes\":[{\"children\":[7]}]}", "child.gltf: node 0 has a child that is not there"},
-    {"names.gltf",
-     "{\"asset\":{\"version\":\"1.0\"},\"scenes\":{\"s\":{\"nodes\":[\"a\"]}},\"scene\":\"s\","
-     "\"nodes\":{\"a\":{\"children\":[\"b\",\"b\"]},\"b\":{}}}",
-     "names.gltf: node 1 is a child of node 0 and again of node 0"},
+    {"old.gltf", "{\"asset\":{\"version\":\"1.0\"}}", "old.gltf: glTF of version 1.0; only 2.0 is read"},
+    {"none.gltf", "{}", "none.gltf: glTF of version (none); only 2.0 is read"},
+    {"scene.gltf", "{\"asset\":{\"version\":\"2.0\"},\"scene\":1,\"scenes\":[{}]}",
+     "scene.gltf: its scene is not there"},
+    {"mesh.gltf", GLTF("[0]") "\"nodes\":[{\"mesh\":0}]}", "mesh.gltf: a node has a mesh that is not there"},
+    {"places.gltf", GLTF_MESH("{\"attributes\":{}}") "}", "places.gltf: mesh 0: its vertices have no positions"},
+    {"mode.gltf", GLTF_MESH("{\"mode\":7}") "}", "mode.gltf: mesh 0: mode 7 is unknown"},
+    {"paint.gltf", GLTF_MESH("{\"material\":0}") "}", "paint.gltf: mesh 0: its material is not there"},
+    {"lost.gltf", GLTF_MESH(POSITIONS) "}", "lost.gltf: a mesh has an accessor that is not there"},
+    {"bare.gltf", GLTF_MESH(POSITIONS) GLTF_ACCESSOR("\"count\":2000000000") "}",
+     "bare.gltf: accessor 0 is without data"},
+    {"sparse.gltf", GLTF_MESH(POSITIONS) GLTF_ACCESSOR("\"count\":3,\"sparse\":{}") "}", "accessor 0 is sparse, which"},
+    {"kind.gltf", GLTF_MESH(POSITIONS) ",\"accessors\":[{\"componentType\":5130,\"count\":3,\"type\":\"VEC3\"}]}",
+     "kind.gltf: accessor 0 has a type or a count that is not read"},
+    {"flat.gltf",
+     GLTF_MESH(POSITIONS) ",\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC2\"}]"
+                          "," GLTF_BYTES("36"),
+     "flat.gltf: an accessor of POSITION has 3 elements of 2 numbers"},
+    {"count.gltf", GLTF_MESH(POSITIONS) GLTF_ACCESSOR("\"bufferView\":0,\"count\":1e30") "," GLTF_BYTES("36"),
+     "accessor 0 has a type"},
+    {"much.gltf", GLTF_MESH(POSITIONS) GLTF_ACCESSOR("\"bufferView\":0,\"count\":4") "," GLTF_BYTES("36"),
+     "much.gltf: accessor 0 is beyond its buffer view of 36 bytes"},
+    {"behind.gltf",
+     GLTF_MESH(POSITIONS) GLTF_ACCESSOR("\"bufferView\":0,\"byteOffset\":4,\"count\":3") "," GLTF_BYTES("36"),
+     "behind.gltf: accessor 0 is beyond its buffer view"},
+    {"view.gltf", GLTF_MESH(POSITIONS) GLTF_ACCESSOR("\"bufferView\":0,\"count\":3") "," GLTF_BYTES("37"),
+     "view.gltf: buffer view 0 is beyond its buffer of 36 bytes"},
+    {"index.gltf",
+     GLTF_MESH(
+         "{\"attributes\":{\"POSITION\":0},\"indices\":1}") ",\"accessors\":[{\"bufferView\":0,"
+                                                            "\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},{"
+                                                            "\"bufferView\":0,\"componentType\":5121,\"count\":36,"
+                                                            "\"type\":\"SCALAR\"}]," GLTF_BYTES("36"),
+     "index.gltf: mesh 0: vertex index 128 is out of range (3 vertices)"},
+    {"file.gltf",
+     GLTF_MESH(POSITIONS) GLTF_ACCESSOR(
+         "\"bufferView\":0,\"count\":3") ",\"bufferViews\":[{\"buffer\":0,"
+                                         "\"byteLength\":36}],\"buffers\":[{\"uri\":\"no%20where.bin\"}]}",
+     "no where.bin cannot be read"},
+    {"base.gltf",
+     GLTF_MESH(POSITIONS) GLTF_ACCESSOR(
+         "\"bufferView\":0,\"count\":3") ",\"bufferViews\":[{\"buffer\":0,"
+                                         "\"byteLength\":36}],\"buffers\":[{\"uri\":\"data:;base64,AA!A\"}]}",
+     "base.gltf: a data URI has a byte that is not base64"},
+    {"cut.glb", "glTF\2\1\1\1\60\1\1\1", "cut.glb: GLB of version 16843010; only 2 is read"},
+    {"model.stl", "solid",
+     "model.stl: not a mesh that can be read: its name ends in none of .ply, .obj, .gltf and .glb"},
     {"draco.gltf", GLTF("[0]") "\"extensionsRequired\":[\"KHR_draco_mesh_compression\"],\"nodes\":[{}]}",
      "draco.gltf: it requires the extension KHR_draco_mesh_compression, which is not read"},
     {"prose.ply", "plywood\n", "prose.ply: not a mesh"},
@@ -633,43 +681,97 @@ static void test_bad_meshes(void **state) {
   }
 }
 
-/* Of the importers' processes so far, bytes. */
 static long most_memory(void) {
   struct rusage usage;
-  getrusage(RUSAGE_CHILDREN, &usage);
+  getrusage(RUSAGE_SELF, &usage);
   return usage.ru_maxrss * 1024;
 }
 
-/* Small files that would fill the memory: each instance of a COLLADA file has two of the next, and a glTF accessor
-   without data has a count alone. The process that reads them gets no more than its share. */
+#define TRIANGLE_ACCESSOR "{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}"
+/* Small files that would fill the memory or take hours: many nodes have a mesh of many triangles, or of many primitives
+   without any. */
 static void test_bombs(void **state) {
   (void)state;
-  char text[8192];
-  int size = snprintf(text, sizeof text,
-                      "<?xml version=\"1.0\"?><COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" "
-                      "version=\"1.4.1\"><library_nodes>");
-  for (int i = 0; i < 30; i++)
-    size +=
-        snprintf(text + size, sizeof text - (size_t)size,
-                 "<node id=\"n%d\"><instance_node url=\"#n%d\"/><instance_node url=\"#n%d\"/></node>", i, i + 1, i + 1);
-  snprintf(text + size, sizeof text - (size_t)size,
-           "<node id=\"n30\"/></library_nodes><library_visual_scenes><visual_scene id=\"s\"><node id=\"r\">"
-           "<instance_node url=\"#n0\"/></node></visual_scene></library_visual_scenes>"
-           "<scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>");
-  const char *paths[] = {
-      test_text("bomb.dae", text),
-      test_text("bomb.gltf",
-                GLTF("[0]") "\"nodes\":[{\"mesh\":0}],"
-                            "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"accessors\":["
-                            "{\"componentType\":5126,\"count\":2000000000,\"type\":\"VEC3\"}]}")};
-  for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
+  enum { MOST = 4 << 20 };
+  char *text = malloc(MOST);
+  assert_non_null(text);
+  for (int kind = 0; kind < 2; kind++) {
+    static const char triangles[] = "{\"attributes\":{\"POSITION\":0},\"indices\":1}",
+                      nothing[] = "{\"attributes\":{\"POSITION\":0},\"mode\":0}";
+    const int nodes = 20000, primitives = kind ? 2000 : 1, indices = 300000;
+    size_t size = (size_t)sprintf(text, "{\"asset\":{\"version\":\"2.0\"},\"meshes\":[{\"primitives\":[");
+    for (int i = 0; i < primitives; i++)
+      size += (size_t)sprintf(text + size, "%s%s", i ? "," : "", kind ? nothing : triangles);
+    size += (size_t)sprintf(text + size, "]}],\"nodes\":[{\"mesh\":0}");
+    for (int i = 1; i < nodes; i++)
+      size += (size_t)sprintf(text + size, ",{\"mesh\":0}");
+    size += (size_t)sprintf(text + size,
+                            "],\"accessors\":[" TRIANGLE_ACCESSOR ",{\"bufferView\":1,\"componentType\":5121,"
+                            "\"count\":%d,\"type\":\"SCALAR\"}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":36},"
+                            "{\"buffer\":0,\"byteOffset\":36,\"byteLength\":%d}],\"buffers\":[{\"uri\":\"data:;base64,",
+                            indices, indices);
+    memset(text + size, 'A', (36 + (size_t)indices) / 3 * 4);
+    size += (36 + (size_t)indices) / 3 * 4;
+    size += (size_t)sprintf(text + size, "\"}]}");
+    assert_true(size < MOST);
+    const char *path = test_text("bomb.gltf", text);
     struct trax_mesh mesh;
     trax_error error = {{0}};
-    assert_int_equal(trax_mesh_import(&mesh, &paths[i], 1, NULL, NULL, &error), TRAX_ERROR);
-    assert_contains(error.message, i == 0 ? "bomb.dae: " : "bomb.gltf: ");
+    assert_int_equal(trax_mesh_import(&mesh, &path, 1, NULL, NULL, &error), TRAX_ERROR);
+    assert_contains(error.message, "bomb.gltf: too large: ");
     assert_null(mesh.vertices);
   }
+  free(text);
   assert_true(most_memory() < 1500L << 20);
+}
+
+/* Accessors of any kind of component, strips and fans, meshes that several nodes have, and indices that use a few of
+   many vertices. */
+static void test_gltf_primitives(void **state) {
+  (void)state;
+  static const struct {
+    int mode;
+    uint32_t triangles, others, first[3], second[3]; /* indices of the vertices */
+  } modes[] = {{0, 0, 6, {0}, {0}},
+               {1, 0, 3, {0}, {0}},
+               {2, 0, 6, {0}, {0}},
+               {3, 0, 5, {0}, {0}},
+               {4, 2, 0, {5, 4, 3}, {2, 1, 0}},
+               {5, 4, 0, {5, 4, 3}, {4, 2, 3}},
+               {6, 4, 0, {4, 3, 5}, {3, 2, 5}}};
+  unsigned char bytes[80] = {0};
+  for (int i = 0; i < 16; i++) /* three bytes each, and one between them */
+    bytes[4 * i] = (unsigned char)i, bytes[4 * i + 1] = (unsigned char)(i * i),
+              bytes[4 * i + 2] = (unsigned char)(255 - i);
+  for (int i = 0; i < 6; i++)
+    bytes[70 + i] = (unsigned char)(5 - i);
+  test_file("parts.bin", bytes, sizeof bytes);
+  for (size_t i = 0; i < sizeof modes / sizeof *modes; i++) {
+    char json[2048];
+    snprintf(
+        json, sizeof json,
+        "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0},{\"mesh\":0,\"translation\":[0,0,7],"
+        "\"rotation\":[0,0,1,0],\"scale\":[2,2,2]}],"
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1,\"mode\":%d}]}],"
+        "\"accessors\":[{\"bufferView\":0,\"componentType\":5121,\"normalized\":true,\"count\":16,\"type\":\"VEC3\"},"
+        "{\"bufferView\":1,\"byteOffset\":2,\"componentType\":5121,\"count\":6,\"type\":\"SCALAR\"}],"
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":64,\"byteStride\":4},"
+        "{\"buffer\":0,\"byteOffset\":68,\"byteLength\":12}],\"buffers\":[{\"byteLength\":80,\"uri\":\"parts.bin\"}]}",
+        modes[i].mode);
+    struct trax_mesh mesh;
+    struct trax_import_report report;
+    import_good(&mesh, test_text("parts.gltf", json), &report);
+    assert_int_equal(mesh.triangle_count, 2 * modes[i].triangles);
+    assert_int_equal(report.other_primitives, 2 * modes[i].others);
+    for (uint32_t t = 0; t < 2 && modes[i].triangles; t++)
+      for (uint32_t corner = 0; corner < 3; corner++) {
+        const uint32_t index = (t ? modes[i].second : modes[i].first)[corner];
+        const float x = (float)index / 255, y = (float)(index * index) / 255, z = (float)(255 - index) / 255;
+        assert_corner(&mesh, t, corner, x, y, z);
+        assert_corner(&mesh, modes[i].triangles + t, corner, -2 * x, -2 * y, (float)(2 * (double)z + 7));
+      }
+    trax_mesh_release(&mesh);
+  }
 }
 
 /* Of PLY files: faces of two vertices are lines, and only the first list of indices counts. */
@@ -701,9 +803,11 @@ static void test_bad_files(void **state) {
   const char *path = test_path("nowhere.ply");
   assert_int_equal(trax_mesh_import(&mesh, &path, 1, NULL, NULL, &error), TRAX_ERROR);
   assert_contains(error.message, "nowhere.ply: cannot be read: No such file");
-  path = test_directory();
+  path = test_path("folder.obj");
+  assert_int_equal(mkdir(path, 0700), 0);
   assert_int_equal(trax_mesh_import(&mesh, &path, 1, NULL, NULL, &error), TRAX_ERROR);
-  assert_contains(error.message, "cannot be read: Is a directory");
+  assert_contains(error.message, "folder.obj: cannot be read: Is a directory");
+  assert_int_equal(rmdir(path), 0);
   path = test_file("zeros.obj", "v 0 0 0\n\0\0", 10);
   assert_int_equal(trax_mesh_import(&mesh, &path, 1, NULL, NULL, &error), TRAX_ERROR);
   assert_contains(error.message, "zeros.obj: not a mesh: binary data");
@@ -752,15 +856,25 @@ static void test_forest(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_forest),         cmocka_unit_test(test_text_formats),
-      cmocka_unit_test(test_binary_ply),     cmocka_unit_test(test_ply_types),
-      cmocka_unit_test(test_compressed),     cmocka_unit_test(test_gltf),
-      cmocka_unit_test(test_bombs),          cmocka_unit_test(test_odd_faces),
-      cmocka_unit_test(test_obj_syntax),     cmocka_unit_test(test_concave_polygons),
-      cmocka_unit_test(test_large_polygons), cmocka_unit_test(test_unpack_limit),
-      cmocka_unit_test(test_materials),      cmocka_unit_test(test_merge),
-      cmocka_unit_test(test_degenerate),     cmocka_unit_test(test_nonfinite),
-      cmocka_unit_test(test_bad_meshes),     cmocka_unit_test(test_bad_files),
+      cmocka_unit_test(test_forest),
+      cmocka_unit_test(test_text_formats),
+      cmocka_unit_test(test_binary_ply),
+      cmocka_unit_test(test_ply_types),
+      cmocka_unit_test(test_compressed),
+      cmocka_unit_test(test_gltf),
+      cmocka_unit_test(test_bombs),
+      cmocka_unit_test(test_gltf_primitives),
+      cmocka_unit_test(test_odd_faces),
+      cmocka_unit_test(test_obj_syntax),
+      cmocka_unit_test(test_concave_polygons),
+      cmocka_unit_test(test_large_polygons),
+      cmocka_unit_test(test_unpack_limit),
+      cmocka_unit_test(test_materials),
+      cmocka_unit_test(test_merge),
+      cmocka_unit_test(test_degenerate),
+      cmocka_unit_test(test_nonfinite),
+      cmocka_unit_test(test_bad_meshes),
+      cmocka_unit_test(test_bad_files),
       cmocka_unit_test(test_interrupt),
   };
   return cmocka_run_group_tests_name("scene import", tests, NULL, NULL);

@@ -150,8 +150,7 @@ static void test_mtl_errors(void **state) {
     struct trax_mesh mesh;
     trax_error error = {{0}};
     test_text("bad.mtl", bad[i].text);
-    if (trax_mesh_import(&mesh, &path, 1, &(struct trax_import_options){.in_process = true}, NULL, &error) !=
-        TRAX_ERROR)
+    if (trax_mesh_import(&mesh, &path, 1, &(struct trax_import_options){0}, NULL, &error) != TRAX_ERROR)
       fail_msg("accepted: %s", bad[i].text);
     assert_contains(error.message, bad[i].message);
   }
@@ -242,7 +241,7 @@ static void test_textures(void **state) {
   trax_scene_release(&scene);
   trax_mesh_release(&mesh);
 
-  const struct trax_import_options plain = {.in_process = true, .no_textures = true};
+  const struct trax_import_options plain = {.no_textures = true};
   assert_int_equal(trax_mesh_import(&mesh, &path, 1, &plain, &report, &error), TRAX_OK);
   assert_true(mesh.texture_count == 0 && report.missing_files == 0 && report.bad_images == 0);
   build_good(&scene, &mesh, NULL);
@@ -279,20 +278,24 @@ static void test_merged_textures(void **state) {
 /* A texture of one colour keeps it at any size; means keep the mean of the light. */
 static void test_resampling(void **state) {
   (void)state;
-  static rgba grey[100 * 37], board[64 * 64], edge[64 * 64];
+  static rgba grey[100 * 37], board[64 * 64], edge[64 * 64], line[64 * 64];
   for (size_t i = 0; i < sizeof grey / sizeof *grey; i++)
     memcpy(grey[i], (const rgba){90, 160, 230, 255}, sizeof *grey);
   for (size_t i = 0; i < 64 * 64; i++) {
     const unsigned char value = (i + i / 64) % 2 ? 255 : 0;
     memcpy(board[i], (const rgba){value, value, value, 255}, sizeof *board);
     /* transparent texels have a colour that must not be seen */
-    memcpy(edge[i], value ? (const rgba){255, 255, 255, 255} : (const rgba){255, 0, 0, 0}, sizeof *edge);
+    memcpy(edge[i], value ? (const rgba){0, 255, 255, 255} : (const rgba){255, 0, 0, 0}, sizeof *edge);
+    memset(line[i], i % 64 == 32 || i % 64 == 63 ? 255 : 0, 3);
+    line[i][3] = 255;
   }
   write_png("grey.png", grey, 100, 37);
   write_png("board.png", board, 64, 64);
   write_png("edge.png", edge, 64, 64);
+  write_png("line.png", line, 64, 64);
   test_text("sizes.mtl", "newmtl grey\nmap_Kd grey.png\nnewmtl board\nmap_Kd board.png\n"
-                         "newmtl edge\nmap_Kd edge.png\nmap_d edge.png\n");
+                         "newmtl edge\nmap_Kd edge.png\nmap_d edge.png\nnewmtl line\nmap_Kd line.png\n"
+                         "newmtl clamped\nmap_Kd -clamp on line.png\n");
   const char *path = test_text("sizes.obj", "mtllib sizes.mtl\n" TRIANGLE "vt 0 0\nusemtl grey\nf 1/1 2/1 3/1\n");
   struct trax_mesh mesh;
   trax_error error;
@@ -302,15 +305,19 @@ static void test_resampling(void **state) {
     assert_texel(mesh.texels[i], 90, 160, 230, 255);
   trax_mesh_release(&mesh);
 
-  const struct trax_import_options small = {.in_process = true, .texture_size = 8};
+  const struct trax_import_options small = {.texture_size = 8};
   assert_int_equal(trax_mesh_import(&mesh, &path, 1, &small, NULL, &error), TRAX_OK);
   assert_true(mesh.textures[1].log2_width == 3 && mesh.textures[1].log2_height == 3);
   for (uint32_t i = 0; i < 64; i++) {
     const uint32_t texel = mesh.texels[mesh.textures[1].first_texel + i];
     assert_true(abs((int)(texel & 255) - 180) <= 1); /* 255 * sqrt(1/2), not the 188 of a mean of sRGB */
     const uint32_t holed = mesh.texels[mesh.textures[2].first_texel + i];
-    assert_true((holed & 0xFFFFFF) == 0xFFFFFF);
+    assert_true((holed & 0xFFFFFF) == 0xFFFF00);
     assert_true(abs((int)(holed >> 24) - 128) <= 1);
+    /* A tent 16 columns wide: 255 * sqrt(0.4375 / 8) and 255 * sqrt(0.5625 / 8) on either side of a line. */
+    static const uint32_t lined[2][8] = {{60, 0, 0, 60, 68, 0, 0, 68}, {0, 0, 0, 60, 68, 0, 0, 113}};
+    for (int clamp = 0; clamp < 2; clamp++)
+      assert_int_equal(mesh.texels[mesh.textures[3 + clamp].first_texel + i] & 255, lined[clamp][i % 8]);
   }
   trax_mesh_release(&mesh);
 }
@@ -362,7 +369,7 @@ static void test_long_names(void **state) {
   struct trax_material_override override;
   snprintf(diffuse, sizeof diffuse, "%s=1,1,1", names[1]);
   assert_int_equal(trax_override_diffuse(&override, diffuse, &error), TRAX_OK);
-  const struct trax_import_options options = {.in_process = true, .overrides = &override, .override_count = 1};
+  const struct trax_import_options options = {.overrides = &override, .override_count = 1};
   assert_int_equal(trax_mesh_import(&mesh, &path, 1, &options, NULL, &error), TRAX_OK);
   assert_true(mesh.materials[0].surface.diffuse[1] == 0 && mesh.materials[1].surface.diffuse[1] == 1);
   trax_mesh_release(&mesh);
@@ -473,8 +480,7 @@ static void test_corner_errors(void **state) {
     struct trax_mesh mesh;
     trax_error error = {{0}};
     const char *path = test_text("bad.obj", bad[i].text);
-    if (trax_mesh_import(&mesh, &path, 1, &(struct trax_import_options){.in_process = true}, NULL, &error) !=
-        TRAX_ERROR)
+    if (trax_mesh_import(&mesh, &path, 1, &(struct trax_import_options){0}, NULL, &error) != TRAX_ERROR)
       fail_msg("accepted: %s", bad[i].text);
     assert_contains(error.message, bad[i].message);
   }
@@ -694,6 +700,11 @@ static void test_gltf(void **state) {
   trax_mesh_release(&mesh);
 }
 
+/* One pixel of 188, 0, 0. */
+#define RED_PNG                                                                                                        \
+  "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADE"                                           \
+  "lEQVR4nGPYw8AAAAI4AL0jbUIJAAAAAElFTkSuQmCC"
+
 /* The extension's own example shows the lower left quarter of an image, turned clockwise by 90 degrees. */
 static void test_gltf_uv_transforms(void **state) {
   (void)state;
@@ -705,6 +716,7 @@ static void test_gltf_uv_transforms(void **state) {
       {"\"offset\":[0,1],\"rotation\":1.57079632679,\"scale\":[0.5,0.5]", {{0, 0}, {0, 0.5f}, {0.5f, 0.5f}, {0.5f, 0}}},
       {"\"offset\":[0,1],\"scale\":[1,-1]", {{0, 0}, {1, 0}, {1, 1}, {0, 1}}},
       {"\"offset\":[0.25,-0.5]", {{0.25f, 1.5f}, {1.25f, 1.5f}, {1.25f, 0.5f}, {0.25f, 0.5f}}},
+      {"\"texCoord\":1", {{0, 0}, {0, 0}, {1, 1}, {1, 1}}},
       /* scaled first, then turned by atan(3/4) */
       {"\"rotation\":0.643501109,\"scale\":[5,10]", {{0, 1}, {4, 4}, {10, -4}, {6, -7}}}};
   static const float corners[] = {0, 1, 0, 1, 1, 0, 1, 0, 0, 0, 0, 0, /* uvs, v down */ 0, 0, 1, 0, 1, 1, 0, 1};
@@ -716,27 +728,30 @@ static void test_gltf_uv_transforms(void **state) {
   write_png("four.png", four, 2, 2);
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
     char json[3000];
-    const int length =
-        snprintf(json, sizeof json,
-                 "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
-                 "\"extensionsUsed\":[\"KHR_texture_transform\"],\"images\":[{\"uri\":\"four.png\"}],"
-                 "\"textures\":[{\"source\":0}],\"materials\":[{\"normalTexture\":{\"index\":0},"
-                 "\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0,\"extensions\":"
-                 "{\"KHR_texture_transform\":{%s}}}}}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,"
-                 "\"TEXCOORD_0\":1,\"COLOR_0\":0},\"indices\":2,\"material\":0}]}],"
-                 "\"bufferViews\":[{\"buffer\":0,\"byteLength\":80},"
-                 "{\"buffer\":0,\"byteOffset\":80,\"byteLength\":12}],\"accessors\":["
-                 "{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\"},"
-                 "{\"bufferView\":0,\"byteOffset\":48,\"componentType\":5126,\"count\":4,\"type\":\"VEC2\"},"
-                 "{\"bufferView\":1,\"componentType\":5123,\"count\":6,\"type\":\"SCALAR\"}],"
-                 "\"buffers\":[{\"byteLength\":92,\"uri\":\"quad.bin\"}]}",
-                 cases[i].transform);
+    const int length = snprintf(
+        json, sizeof json,
+        "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
+        "\"extensionsUsed\":[\"KHR_texture_transform\"],\"images\":[{\"uri\":\"four.png\"},{\"uri\":\"" RED_PNG "\"}],"
+        "\"textures\":[{\"source\":0},{\"source\":1}],\"materials\":[{\"normalTexture\":{\"index\":0},"
+        "\"emissiveFactor\":[0.5,1,1],\"emissiveTexture\":{\"index\":1},"
+        "\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0,\"extensions\":"
+        "{\"KHR_texture_transform\":{%s}}}}}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,"
+        "\"TEXCOORD_0\":1,\"TEXCOORD_1\":3,\"COLOR_0\":0},\"indices\":2,\"material\":0}]}],"
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":80},"
+        "{\"buffer\":0,\"byteOffset\":80,\"byteLength\":12}],\"accessors\":["
+        "{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\"},"
+        "{\"bufferView\":0,\"byteOffset\":48,\"componentType\":5126,\"count\":4,\"type\":\"VEC2\"},"
+        "{\"bufferView\":1,\"componentType\":5123,\"count\":6,\"type\":\"SCALAR\"},"
+        "{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":\"VEC2\"}],"
+        "\"buffers\":[{\"byteLength\":92,\"uri\":\"quad.bin\"}]}",
+        cases[i].transform);
     assert_true((size_t)length < sizeof json);
     struct trax_mesh mesh;
     struct trax_import_report report;
     import_good(&mesh, test_text("quad.gltf", json), &report);
     assert_int_equal(report.unread, TRAX_UNREAD_COLOURS | TRAX_UNREAD_NORMAL_MAPS);
     assert_int_equal(mesh.triangle_count, 2);
+    assert_colour(mesh.materials[0].surface.emission, 0.5f * 0.502886f, 0, 0);
     for (uint32_t t = 0; t < 2; t++)
       for (int corner = 0; corner < 3; corner++) {
         const float *place = mesh.vertices[mesh.triangles[t].vertices[corner]], *uv = mesh.uvs[t][corner];
@@ -792,7 +807,7 @@ static void test_overrides(void **state) {
   assert_int_equal(trax_override_diffuse(&all[2], red, &error), TRAX_OK);
   const char *path = test_text("two.obj", TRIANGLE "usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\n");
   struct trax_mesh mesh;
-  const struct trax_import_options options = {.in_process = true, .overrides = all, .override_count = 3};
+  const struct trax_import_options options = {.overrides = all, .override_count = 3};
   assert_int_equal(trax_mesh_import(&mesh, &path, 1, &options, NULL, &error), TRAX_OK);
   const struct trax_material *a = surface(&mesh, "a"), *b = surface(&mesh, "b");
   assert_true(a->kind == TRAX_MATERIAL_GLASS && a->ior == 2 && a->emission[0] == 3 && a->diffuse[1] == 0);

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Breaks the choice of splits and the improvement of trees, one line at a time, and says whether the tests notice.
+"""Breaks splits, reinsertion, textures and the reader of glTF, one line at a time, and says whether the tests notice.
 
     mutants.py SCRATCH [--build build] [--only NAME]
     mutants.py --stale             only lists texts that are not there
@@ -16,7 +16,9 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "render"))
 from mutation import ROOT, command, list_stale  # noqa: E402
 
 SOURCE = ROOT / "raytracer/scene"
-TESTS = ("scene-scene-test", "scene-layout-test")
+TREES, READERS = ("scene-scene-test", "scene-layout-test"), ("scene-material-test", "scene-import-test")
+TESTS = {"splits.c": TREES, "reinsert.c": TREES, "texture.c": READERS[:1], "gltf_reader.c": READERS,
+         "gltf_materials.c": READERS[:1], "gltf_meshes.c": READERS, "gltf_nodes.c": READERS}
 
 # Name, file of raytracer/scene, text, what it becomes.
 MUTANTS = [
@@ -35,6 +37,50 @@ MUTANTS = [
     ("too-deep", "reinsert.c", " && place.depth + 1 + height <= links->max_depth", ""),
     ("order-of-parts", "reinsert.c", "left->visits > right->visits ? -1 : 1", "left->visits > right->visits ? 1 : -1"),
     ("one-pass", "reinsert.c", "pass < passes && result", "pass < 1 && result"),
+    ("texture-gamma", "texture.c", "(uint32_t)(255 * sqrtf(scene_clamp_colour(linear)) + 0.5f)",
+     "(uint32_t)(255 * scene_clamp_colour(linear) + 0.5f)"),
+    ("texture-linear", "texture.c", "value / 12.92 : base * base * fifth_root(base * base)",
+     "value / 12.92 : base * base"),
+    ("texture-upside-down", "texture.c", "(size_t)(height - 1 - y) * width + x", "(size_t)y * width + x"),
+    ("texture-narrow", "texture.c", "*radius = scale > 1 ? scale : 1;", "*radius = 1;"),
+    ("texture-edge", "texture.c", "tap >= axis->from ? axis->from - 1 : (uint32_t)tap",
+     "tap >= axis->from ? 0 : (uint32_t)tap"),
+    ("texture-begins-again", "texture.c", "rest < 0 ? rest + axis->from : rest", "rest < 0 ? 0 : rest"),
+    ("texture-alpha-weight", "texture.c", "share * (alpha * linear[texel[channel]])", "share * linear[texel[channel]]"),
+    ("texture-transparent", "texture.c", "sums[3] > 0 ? sums[channel] / sums[3] : sums[4 + channel] / total",
+     "sums[channel] / sums[3]"),
+    ("texture-nearest-side", "texture.c", "< 3 * (uint64_t)side", "< 4 * (uint64_t)side"),
+    ("texture-mask", "texture.c", "const bool alpha = has_alpha(mask);", "const bool alpha = mask->rgba[3] < 255;"),
+    ("texture-mean", "texture.c", "encoded ? linear[", "false ? linear["),
+    ("gltf-view-length", "gltf_reader.c", "offset > bytes->size || length > bytes->size - offset",
+     "offset > bytes->size"),
+    ("gltf-accessor-end", "gltf_reader.c", "(count - 1) > (view.size - offset - element) / stride",
+     "(count - 1) > (view.size - offset) / stride"),
+    ("gltf-normalised", "gltf_reader.c", "if (accessor->normalised)", "if (0)"),
+    ("gltf-base64", "gltf_reader.c", "if (bits >= 8)", "if (bits > 8)"),
+    ("gltf-second-chunk", "gltf_reader.c", "number == 0 ? JSON : BIN", "JSON"),
+    ("gltf-strip", "gltf_meshes.c", "triangle + 1 + odd, corners[2] = triangle + 2 - odd",
+     "triangle + 1, corners[2] = triangle + 2"),
+    ("gltf-index", "gltf_meshes.c", "if (index >= primitive->positions.count)", "if (index > 255)"),
+    ("gltf-shared", "gltf_meshes.c", "shared ? first + index : mesh->vertex_count - 1", "first + index"),
+    ("gltf-mirror", "gltf_meshes.c", "mirror = mirrors(matrix)", "mirror = false"),
+    ("gltf-normal-side", "gltf_meshes.c", "mirror ? -sum : sum", "sum"),
+    ("gltf-v", "gltf_meshes.c", "(1 - uv[1])", "uv[1]"),
+    ("gltf-order", "gltf_nodes.c", "multiply(matrix, above, own);", "multiply(matrix, own, above);"),
+    ("gltf-quaternion", "gltf_nodes.c", "q[row] * q[next] - q[3] * q[last]", "q[row] * q[next] + q[3] * q[last]"),
+    ("gltf-parents", "gltf_nodes.c", "if (nodes->parents[child])", "if (0)"),
+    ("gltf-levels", "gltf_nodes.c", "if (levels > MOST_LEVELS)", "if (0)"),
+    ("gltf-bomb", "gltf_nodes.c", " || bytes > scene_memory_for(gltf->bytes_read)", ""),
+    ("gltf-nothing-bomb", "gltf_nodes.c", "size->primitives * BYTES_PER_PRIMITIVE", "0"),
+    ("gltf-fov", "gltf_nodes.c", "fov * (180 / 3.14159265358979323846)", "fov * 90"),
+    ("gltf-metal", "gltf_materials.c", "surface->diffuse[channel] *= 1 - metal;", ""),
+    ("gltf-roughness", "gltf_materials.c", "surface->roughness = roughness * roughness;",
+     "surface->roughness = roughness;"),
+    ("gltf-cutoff", "gltf_materials.c", 'gltf_number(material, "alphaCutoff", 0.5)', "0.5"),
+    ("gltf-clamp", "gltf_materials.c", "          ? TRAX_TEXTURE_CLAMP\n          : 0;",
+     "          ? 0\n          : 0;"),
+    ("gltf-turn", "gltf_materials.c", "{-s * scale[0], c * scale[1], offset[1]}",
+     "{s * scale[0], c * scale[1], offset[1]}"),
 ]
 
 
@@ -49,7 +95,7 @@ def noticed(folder, build, file, text):
     words[words.index("-o") + 1] = made
     subprocess.run([*words, f"-I{SOURCE}", "-w"], check=True, cwd=build)
     failed = []
-    for test in TESTS:
+    for test in TESTS[file]:
         link = command(build, f"tests/bin/{test}")
         link[link.index("-o") + 1] = folder / test
         at = next(i for i, word in enumerate(link) if str(word).endswith(".a"))
@@ -67,19 +113,19 @@ def main():
     parser.add_argument("scratch", type=pathlib.Path, nargs="?")
     parser.add_argument("--stale", action="store_true", help="only lists mutants of texts that are not there")
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build")
-    parser.add_argument("--only", help="the mutant of this name")
+    parser.add_argument("--only", help="the mutants whose name begins so")
     options = parser.parse_args()
     if options.stale:
         return list_stale(MUTANTS, SOURCE)
     if options.scratch is None:
         parser.error("SCRATCH is missing")
     scratch, build = options.scratch.resolve(), options.build.resolve()
-    for file in ("splits.c", "reinsert.c"):
+    for file in sorted({file for name, file, *_ in MUTANTS if name.startswith(options.only or "")}):
         if failed := noticed(scratch / "unchanged", build, file, (SOURCE / file).read_text()):
             sys.exit(f"mutants.py: error: without a mutant: {', '.join(failed)}")
     missed = 0
     for name, file, text, other in MUTANTS:
-        if options.only in (None, name):
+        if name.startswith(options.only or ""):
             failed = noticed(scratch / name, build, file, (SOURCE / file).read_text().replace(text, other))
             missed += not failed
             print(f"{name}: {', '.join(failed) or 'NOT NOTICED'}", flush=True)

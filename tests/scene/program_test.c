@@ -130,9 +130,6 @@ static void test_refusals(void **state) {
       {{good, "-o", scene, "--cache-lines", "4097"}, "--cache-lines: '4097'"},
       {{good, "-o", scene, "--splits=9"}, "--splits: '9' is neither auto nor a number from 1 to 8"},
       {{good, "-o", scene, "--nodes", "octal"}, "--nodes: 'octal' is none of auto, binary and quantised"},
-      {{good, "-o", scene, "--nodes", "wide"},
-       "--nodes: 'wide' has been removed; trax-eval has it as an experiment, "
-       "lib/trax/evaluation/experiments/nodes/wide.json"},
       {{good, "-o", scene, "--crease", "30"}, "--crease without --smooth or --normals"},
       {{good, "-o", scene, "--smooth", "--crease", "0"}, "--crease: '0' is not an angle"},
       {{good, "-o", scene, "--smooth", "--crease", "181"}, "--crease: '181' is not an angle"},

@@ -57,7 +57,7 @@ void mesh_soup(struct trax_mesh *mesh, unsigned count, float size, uint32_t seed
 
 void import_good(struct trax_mesh *mesh, const char *path, struct trax_import_report *report) {
   trax_error error = {{0}};
-  if (trax_mesh_import(mesh, &path, 1, &(struct trax_import_options){.in_process = true}, report, &error) != TRAX_OK)
+  if (trax_mesh_import(mesh, &path, 1, &(struct trax_import_options){0}, report, &error) != TRAX_OK)
     fail_msg("%s", error.message);
 }
 

@@ -106,7 +106,6 @@ struct trax_import_options {
   unsigned texture_size;   /* limit of texels a side; a power of two up to 4096; 0: 4096 */
   size_t unpack_limit;     /* bytes; 0: TRAX_DEFAULT_UNPACK_LIMIT */
   const trax_files *files; /* of the command; meshes must not refer to its outputs; may be NULL */
-  bool in_process;         /* no child process around the importer: for debuggers and sanitizers */
   const struct trax_material_override *overrides; /* applied in order */
   size_t override_count;
   trax_scene_progress *progress; /* may be NULL */
@@ -140,18 +139,16 @@ extern const struct trax_material trax_default_material;
 /* Whether the path names a generated mesh, "generate:forest", and no file. */
 bool trax_mesh_is_generated(const char *path);
 
-/* Reads and merges the files: PLY, OBJ with MTL, glTF, GLB and the other formats of assimp, plain or compressed as .xz
-   or .gz; or "generate:forest", see docs/scene-file.md. Node transforms are applied and polygons cut into triangles, in
-   the order of the files. The importer runs in a child process, so that a file on which it crashes is an error like any
-   other. report may be NULL. Errors: a file that cannot be read or is no mesh, indices out of range, vertices that are
+/* Reads and merges the files: PLY, OBJ with MTL, glTF, GLB, plain or compressed as .xz or .gz; or "generate:forest", see
+   docs/scene-file.md. Node transforms are applied and polygons cut into triangles, in the order of the files. report may
+   be NULL. Errors: a file that cannot be read or is no mesh, indices out of range, vertices that are
    not finite (unless dropped), overrides that match no material. A mesh without triangles is no error here. */
 trax_status trax_mesh_import(struct trax_mesh *mesh, const char *const *paths, size_t path_count,
                              const struct trax_import_options *options, struct trax_import_report *report,
                              trax_error *error);
 void trax_mesh_release(struct trax_mesh *mesh);
 
-/* From now on each file that is read for an import or a build is listed in the file of this descriptor, by this process
-   and its children: a line as of `xxhsum -H2`, or one that begins with "-" for a file that cannot be read. 0: no more.
+/* From now on each file that is read for an import or a build is listed in the file of this descriptor: a line as of `xxhsum -H2`, or one that begins with "-" for a file that cannot be read. 0: no more.
  */
 void trax_scene_list_files(int descriptor);
 

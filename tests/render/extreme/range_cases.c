@@ -167,7 +167,7 @@ static void make_picture_both(struct setup *setup, uint32_t rays) {
   mesh_box(&setup->mesh, (float[]){0.3f, -2, -3.5f}, (float[]){1, -0.3f, -2.5f}, 0);
   mesh_box(&setup->mesh, (float[]){-1e17f, -2, -1e17f}, (float[]){1e17f, 1e17f, 1e17f}, 0);
   setup->view = view_from(0, 0, 0, 0, -0.3f, -1, 60, 3, 4, 2);
-  const uint32_t part = rays < 1000 ? 2 : 1;
+  const uint32_t part = rays < 1000 ? 3 : 1;
   setup->width = 40 / part, setup->height = 30 / part;
   memcpy(setup->light, setup->view.light, sizeof setup->light);
 }

@@ -275,7 +275,7 @@ static struct query_answer *trace(const struct prepared *prepared, const struct 
 }
 
 /* Exact hits take fifty times as long, and of triangles one behind the other each is tested: of many, the short form
-   emulates the first method alone. */
+   emulates the first method alone, in the functional engine. */
 static bool emulation_is_long(const struct prepared *prepared) {
   return prepared->short_form && prepared->exact_hits && prepared->scene.triangle_count > MANY_EXACT;
 }
@@ -429,7 +429,8 @@ static void run_case(struct row rows[METHODS], const struct extreme_case *extrem
       count_all(&rows[m], &prepared, extreme, answers[m]);
       rows[m].exact = hits_are_exact(&prepared, m);
       if (done == 0 && (m != BINARY32 || prepared.exact_hits) && (m == 0 || !emulation_is_long(&prepared)))
-        emulate(&rows[m], &rows[m].cycles, &prepared, &prepared.scene, &method, directory, answers[m]);
+        emulate(&rows[m], emulation_is_long(&prepared) ? NULL : &rows[m].cycles, &prepared, &prepared.scene, &method,
+                directory, answers[m]);
     }
     compare_variants(&rows[0], &prepared, directory, done == 0, answers[0]);
     if (done == 0)

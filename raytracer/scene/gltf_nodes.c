@@ -1,0 +1,226 @@
+/* The nodes of glTF's scene: they form trees, and place meshes and cameras. */
+#include "gltf.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_LEVELS = 1024 };
+
+struct nodes {
+  struct gltf *gltf;
+  size_t count;
+  uint32_t *parents;       /* of each node: its number and 1, 0: none */
+  struct gltf_size *sizes; /* of each mesh */
+  struct gltf_size whole;
+  size_t cameras;
+};
+
+static const json_t *node_at(const struct gltf *gltf, size_t number) {
+  return json_array_get(json_object_get(gltf->root, "nodes"), number);
+}
+
+/* --- trees --- */
+
+/* Each node has one parent at most: a way up that does not end is a circle. */
+static trax_status check_levels(const struct nodes *nodes) {
+  for (size_t i = 0; i < nodes->count; i++) {
+    unsigned levels = 0;
+    for (uint32_t at = nodes->parents[i]; at && levels <= MOST_LEVELS; at = nodes->parents[at - 1])
+      levels++;
+    if (levels > MOST_LEVELS)
+      return trax_fail(nodes->gltf->error, "%s: node %zu is below more than %d others, or below itself",
+                       nodes->gltf->path, i, MOST_LEVELS);
+  }
+  return TRAX_OK;
+}
+
+static trax_status check_roots(const struct nodes *nodes, const json_t *roots) {
+  struct gltf *gltf = nodes->gltf;
+  bool *seen = calloc(nodes->count + 1, sizeof *seen);
+  trax_status result = seen ? TRAX_OK : scene_out_of_memory(gltf->error, gltf->path);
+  for (size_t i = 0; result == TRAX_OK && i < json_array_size(roots); i++) {
+    const size_t root = gltf_index(gltf, "nodes", json_array_get(roots, i));
+    if (root == SIZE_MAX)
+      result = trax_fail(gltf->error, "%s: a scene has a node that is not there", gltf->path);
+    else if (seen[root] || nodes->parents[root])
+      result = trax_fail(gltf->error, "%s: a scene has node %zu %s", gltf->path, root,
+                         seen[root] ? "twice" : "as its own and as a child of another");
+    else
+      seen[root] = true;
+  }
+  free(seen);
+  return result;
+}
+
+/* A node with two parents would stand in the scene twice, a chain of them 2^n times. */
+static trax_status check_trees(const struct nodes *nodes) {
+  struct gltf *gltf = nodes->gltf;
+  for (size_t i = 0; i < nodes->count; i++) {
+    const json_t *children = json_object_get(node_at(gltf, i), "children");
+    for (size_t k = 0; k < json_array_size(children); k++) {
+      const size_t child = gltf_index(gltf, "nodes", json_array_get(children, k));
+      if (child == SIZE_MAX)
+        return trax_fail(gltf->error, "%s: node %zu has a child that is not there", gltf->path, i);
+      if (nodes->parents[child])
+        return trax_fail(gltf->error, "%s: node %zu is a child of node %u and again of node %zu: nodes must form trees",
+                         gltf->path, child, nodes->parents[child] - 1, i);
+      nodes->parents[child] = (uint32_t)i + 1;
+    }
+  }
+  trax_status result = check_levels(nodes);
+  for (size_t i = 0; result == TRAX_OK && i < gltf_count(gltf, "scenes"); i++)
+    result = check_roots(nodes, json_object_get(json_array_get(json_object_get(gltf->root, "scenes"), i), "nodes"));
+  return result;
+}
+
+/* --- transforms: the first three rows of a matrix --- */
+
+/* Of a node: a matrix by columns, or translation, rotation (a quaternion) and scale. */
+static void own_transform(double m[3][4], const json_t *node) {
+  double columns[16], move[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1}, scale[3] = {1, 1, 1};
+  if (gltf_numbers(columns, 16, node, "matrix")) {
+    for (int row = 0; row < 3; row++)
+      for (int column = 0; column < 4; column++)
+        m[row][column] = columns[4 * column + row];
+    return;
+  }
+  gltf_numbers(move, 3, node, "translation");
+  gltf_numbers(q, 4, node, "rotation");
+  gltf_numbers(scale, 3, node, "scale");
+  const double square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3], s = square > 0 ? 2 / square : 0;
+  for (int row = 0; row < 3; row++) {
+    const int next = (row + 1) % 3, last = (row + 2) % 3;
+    m[row][row] = (1 - s * (q[next] * q[next] + q[last] * q[last])) * scale[row];
+    m[row][next] = s * (q[row] * q[next] - q[3] * q[last]) * scale[next];
+    m[row][last] = s * (q[row] * q[last] + q[3] * q[next]) * scale[last];
+    m[row][3] = move[row];
+  }
+}
+
+static void multiply(double out[3][4], const double a[3][4], const double b[3][4]) {
+  for (int row = 0; row < 3; row++)
+    for (int column = 0; column < 4; column++)
+      out[row][column] = a[row][0] * b[0][column] + a[row][1] * b[1][column] + a[row][2] * b[2][column] +
+                         (column == 3 ? a[row][3] : 0);
+}
+
+/* --- what they place --- */
+
+/* A camera that has no direction, or whose values are not finite, is left out, and one without perspective. */
+static void copy_camera(struct gltf *gltf, const json_t *node, const json_t *camera, const double m[3][4]) {
+  struct trax_mesh_camera *out = &gltf->mesh->cameras[gltf->mesh->camera_count];
+  const double fov = gltf_number(json_object_get(camera, "perspective"), "yfov", 0);
+  const char *name = gltf_text(node, "name");
+  trax_mesh_name(out->name, *name ? name : gltf_text(camera, "name"));
+  out->fov = (float)(fov * (180 / 3.14159265358979323846));
+  for (int axis = 0; axis < 3; axis++) {
+    out->eye[axis] = (float)m[axis][3];
+    out->direction[axis] = (float)-m[axis][2];
+    out->up[axis] = (float)m[axis][1];
+  }
+  if (out->fov > 0 && out->fov < 180 && isfinite(scene_dot(out->eye, out->eye)) && scene_normalise(out->direction) &&
+      scene_normalise(out->up) && scene_make_perpendicular(out->up, out->direction))
+    gltf->mesh->camera_count++;
+}
+
+/* Adds up the node and those below it. */
+static trax_status measure_node(struct nodes *nodes, const json_t *node) {
+  struct gltf *gltf = nodes->gltf;
+  const json_t *mesh = json_object_get(node, "mesh"), *children = json_object_get(node, "children");
+  if (mesh) {
+    const size_t number = gltf_index(gltf, "meshes", mesh);
+    if (number == SIZE_MAX)
+      return trax_fail(gltf->error, "%s: a node has a mesh that is not there", gltf->path);
+    struct gltf_size *size = &nodes->sizes[number];
+    if (!size->known && gltf_measure_mesh(size, gltf, number) != TRAX_OK)
+      return TRAX_ERROR;
+    nodes->whole.vertices += size->vertices;
+    nodes->whole.triangles += size->triangles;
+    nodes->whole.primitives += size->primitives;
+    nodes->whole.normals = nodes->whole.normals || size->normals;
+  }
+  nodes->cameras += json_object_get(node, "camera") != NULL;
+  for (size_t i = 0; i < json_array_size(children); i++)
+    if (measure_node(nodes, gltf_item(gltf, "nodes", json_array_get(children, i))) != TRAX_OK)
+      return TRAX_ERROR;
+  return TRAX_OK;
+}
+
+static trax_status copy_node(struct gltf *gltf, const json_t *node, const double above[3][4]) {
+  const json_t *children = json_object_get(node, "children"), *mesh = json_object_get(node, "mesh");
+  const json_t *camera = gltf_item(gltf, "cameras", json_object_get(node, "camera"));
+  double own[3][4], matrix[3][4];
+  own_transform(own, node);
+  multiply(matrix, above, own);
+  trax_status result = mesh ? gltf_copy_mesh(gltf, gltf_index(gltf, "meshes", mesh), matrix) : TRAX_OK;
+  if (camera)
+    copy_camera(gltf, node, camera, matrix);
+  for (size_t i = 0; result == TRAX_OK && i < json_array_size(children); i++)
+    result = copy_node(gltf, gltf_item(gltf, "nodes", json_array_get(children, i)), matrix);
+  return result;
+}
+
+/* Calls one of the two for each root: the nodes of the file's scene, or, without scenes, those that have no parent. */
+static trax_status for_roots(struct nodes *nodes, bool copy) {
+  static const double identity[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
+  struct gltf *gltf = nodes->gltf;
+  const json_t *number = json_object_get(gltf->root, "scene"), *scenes = json_object_get(gltf->root, "scenes");
+  const json_t *scene = number ? gltf_item(gltf, "scenes", number) : json_array_get(scenes, 0);
+  if (number && !scene)
+    return trax_fail(gltf->error, "%s: its scene is not there", gltf->path);
+  const json_t *roots = json_object_get(scene, "nodes");
+  const size_t count = scene ? json_array_size(roots) : nodes->count;
+  trax_status result = TRAX_OK;
+  for (size_t i = 0; result == TRAX_OK && i < count; i++) {
+    const json_t *node = scene ? gltf_item(gltf, "nodes", json_array_get(roots, i)) : node_at(gltf, i);
+    if (scene || !nodes->parents[i])
+      result = copy ? copy_node(gltf, node, identity) : measure_node(nodes, node);
+  }
+  return result;
+}
+
+/* Memory in proportion to the files, however often they have a mesh. */
+static trax_status allocate(const struct nodes *nodes) {
+  enum { BYTES_PER_PRIMITIVE = 1024 };
+  struct gltf *gltf = nodes->gltf;
+  struct trax_mesh *mesh = gltf->mesh;
+  const struct gltf_size *size = &nodes->whole;
+  const bool uvs = mesh->texture_count > 0;
+  const uint64_t bytes = size->vertices * sizeof *mesh->vertices +
+                         size->triangles * (sizeof *mesh->triangles + sizeof *mesh->normals + sizeof *mesh->uvs) +
+                         size->primitives * BYTES_PER_PRIMITIVE;
+  if (size->vertices > UINT32_MAX || size->triangles > UINT32_MAX || bytes > scene_memory_for(gltf->bytes_read))
+    return trax_fail(gltf->error, "%s: too large: %llu vertices and %llu triangles by %llu bytes", gltf->path,
+                     (unsigned long long)size->vertices, (unsigned long long)size->triangles,
+                     (unsigned long long)gltf->bytes_read);
+  mesh->vertices = malloc((size->vertices + 1) * sizeof *mesh->vertices);
+  mesh->triangles = malloc((size->triangles + 1) * sizeof *mesh->triangles);
+  mesh->cameras = calloc(nodes->cameras + 1, sizeof *mesh->cameras);
+  if (size->normals)
+    mesh->normals = calloc(size->triangles + 1, sizeof *mesh->normals);
+  if (uvs)
+    mesh->uvs = calloc(size->triangles + 1, sizeof *mesh->uvs);
+  return !mesh->vertices || !mesh->triangles || !mesh->cameras || (size->normals && !mesh->normals) ||
+                 (uvs && !mesh->uvs)
+             ? scene_out_of_memory(gltf->error, gltf->path)
+             : TRAX_OK;
+}
+
+trax_status gltf_copy_nodes(struct gltf *gltf) {
+  struct nodes nodes = {.gltf = gltf, .count = gltf_count(gltf, "nodes")};
+  nodes.parents = calloc(nodes.count + 1, sizeof *nodes.parents);
+  nodes.sizes = calloc(gltf_count(gltf, "meshes") + 1, sizeof *nodes.sizes);
+  trax_status result =
+      nodes.parents && nodes.sizes ? check_trees(&nodes) : scene_out_of_memory(gltf->error, gltf->path);
+  if (result == TRAX_OK)
+    result = for_roots(&nodes, false);
+  if (result == TRAX_OK)
+    result = allocate(&nodes);
+  if (result == TRAX_OK)
+    result = for_roots(&nodes, true);
+  gltf->report->source_triangles += gltf->mesh->triangle_count;
+  free(nodes.parents);
+  free(nodes.sizes);
+  return result;
+}
