@@ -2,7 +2,7 @@
 //
 // Other names for instructions, and constants and addresses that take two.
 
-// What has no encoding: the assembler chooses. Expansion says in the manual what.
+// Pseudo-instructions without an encoding: the assembler chooses instructions. The manual shows Expansion.
 class TraxAsmPseudo<dag ins, string asm, string expansion> : Instruction {
   string Expansion = expansion;
   let Namespace = "Trax";

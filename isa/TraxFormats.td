@@ -139,7 +139,7 @@ class InstCMov<bits<6> op, bits<6> func, string mnemonic, code semantics, string
   let isCommutable = true; // the other conditional move, with rd's old value and ra exchanged
   let ReadsRD = true;
 }
-// Reads rd, a registers from ra on and b from rb on; those behind r31 are r0, r1 and so on.
+// Reads rd, a registers from ra on and b from rb on; r31 is followed by r0, r1 and so on.
 class InstGroups<bits<6> op, bits<6> func, string mnemonic, TraxUnit unit, int a, int b, code semantics, string manual>
     : TraxInst<FormatR, op, (outs GPR:$rd), (ins GPR:$old, GPR:$ra, GPR:$rb), mnemonic#"\t$rd, $ra, $rb", unit, semantics,
                manual> {

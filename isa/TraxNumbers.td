@@ -2,7 +2,7 @@
 //
 // Special registers, traps, fences: the only place where they are listed. A new one is a word at the end
 // of its list and a row of isa.md.in that says what it does. Assembler, disassembler, C constants (trax/numbers.h, which
-// <trax.h> and trax/abi.h include), the functions behind the builtins and the conformance suite follow.
+// <trax.h> and trax/abi.h include), the builtins' functions and the conformance suite follow.
 
 // Names stand in the order of their numbers. PREFIX_NAME is the constant in C; Limit is the first number that is illegal.
 class TraxNumbers<string macro, string prefix, list<string> names, int first = 0> {

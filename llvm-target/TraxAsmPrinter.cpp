@@ -93,7 +93,7 @@ void TraxAsmPrinter::emitInstruction(const MachineInstr *MI) {
   EmitToStreamer(*OutStreamer, Inst);
 }
 
-/// Where main looks at argc or argv the linker takes them from the library, for crt0 (docs/abi.md, "Program start").
+/// If main uses argc or argv, the linker takes them from the library, for crt0 (docs/abi.md, "Program start").
 void TraxAsmPrinter::emitEndOfAsmFile(Module &M) {
   const Function *Main = M.getFunction("main");
   if (Main && !Main->isDeclaration() && any_of(Main->args(), [](const Argument &A) { return !A.use_empty(); }))

@@ -147,7 +147,7 @@ bool TraxBranches::splitTree(BranchInst *Branch) {
   Branch->setCondition(A);
   Branch->setSuccessor(IsAnd ? 0 : 1, Second);
   Branch->setMetadata(LLVMContext::MD_prof, nullptr);
-  // Where one condition decides, either does half as often.
+  // If one of two conditions suffices, each of them decides in half of the cases.
   if (IsAnd) {
     Whole.set(Branch, 2 * Whole.True + Whole.False, Whole.False);
     Whole.set(OnSecond, 2 * Whole.True, Whole.False);

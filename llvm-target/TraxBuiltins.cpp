@@ -27,7 +27,7 @@ TraxBuiltin::Signature TraxBuiltin::signature(ID Builtin) {
 #include "TraxBuiltins.def"
   };
   Signature Result;
-  // Of clang's notation only what the list uses: U and I before a type, f, i and v, and * behind one.
+  // The list uses a part of clang's notation: U and I before a type, f, i and v, and * after one.
   bool IsResult = true;
   for (const char *At = Types[Builtin]; *At; IsResult = false) {
     At += strspn(At, "UI");
@@ -59,7 +59,7 @@ static void markConstantReads(Function &Rdsr) {
   }
 }
 
-/// What a check of undefined behaviour found, by the number that clang gives it (its SanitizerHandler).
+/// The message for a failed check of undefined behaviour, by clang's number for it (SanitizerHandler).
 static StringRef nameOfCheck(uint64_t Number) {
   static constexpr StringLiteral Names[] = {"addition overflows",
                                             "unreachable code is reached",

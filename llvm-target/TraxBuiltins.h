@@ -25,7 +25,7 @@ enum ID {
 #include "TraxBuiltins.def"
 };
 
-/// The builtin that a function of this name stands for.
+/// The builtin that a function with this name represents.
 std::optional<ID> find(StringRef Name);
 
 /// The types of its result, if it has one, and of its arguments, as the code generator sees them.

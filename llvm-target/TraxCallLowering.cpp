@@ -20,7 +20,7 @@ static void unsupported(SelectionDAG &DAG, const SDLoc &DL, const Twine &What) {
   DAG.getContext()->diagnose(DiagnosticInfoUnsupported(F, What, DL.getDebugLoc()));
 }
 
-/// Arguments and results go where the ABI says: a register of -ffixed-rN is none of them.
+/// The ABI fixes the registers of arguments and results, so -ffixed-rN must not name one of them.
 static void checkReserved(ArrayRef<CCValAssign> Locations, const SDLoc &DL, SelectionDAG &DAG) {
   for (const CCValAssign &VA : Locations)
     if (VA.isRegLoc() && DAG.getSubtarget<TraxSubtarget>().isReserved(VA.getLocReg()))
@@ -214,7 +214,9 @@ SDValue TraxTargetLowering::LowerCall(CallLoweringInfo &CLI, SmallVectorImpl<SDV
       continue;
     unsigned Size = Out.Flags.getByValSize();
     if (Size > TRAX_LOCAL_SIZE && Subtarget.getStack() != TRAX_EF_STACK_GLOBAL) {
-      unsupported(DAG, DL, "an argument of " + Twine(Size) + " bytes does not fit the local memory; -mstack=global has room for it");
+      unsupported(DAG, DL,
+                  "an argument of " + Twine(Size) +
+                      " bytes does not fit the local memory; -mstack=global has room for it");
       Out.Flags.setByValSize(4);
       Size = 4;
     }
@@ -311,7 +313,7 @@ SDValue TraxTargetLowering::LowerCall(CallLoweringInfo &CLI, SmallVectorImpl<SDV
 
 //--- builtins -----------------------------------------------------------------
 
-/// The chain behind a builtin's operation, or none if this call is of something else.
+/// The chain after a builtin's operation, or none if the callee is no builtin.
 SDValue TraxTargetLowering::lowerBuiltinCall(CallLoweringInfo &CLI, SmallVectorImpl<SDValue> &InVals) const {
   auto *Callee = dyn_cast<GlobalAddressSDNode>(CLI.Callee);
   if (!Callee || Callee->getOffset() != 0 || !isa<Function>(Callee->getGlobal()))

@@ -1,6 +1,6 @@
 //===- TraxCallingConv.td - Arguments and results (docs/abi.md) ----------===//
 
-// What stays in memory whatever registers are free: large aggregates.
+// Large aggregates stay in memory even if registers are free.
 def CC_Trax_Common : CallingConv<[
   CCIfByVal<CCPassByVal<4, 4>>,
   CCIfType<[i1, i8, i16], CCPromoteToType<i32>>

@@ -39,8 +39,8 @@ bool TraxFrameLowering::hasReservedCallFrame(const MachineFunction &MF) const {
   return !MF.getFrameInfo().hasVarSizedObjects();
 }
 
-/// What never returns owes its caller no register, and twelve words are a lot of 512 bytes. A function that calls
-/// others would lose its own return address with them, and a debugger the way to the callers.
+/// A function that never returns need not save its caller's registers: twelve words are a lot of 512 bytes. A function
+/// that calls others saves them, because otherwise it loses its return address, and a debugger the callers.
 bool TraxFrameLowering::enableCalleeSaveSkip(const MachineFunction &MF) const {
   return !MF.getFrameInfo().hasCalls();
 }
@@ -64,7 +64,7 @@ void TraxFrameLowering::adjustReg(MachineBasicBlock &MBB, MachineBasicBlock::ite
 
 namespace {
 
-/// What follows the warning of a large frame.
+/// The text after the warning of a large frame.
 class StackAnswer : public DiagnosticInfo {
   static int kind() {
     static const int Kind = getNextAvailablePluginDiagnosticKind();
@@ -94,7 +94,7 @@ void TraxFrameLowering::emitPrologue(MachineFunction &MF, MachineBasicBlock &MBB
   const TraxInstrInfo &TII = *MF.getSubtarget<TraxSubtarget>().getInstrInfo();
   const std::vector<CalleeSavedInfo> &CSI = MFI.getCalleeSavedInfo();
   MachineBasicBlock::iterator MBBI = MBB.begin();
-  DebugLoc DL; // none: the debugger takes the first line behind the prologue
+  DebugLoc DL; // none: the debugger uses the first line after the prologue
   uint64_t StackSize = MFI.getStackSize();
   if (StackSize > TRAX_LOCAL_SIZE && MF.getSubtarget<TraxSubtarget>().getStack() != TRAX_EF_STACK_GLOBAL) {
     DiagnosticInfoStackSize Diag(MF.getFunction(), StackSize, TRAX_LOCAL_SIZE, DS_Warning);
@@ -178,8 +178,8 @@ StackOffset TraxFrameLowering::getFrameIndexReference(const MachineFunction &MF,
   int64_t FromCFA = MFI.getObjectOffset(FI);
   int64_t FromSP = FromCFA + int64_t(leavesSPAlone(MF) ? 0 : MFI.getStackSize());
 
-  // Saved registers: prologue and epilogue access them while sp is at the bottom of the fixed frame, whatever fp is. In
-  // an over-aligned frame that is another sp than later, and nothing else refers to them.
+  // Prologue and epilogue access saved registers while sp is at the bottom of the fixed frame, with or without fp. In
+  // an over-aligned frame sp differs later, and nothing else refers to them.
   const std::vector<CalleeSavedInfo> &CSI = MFI.getCalleeSavedInfo();
   bool IsSaved = any_of(CSI, [FI](const CalleeSavedInfo &Saved) { return Saved.getFrameIdx() == FI; });
   if (!IsSaved && needsRealignment(MF)) {

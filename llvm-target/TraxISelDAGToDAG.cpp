@@ -1,6 +1,6 @@
 //===- TraxISelDAGToDAG.cpp - Instruction selection ----------------------===//
 //
-// What the patterns of TraxPatterns.td cannot say: constants, and addresses.
+// Selection that the patterns of TraxPatterns.td cannot express: constants and addresses.
 //
 //===----------------------------------------------------------------------===//
 #include "Trax.h"
@@ -107,7 +107,8 @@ void TraxDAGToDAGISel::Select(SDNode *N) {
   if (N->getOpcode() == TraxISD::GROUPS)
     return selectGroups(N);
   // An address, unless loads and stores share its upper half.
-  if (N->getOpcode() == TraxISD::ADD_LO && N->getOperand(0).getOpcode() == TraxISD::HI && N->getOperand(0).hasOneUse()) {
+  if (N->getOpcode() == TraxISD::ADD_LO && N->getOperand(0).getOpcode() == TraxISD::HI &&
+      N->getOperand(0).hasOneUse()) {
     ReplaceNode(N, CurDAG->getMachineNode(Trax::PseudoLUIADDI, SDLoc(N), MVT::i32, N->getOperand(0).getOperand(0),
                                           N->getOperand(1)));
     return;
@@ -125,7 +126,7 @@ void TraxDAGToDAGISel::selectGroups(SDNode *N) {
   const MCInstrDesc &Desc = Subtarget.getInstrInfo()->get(Opcode);
   SmallVector<SDValue, 3> Operands = {N->getOperand(1)};
   unsigned Next = 2;
-  for (unsigned Index : {2, 3}) { // behind rd and its old value
+  for (unsigned Index : {2, 3}) { // after rd and its old value
     const unsigned Class = Desc.operands()[Index].RegClass;
     const TargetRegisterInfo &TRI = *Subtarget.getRegisterInfo();
     const unsigned Count = TRI.getRegSizeInBits(*TRI.getRegClass(Class)) / 32;

@@ -1,7 +1,7 @@
 //===- TraxLowerAtomics.cpp - Accesses by the memory that they reach -----===//
 //
 // This pass alone decides whether an access is known to reach local memory (isLocalMemory). Only one thread reaches
-// local memory, and it lies beside the caches: atomic accesses of it become plain ones, and nontemporal ones temporal.
+// local memory, and no cache holds it: atomic accesses of it become plain ones, and nontemporal ones temporal.
 //
 // In global memory the machine loads, stores and increments atomically. Every other read-modify-write becomes a call of
 // the runtime's function with libatomic's name, which takes a lock. An increment or a store between the load and the

@@ -17,7 +17,7 @@ public:
     return DestMF.cloneInfo<TraxMachineFunctionInfo>(*this);
   }
 
-  /// Where the unnamed arguments of a variadic function begin.
+  /// The first unnamed argument of a variadic function.
   int getVarArgsFrameIndex() const { return VarArgsFrameIndex; }
   void setVarArgsFrameIndex(int Index) { VarArgsFrameIndex = Index; }
 };

@@ -1,7 +1,7 @@
-//===- TraxPseudos.td - Instructions that are none of the machine's ------===//
+//===- TraxPseudos.td - Pseudo-instructions of code generation -----------===//
 //
-// What code generation needs to tell apart although the machine does not: a jump, a call, a return and a tail call are all
-// jal or jalr. The assembler's shorthands are in isa/TraxAliases.td.
+// Code generation distinguishes operations that are one instruction to the machine: a jump, a call, a return and a tail
+// call are all jal or jalr. The assembler's shorthands are in isa/TraxAliases.td.
 
 class TraxPseudo<dag outs, dag ins, list<dag> pattern = []> : Instruction {
   let Namespace = "Trax";
@@ -45,7 +45,7 @@ def PseudoTAILIndirect : TraxPseudo<(outs), (ins GPRTC:$ra, variable_ops)>; // j
 }
 }
 
-// What does not change while a thread runs can be read again anywhere (thread, tm, tp, threads).
+// Special registers that never change while a thread runs (thread, tm, tp, threads) can be read again anywhere.
 let isReMaterializable = true, isAsCheapAsAMove = true in
 def PseudoRDSRConst : TraxPseudo<(outs GPR:$rd), (ins srnum:$imm)>, PseudoInstExpansion<(RDSR GPR:$rd, srnum:$imm)>;
 

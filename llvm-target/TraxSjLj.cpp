@@ -2,7 +2,7 @@
 //
 // The buffer has five words. The front end stores the frame address into the first and sp into the third; the address
 // to continue at goes into the second and r31 into the fourth, which a function that needs a base pointer has there. No
-// other register outlives the jump, so the function saves and reloads whatever it still needs.
+// other register outlives the jump, so the function saves and reloads all others that it needs.
 //
 //===----------------------------------------------------------------------===//
 #include "Trax.h"
@@ -78,8 +78,8 @@ MachineBasicBlock *TraxTargetLowering::emitSetJmp(MachineInstr &MI, MachineBasic
   return Rest;
 }
 
-/// After register allocation, since nothing may be reloaded from the stack once sp and fp are another function's. ra is
-/// free: it has been saved, and the buffer's register is none of those that are loaded.
+/// Expands the pseudo after register allocation: nothing may be reloaded from the stack once sp and fp are another
+/// function's. ra is free because it has been saved. The buffer's register is not among those that are loaded.
 void llvm::expandTraxLongJmp(MachineInstr &MI, const TargetInstrInfo &TII) {
   MachineBasicBlock &MBB = *MI.getParent();
   const DebugLoc &DL = MI.getDebugLoc();

@@ -38,12 +38,14 @@ public:
   const TraxTargetLowering *getTargetLowering() const override { return &TLInfo; }
   const SelectionDAGTargetInfo *getSelectionDAGInfo() const override { return &TSInfo; }
 
-  /// Where automatic objects are: TRAX_EF_STACK_LOCAL; TRAX_EF_STACK_GLOBAL, where other threads can reach them; or 0,
-  /// in either.
+  /// The place of automatic objects: TRAX_EF_STACK_LOCAL; TRAX_EF_STACK_GLOBAL, where other threads can reach them; or
+  /// 0 for either.
   unsigned getStack() const { return HasEitherStack ? 0 : HasGlobalStack ? TRAX_EF_STACK_GLOBAL : TRAX_EF_STACK_LOCAL; }
 
-  /// -ffixed-rN: whether the program keeps the register for itself.
-  bool isReserved(MCRegister Register) const { return ReservedRegisters[InstrInfo.getRegisterInfo().getEncodingValue(Register)]; }
+  /// Whether -ffixed-rN reserves the register for the program.
+  bool isReserved(MCRegister Register) const {
+    return ReservedRegisters[InstrInfo.getRegisterInfo().getEncodingValue(Register)];
+  }
 
   bool enableMachineScheduler() const override { return true; }
   bool enableSpillageCopyElimination() const override { return true; }

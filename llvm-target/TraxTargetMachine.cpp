@@ -106,7 +106,7 @@ public:
   }
 
   void addPreEmitPass() override {
-    // Copies are addi by now. Removes those that block placement moved next to their uses.
+    // Copies are addi at this point. Removes those that block placement moved next to their uses.
     if (getOptLevel() >= CodeGenOptLevel::Default)
       addPass(createMachineCopyPropagationPass(/*UseCopyInstr=*/true));
     addPass(&BranchRelaxationPassID);

@@ -5,9 +5,10 @@
     // RUN: %run_c %s %t --levels -O2,-Os --cflags "-ffast-math" --simflags "--config 1x32" --status 3
     // RUN: %run_c %s %t --clang-only        (compile and link at every level, run nothing)
 
-Standard output must equal NAME.expected beside the program, byte for byte, or the one in the folder of --expected, which the build
-made on the host (c/CMakeLists.txt). The exit status must be the one given (default 0). With --fault TEXT the program must end in a fault report that contains TEXT, once for each --fault, with
-the status 1 or, if it aborts, the one given.
+Standard output must equal NAME.expected beside the program, byte for byte. Without that file it must equal the one in the folder
+of --expected, which the build made on the host (c/CMakeLists.txt). The exit status must be the one given (default 0). With
+--fault TEXT the program must end in a fault report that contains TEXT, once for each --fault, with the status 1 or, if it aborts,
+the one given.
 Without --levels, the level is -O2, and for every second program -O0, too; with TRAX_LEVELS=all in the environment, every one.
 The compiler verifies its machine code at every step. Exit status: 0 if every level agrees, else 1 with the first difference of
 each level that does not.

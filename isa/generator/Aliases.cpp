@@ -1,4 +1,4 @@
-// The assembler's shorthands (isa/TraxAliases.td) and what they stand for, as text.
+// The assembler's shorthands (isa/TraxAliases.td) and their expansions, as text.
 
 #include "Isa.h"
 #include "llvm/ADT/StringExtras.h"

@@ -44,7 +44,7 @@ static std::vector<OperandClass> operandClasses() {
           {"NaN", {NaN, 0x7F800001, 0x7FFFFFFF, 0xFFC00000, 0xFF800001, 0xFFFFFFFF}}};
 }
 
-// What the results of a whole class of operands have in common; Otherwise if nothing.
+// The property that all results for a class of operands share; Otherwise if there is none.
 static std::string describe(const std::vector<std::array<uint32_t, 3>> &Cases, bool IsTruth, StringRef Otherwise) {
   auto All = [&](auto Holds) { return std::all_of(Cases.begin(), Cases.end(), Holds); };
   const std::vector<std::pair<uint32_t, const char *>> Constants =

@@ -18,7 +18,7 @@ struct Box {
 
 } // namespace
 
-// Where the function code is, if the format has one.
+// The function code's field, if the format has one.
 static bool hasFunctionCode(const Instruction &I) {
   return I.Format[0] == 'R';
 }

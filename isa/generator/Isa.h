@@ -45,7 +45,7 @@ struct Register {
   std::string Name, OtherName;
 };
 
-// What is written by name and encoded as a number.
+// An operand that is written by name and encoded as a number.
 struct Numbers {
   std::string List, Prefix;
   std::vector<std::string> Names;

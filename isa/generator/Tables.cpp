@@ -93,7 +93,7 @@ static std::string fieldMask(const Field &F) {
   return Text;
 }
 
-// The first instruction of each (format, immediate reading) stands for all: the generator has checked their fields.
+// The first instruction of each (format, immediate reading) represents all: the generator has checked their fields.
 static std::map<std::string, const Instruction *> formats(const Isa &Isa) {
   std::map<std::string, const Instruction *> Formats;
   for (const Instruction &I : Isa.Instructions)

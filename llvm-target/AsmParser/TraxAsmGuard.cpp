@@ -24,7 +24,7 @@
 
 using namespace llvm;
 
-// --- places, found without allocation: a signal handler asks for them ---
+// --- places, found without allocation: a signal handler uses them ---
 
 namespace {
 
@@ -40,7 +40,7 @@ bool isExpansion(const MemoryBuffer &Buffer) {
   return Buffer.getBufferIdentifier() == "<instantiation>";
 }
 
-/// Where Loc is, or where the parser is. An expansion is where it began.
+/// The place of Loc, or the parser's place if Loc is invalid. The place of an expansion is the statement that began it.
 Place placeOf(const SourceMgr &Sources, SMLoc Loc) {
   if (!Loc.isValid() && Current)
     Loc = Current->getTok().getLoc();
@@ -125,7 +125,7 @@ void trax::guardCrashes(const char *Program, bool Always) {
     Before[I] = Earlier;
     Before[I].sa_flags |= SA_ONSTACK;
   }
-  // What cannot be allocated is a crash like others, without words of the library's.
+  // A failed allocation is handled like a crash. The library prints nothing.
   install_bad_alloc_error_handler([](void *, const char *, bool) { abort(); });
   std::set_new_handler(abort);
   std::set_terminate(abort);
@@ -140,6 +140,8 @@ void trax::enterParser(const MCAsmParser *Parser) {
 // --- limits ---
 
 void trax::stopAssembly(const SourceMgr *Sources, SMLoc Loc, const Twine &Message) {
+  if (!Sources && Current)
+    Sources = &const_cast<MCAsmParser *>(Current)->getSourceManager();
   const Place At = Sources ? placeOf(*Sources, Loc) : Place();
   report_fatal_error((At.Line ? At.File + ":" + Twine(At.Line) + ": " : Twine("")) + Message, /*gen_crash_diag=*/false);
 }
@@ -180,7 +182,7 @@ bool begins(StringRef Text, StringRef Directive) {
          (Text.size() == Directive.size() || !isAlnum(Text[Directive.size()]));
 }
 
-/// The lines behind the first one of Text, to the end that belongs to it.
+/// The lines after the first one of Text, up to the matching end.
 StringRef bodyOf(StringRef Text, std::initializer_list<const char *> Openings,
                  std::initializer_list<const char *> Ends) {
   const size_t Begin = std::min(Text.find('\n'), Text.size() - 1) + 1;

@@ -107,7 +107,7 @@ public:
   }
   bool isImm32() const { return getConstant().has_value(); }
   bool isSymbol() const {
-    int64_t Value; // whatever its size, a number is no symbol
+    int64_t Value; // a number of any size is no symbol
     return Kind == Imm && !isa<TraxMCExpr>(Expr) && !Expr->evaluateAsAbsolute(Value);
   }
   bool isBrTarget() const { return isTarget<18>(); }

@@ -41,7 +41,7 @@ public:
 
 } // namespace
 
-/// What .skip, .org and alignment fill is a number until here, and would now be written.
+/// Limits the bytes that .skip, .org and alignment fill. Until here they are a number; now they would be written.
 void TraxAsmBackend::finishLayout(const MCAssembler &Asm) const {
   constexpr uint64_t Most = 256 << 20;
   MCContext &Context = Asm.getContext();
@@ -70,7 +70,7 @@ void TraxAsmBackend::finishLayout(const MCAssembler &Asm) const {
   }
 }
 
-/// What .reloc calls a relocation. BFD_RELOC_NONE is what LLVM itself asks for, for call-graph profiles.
+/// The relocation that .reloc names. LLVM itself uses BFD_RELOC_NONE for call-graph profiles.
 std::optional<MCFixupKind> TraxAsmBackend::getFixupKind(StringRef Name) const {
 #define TRAX_RELOCATION(NAME, NUMBER) .Case(#NAME, NUMBER)
   const unsigned Type = StringSwitch<unsigned>(Name) TRAX_RELOCATIONS(TRAX_RELOCATION)

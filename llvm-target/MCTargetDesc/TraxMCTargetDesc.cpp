@@ -55,7 +55,7 @@ static MCInstPrinter *createTraxMCInstPrinter(const Triple &, unsigned, const MC
 
 namespace {
 
-/// Where branches go, for the disassembler's labels.
+/// Finds the targets of branches, for the disassembler's labels.
 class TraxMCInstrAnalysis : public MCInstrAnalysis {
 public:
   explicit TraxMCInstrAnalysis(const MCInstrInfo *Info) : MCInstrAnalysis(Info) {}

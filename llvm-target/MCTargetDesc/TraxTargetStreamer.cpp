@@ -1,10 +1,12 @@
-//===- TraxTargetStreamer.cpp - The directive .stack ---------------------===//
+//===- TraxTargetStreamer.cpp - The directive .stack; limits of symbols --===//
 #include "TraxTargetStreamer.h"
+#include "TraxAsmGuard.h"
 #include "trax/abi.h"
 #include "llvm/MC/MCELFObjectWriter.h"
 #include "llvm/MC/MCELFStreamer.h"
 #include "llvm/MC/TargetRegistry.h"
 #include "llvm/Support/FormattedStream.h"
+#include "llvm/Support/MathExtras.h"
 
 using namespace llvm;
 
@@ -12,6 +14,32 @@ bool TraxTargetStreamer::setStack(unsigned Place) {
   if (Place != 0 && Stack == 0)
     emitStack(Stack = Place);
   return Place == 0 || Stack == Place;
+}
+
+uint64_t TraxTargetStreamer::stepsOf(const MCExpr &Value) const {
+  switch (Value.getKind()) {
+  case MCExpr::Binary: {
+    const auto &Binary = cast<MCBinaryExpr>(Value);
+    return SaturatingAdd(stepsOf(*Binary.getLHS()), stepsOf(*Binary.getRHS()));
+  }
+  case MCExpr::Unary:
+    return stepsOf(*cast<MCUnaryExpr>(Value).getSubExpr());
+  case MCExpr::SymbolRef:
+    return SaturatingAdd(Steps.lookup(&cast<MCSymbolRefExpr>(Value).getSymbol()), uint64_t(1));
+  default:
+    return 1;
+  }
+}
+
+/// Limits symbols whose values refer to other symbols. LLVM follows all of them again for each value, and to evaluate
+/// it once more from each of them.
+void TraxTargetStreamer::emitAssignment(MCSymbol *Symbol, const MCExpr *Value) {
+  constexpr uint64_t MostSteps = 200'000'000;
+  const uint64_t Needed = stepsOf(*Value);
+  Steps[Symbol] = Needed;
+  AllSteps = SaturatingMultiplyAdd(Needed, Needed, AllSteps);
+  if (AllSteps > MostSteps)
+    trax::stopAssembly(nullptr, SMLoc(), "a chain of symbols that refer to one another is too long to evaluate");
 }
 
 namespace {

@@ -1,7 +1,8 @@
-//===- TraxTargetStreamer.h - The directive .stack -----------------------===//
+//===- TraxTargetStreamer.h - The directive .stack; limits of symbols ----===//
 #ifndef TRAX_MCTARGETDESC_TRAXTARGETSTREAMER_H
 #define TRAX_MCTARGETDESC_TRAXTARGETSTREAMER_H
 
+#include "llvm/ADT/DenseMap.h"
 #include "llvm/MC/MCStreamer.h"
 
 namespace llvm {
@@ -12,9 +13,14 @@ class Target;
 /// depend on it (docs/abi.md, "ELF").
 class TraxTargetStreamer : public MCTargetStreamer {
   unsigned Stack = 0;
+  DenseMap<const MCSymbol *, uint64_t> Steps; // references in the values of symbols, followed to the end
+  uint64_t AllSteps = 0;
+
+  uint64_t stepsOf(const MCExpr &Value) const;
 
 public:
   using MCTargetStreamer::MCTargetStreamer;
+  void emitAssignment(MCSymbol *Symbol, const MCExpr *Value) override;
 
   /// False if the file has said something else before.
   bool setStack(unsigned Place);

@@ -1,12 +1,12 @@
-/* What a kernel of the code-quality benchmark is: a function that does the same work again each time it is called, and
-   data that are made ready once. quality.py says how they are counted. */
+/* The interface of a kernel of the code-quality benchmark: a function that does the same work at each call, and data
+   that are prepared once. quality.py describes how instructions are counted. */
 #ifndef TRAX_BENCH_H
 #define TRAX_BENCH_H
 
 #include <stdint.h>
 
 struct result {
-  uint32_t checksum; /* of all that the kernel computed: the same on every machine, but for contracted arithmetic */
+  uint32_t checksum; /* of all results: the same on every machine, except with contracted arithmetic */
   float measure;     /* a mean of floating-point results, which contraction hardly moves; 0 in integer kernels */
 };
 

@@ -150,7 +150,7 @@ int printSupportedCPUs(StringRef Triple) {
 
 bool writeTimeTrace(CompilerInstance &CI) {
   llvm::SmallString<128> Path(CI.getFrontendOpts().TimeTracePath);
-  // Diagnostics are over by now, but this may still fail, for which createOutputFile needs a place to report to.
+  // Diagnostics have ended here, but this step may still fail, and createOutputFile must report it.
   auto Out = CI.createOutputFile(Path, /*Binary=*/false, /*RemoveFileOnSignal=*/false, /*UseTemporary=*/false);
   if (Out)
     llvm::timeTraceProfilerWrite(*Out);
@@ -201,7 +201,7 @@ int trax::runCC1(llvm::ArrayRef<const char *> Args, const char *Argv0) {
   }
 
   followRule(isTraxTriple(llvm::Triple(Triple)));
-  // Of a source the driver keeps what is needed to reproduce a crash. LLVM does not check all of what bitcode says.
+  // For a source the driver keeps what reproduces a crash. Bitcode is guarded, because LLVM does not check all of it.
   const bool FromIR = llvm::any_of(Options.Inputs, [](const FrontendInputFile &Input) {
     return Input.getKind().getLanguage() == Language::LLVM_IR;
   });

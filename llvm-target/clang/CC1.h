@@ -1,4 +1,4 @@
-//===- CC1.h - the compiler and the assembler behind the driver ----------===//
+//===- CC1.h - the compiler and the assembler that the driver starts -----===//
 #ifndef TRAX_CLANG_CC1_H
 #define TRAX_CLANG_CC1_H
 

@@ -73,7 +73,7 @@ void checkArguments(const llvm::opt::InputArgList &Args, unsigned MissingIndex, 
   }
 }
 
-/// What `-g` and its companions say about an assembly file.
+/// Applies `-g` and related options to an assembly file.
 void setUpDebugInfo(llvm::MCContext &Context, const llvm::opt::ArgList &Args, StringRef InputPath, StringRef Source,
                     DiagnosticsEngine &Diags) {
   Context.setGenDwarfForAssembly(Args.hasArg(options::OPT_debug_info_kind_EQ));
@@ -208,7 +208,7 @@ int trax::runCC1As(llvm::ArrayRef<const char *> RawArgs, const char *) {
   IntrusiveRefCntPtr<DiagnosticOptions> Options(new DiagnosticOptions());
   DiagnosticsEngine Diags(new DiagnosticIDs(), &*Options, new TextDiagnosticPrinter(llvm::errs(), &*Options));
 
-  // What LLVM's assembler gives up on is a mistake of the source, not of the compiler.
+  // If LLVM's assembler gives up, the source is wrong, not the compiler.
   const llvm::ScopedFatalErrorHandler FatalErrors(
       [](void *Engine, const char *Message, bool) { reportFatalError(Engine, Message, /*GenCrashDiag=*/false); },
       &Diags);

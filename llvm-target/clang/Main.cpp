@@ -8,7 +8,6 @@
 #include "CC1.h"
 #include "FileCalls.h"
 #include "LLVMTrax.h"
-#include "PrivateMember.h"
 #include "TraxOptions.h"
 #include "TraxTargetInfo.h"
 #include "TraxToolChain.h"
@@ -46,19 +45,6 @@ using namespace clang;
 using namespace clang::driver;
 using llvm::StringRef;
 
-namespace trax {
-struct ResultFiles {
-  using Type = ArgStringMap Compilation::*;
-  friend Type addressOf(ResultFiles);
-};
-template struct Publish<ResultFiles, &Compilation::ResultFiles>;
-struct FailureResultFiles {
-  using Type = ArgStringMap Compilation::*;
-  friend Type addressOf(FailureResultFiles);
-};
-template struct Publish<FailureResultFiles, &Compilation::FailureResultFiles>;
-} // namespace trax
-
 namespace {
 
 using ArgVector = llvm::SmallVector<const char *, 256>;
@@ -71,7 +57,7 @@ void initializeTargets() {
   LLVMInitializeTrax();
 }
 
-/// Where the installation is, found from the program's own place.
+/// The folders of the installation, found from the program's own place.
 struct Installation {
   std::string Program;     // this executable
   std::string RuntimeDir;  // crt0.o, libc.a, include/
@@ -123,10 +109,9 @@ int execute(Driver &TheDriver, Compilation &C, bool &Crashed) {
     llvm::sys::RemoveFileOnSignal(Temporary);
   trax_reads_share();                                                       // what one job reads, no other may write
   setenv("TRAX_PARENT", std::to_string(getpid()).c_str(), /*overwrite=*/1); // what is started ends with this process
-  if (trax::isTraxTriple(C.getDefaultToolChain().getTriple())) { // no job leaves a part of a file, so none is removed
-    (C.*addressOf(trax::ResultFiles())).clear();
-    (C.*addressOf(trax::FailureResultFiles())).clear();
-  }
+  if (trax::isTraxTriple(C.getDefaultToolChain().getTriple())) // no job leaves a part of a file, so none is removed
+    for (const ArgStringMap *Files : {&C.getResultFiles(), &C.getFailureResultFiles()})
+      const_cast<ArgStringMap *>(Files)->clear();
   llvm::SmallVector<std::pair<int, const Command *>, 4> Failures;
   int Result = TheDriver.ExecuteCompilation(C, Failures);
   for (const auto &[Status, Failed] : Failures) {
@@ -168,8 +153,8 @@ void checkFiles(Compilation &C, DiagnosticsEngine &Diags) {
   trax_files_release(&Files);
 }
 
-/// What --sysroot says, there or in a configuration file. The driver prints directories as soon as it knows, which is
-/// too late for a tool chain to answer with its own.
+/// The value of --sysroot, from the command line or a configuration file. For -print-search-dirs: the driver prints the
+/// folders as soon as it has read the option, and asks no tool chain in between.
 std::string findSysRoot(const Installation &Installed, const ParsedClangName &Name, ArgVector Args) {
   llvm::erase_if(Args, [](StringRef Given) { return Given.ltrim('-') == "print-search-dirs"; });
   DiagnosticsEngine Silent(new DiagnosticIDs(), new DiagnosticOptions(), new IgnoringDiagConsumer());

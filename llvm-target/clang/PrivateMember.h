@@ -1,15 +1,14 @@
-//===- PrivateMember.h - the one trick -----------------------------------===//
+//===- PrivateMember.h - access to private members of clang's classes -----===//
 //
-// A target cannot be added to clang's libraries from outside: four members that in-tree code sets are private. The
-// language lets an explicit instantiation name private members; Publish is one that hands the member's address out.
+// A target cannot be added to clang's libraries from outside: three members that in-tree code sets are private. The
+// language lets an explicit instantiation name private members. Publish is one that returns the member's address.
 //
 //   struct Rows { using Type = llvm::ArrayRef<Info> OptTable::*; friend Type addressOf(Rows); };
 //   template struct Publish<Rows, &OptTable::OptionInfos>;
 //   Table.*addressOf(Rows());
 //
-// Used for Driver::ToolChains (TraxToolChain.cpp), OptTable::OptionInfos (TraxOptions.cpp), TargetInfo::TargetOpts
-// (TraxTargetInfo.cpp) and the lists of a Compilation's outputs (Main.cpp). A member that another release of LLVM
-// renames fails the build.
+// Used for Driver::ToolChains (TraxToolChain.cpp), OptTable::OptionInfos (TraxOptions.cpp) and TargetInfo::TargetOpts
+// (TraxTargetInfo.cpp). If another release of LLVM renames a member, the build fails.
 //
 //===----------------------------------------------------------------------===//
 #ifndef TRAX_CLANG_PRIVATEMEMBER_H

@@ -75,7 +75,7 @@ private:
   llvm::SmallVector<Leaf, 16> Leaves;
   llvm::SmallVector<llvm::Type *, 4> Types;
 
-  /// The member that alone lies in the word, or null. A union may have the same one several times.
+  /// The only member in the word, or null. A union may have the same one several times.
   const Leaf *onlyLeafAt(uint64_t Word) const {
     const Leaf *Alone = nullptr;
     for (const Leaf &L : Leaves) {

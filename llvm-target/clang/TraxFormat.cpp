@@ -76,7 +76,7 @@ public:
       return true;
     const bool HasDoubles = !llvm::is_contained({"iprintf", "fiprintf", "siprintf", "sniprintf"}, Callee->getName());
     for (const auto *Attribute : Callee->specific_attrs<FormatAttr>()) {
-      // Of a member function, the object is the first argument to the attribute, but none to the call.
+      // The attribute of a member function counts the object as the first argument; the call does not.
       const auto *Member = dyn_cast<CXXMethodDecl>(Callee);
       const unsigned First = Member && Member->isInstance() ? 2 : 1;
       const unsigned Index = Attribute->getFormatIdx();

@@ -1,7 +1,7 @@
 //===- TraxOptions.h - the options that clang does not have --------------===//
 //
-// -mstack=, -mstack-size= and -ffixed-rN are rows behind those of clang's own table. So they are parsed, completed,
-// explained by --help, read from configuration files and written by -MJ as all others are.
+// -mstack=, -mstack-size= and -ffixed-rN are rows at the end of clang's own table. So they are parsed, completed,
+// explained by --help, read from configuration files and written by -MJ like all others.
 //
 //===----------------------------------------------------------------------===//
 #ifndef TRAX_CLANG_TRAXOPTIONS_H

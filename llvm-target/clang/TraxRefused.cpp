@@ -14,7 +14,7 @@ using llvm::opt::ArgList;
 
 namespace {
 
-/// What the machine cannot do, and what takes it back: the last of a group decides.
+/// Options that the machine cannot support, and those that revoke them. The last of a group decides.
 struct Group {
   std::initializer_list<unsigned> Refused, Harmless;
 };

@@ -12,8 +12,8 @@ class Driver;
 
 namespace trax {
 
-/// Reports what clang accepts for any target and this machine cannot do, and wrong values of the options of its own.
-/// What asks for what is so anyway is claimed.
+/// Reports options that clang accepts for any target and this machine cannot support, and wrong values of its own
+/// options. Claims options that demand what is always true here.
 void refuseOptions(const clang::driver::Driver &D, const llvm::Triple &Triple, const llvm::opt::ArgList &Args);
 
 /// The registers of -ffixed-rN, those alone that can be kept free.

@@ -44,7 +44,7 @@ StringRef stackSize(const ArgList &Args) {
   return Given ? Given->getValue() : "64k";
 }
 
-/// Clang's own tool decides these by its list of architectures, and no tool chain is asked. Its command says what is so.
+/// Corrects the command of clang's own tool, which decides these options by its list of architectures.
 class Compiler final : public Tool {
   const Tool &Clang;
 
@@ -153,7 +153,7 @@ public:
   }
 };
 
-/// What the base class reads when it is made, long before the command line is known: no type information.
+/// The arguments for the base class's constructor, which runs long before the command line is known: no RTTI.
 const ArgList &ownArguments() {
   static const char *const Own[] = {"-fno-rtti"};
   unsigned Index, Count;
@@ -193,7 +193,7 @@ void trax::ToolChain::AddClangSystemIncludeArgs(const ArgList &Args, ArgStringLi
     return;
   if (!Args.hasArg(OPT_nobuiltininc))
     addSystemInclude(Args, CC1Args, getDriver().ResourceDir + "/include");
-  if (!Args.hasArg(OPT_nostdlibinc)) // behind clang's own, which include_next it; C even when C++ includes it
+  if (!Args.hasArg(OPT_nostdlibinc)) // after clang's own, which include_next it; C even when C++ includes it
     addExternCSystemInclude(Args, CC1Args, computeSysRoot() + "/include");
 }
 

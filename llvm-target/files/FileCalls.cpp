@@ -154,8 +154,8 @@ bool trax::commitOutputs(const char *Program, bool Keep, const void *Since) {
 
 namespace {
 
-/// What LLVM removes is its own, or else the earlier file of an output's name, which is not: of an output that failed
-/// the contents are dropped.
+/// LLVM removes only its own files. The earlier file of an output's name stays: if that output failed, its contents are
+/// dropped.
 bool isKept(const char *Path) {
   Written *File = find(Path);
   struct stat Status;
@@ -178,8 +178,8 @@ bool isEndless(int Descriptor, const struct stat &Status) {
          !(stat("/dev/null", &Null) == 0 && Null.st_rdev == Status.st_rdev);
 }
 
-/// A descriptor for what will be written to Path. LLVM reports an errno with the file's name; what was read is told by
-/// commitOutputs.
+/// A descriptor for the contents that Path will get. LLVM reports an errno with the file's name; commitOutputs reports
+/// a file that was read.
 int collect(const char *Path, bool Appended, const struct stat *Existing) {
   trax_error Reason;
   errno = 0;

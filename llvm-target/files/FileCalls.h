@@ -1,13 +1,13 @@
-//===- FileCalls.h - What LLVM reads and writes --------------------------===//
+//===- FileCalls.h - Inputs and outputs of LLVM and clang ----------------===//
 //
-// LLVM and clang open their outputs in some thirty places, each with an option of its own, and none compares them with
-// what was read. All of them call open and rename of the C library. FileCalls.cpp stands there, so that the one rule of
-// outputs (trax/output.h) holds for every option, also for those that nobody here has thought of:
-//   - what is opened for reading is noted as an input;
-//   - what is opened for writing under its own name is collected in memory, and written by commitOutputs;
-//   - what is renamed to its name after it was written is written by trax_write_whole.
-// A failure is told by commitOutputs, not by the call. The functions of emulator/base, which write by that rule, use
-// renameat and unlinkat, which are as they were.
+// LLVM and clang open their outputs in some thirty places, each for another option, and compare none of them with the
+// inputs. All of them call open and rename of the C library. FileCalls.cpp replaces these functions, so that the one
+// rule of outputs (trax/output.h) holds for every option:
+//   - a file that is opened for reading is noted as an input;
+//   - a file that is opened for writing under its own name is collected in memory, and written by commitOutputs;
+//   - a file that gets its name by rename after it was written is written by trax_write_whole.
+// commitOutputs reports failures, not the call. The functions of emulator/base, which write by that rule, use renameat
+// and unlinkat, which are not replaced.
 //
 //===----------------------------------------------------------------------===//
 #ifndef TRAX_FILES_FILECALLS_H
@@ -19,7 +19,7 @@ namespace trax {
 /// its modules, for example, are inputs and outputs.
 void followRule(bool Follow);
 
-/// What was opened for writing until now.
+/// The last file that was opened for writing.
 const void *outputsSoFar();
 
 /// Writes what was collected since then, unless the program has failed (Keep is false), and reports what could not be

@@ -16,7 +16,7 @@ static uint8_t *copy_bytes(const uint8_t *bytes, size_t size) {
   return copy;
 }
 
-/* The line that starts at *bytes, without its end; *bytes and *size go behind it. Longer lines are cut to capacity. */
+/* The line that starts at *bytes, without its end. Advances *bytes and *size past it. Cuts longer lines to capacity. */
 static void take_line(const uint8_t **bytes, size_t *size, char *line, size_t capacity) {
   const uint8_t *end = *size ? memchr(*bytes, '\n', *size) : NULL;
   size_t length = end ? (size_t)(end - *bytes) : *size, kept = 0;
@@ -131,7 +131,7 @@ static void mutate_options(fuzz_case *fuzz_case, const char *const *words, fuzz_
         (size_t)snprintf(fuzz_case->options + length, FUZZ_MAX_OPTIONS + 1 - length, "%s%s", i ? " " : "", parts[i]);
 }
 
-/* One member is mutated where it lies, its size kept, or the archive as plain bytes. */
+/* Mutates one member in place, without changing its size, or the archive as plain bytes. */
 static size_t mutate_archive(uint8_t *bytes, size_t size, size_t capacity, fuzz_random *random) {
   uint8_t *members[16];
   size_t sizes[16], count = 0;

@@ -41,8 +41,8 @@ const fuzz_file *fuzz_case_find(const fuzz_case *fuzz_case, const char *name); /
 /* Cuts options into words at spaces, in place; how many there are, at most limit. */
 size_t fuzz_case_words(char *options, char **words, size_t limit);
 
-/* What a program's own custom mutator is made of. words: options that may be added, NULL-terminated; "%" in one stands
-   for the name of a file. */
+/* The parts of a program's custom mutator. words: options that may be added, NULL-terminated; "%" in one is replaced by
+   the name of a file. */
 size_t fuzz_case_mutate(uint8_t *bytes, size_t size, size_t capacity, unsigned seed, const char *const *words);
 
 /* --- fuzz_elf.c --- */
@@ -63,7 +63,7 @@ size_t fuzz_mutate_elf(uint8_t *bytes, size_t size, size_t capacity, fuzz_random
 /* --- in each fuzzer --- */
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size);
-/* Where it has them; the second is cross.c's. */
+/* Mutators for programs that have them; the second is that of cross.c. */
 size_t LLVMFuzzerCustomMutator(uint8_t *bytes, size_t size, size_t capacity, unsigned seed);
 size_t LLVMFuzzerCustomCrossOver(const uint8_t *first, size_t first_size, const uint8_t *second, size_t second_size,
                                  uint8_t *result, size_t capacity, unsigned seed);

@@ -48,7 +48,7 @@ static const field relocation_fields[] = {FIELD(Elf32_Rela, r_offset),
 static const field word_fields[] = {{0, 4}};
 #define CHOOSE(file, table) (table)[fuzz_below((file)->random, sizeof(table) / sizeof *(table))]
 
-/* Section headers that lie in the file. */
+/* The section headers that are inside the file. */
 static uint32_t section_count(const elf_file *file) {
   size_t start = file->header.e_shoff;
   if (start == 0 || start > file->size)
@@ -67,7 +67,7 @@ static void put_section(const elf_file *file, uint32_t index, const Elf32_Shdr *
   memcpy(file->bytes + file->header.e_shoff + index * sizeof *section, section, sizeof *section);
 }
 
-/* Whether the section's contents lie in the file; large ones are cut. */
+/* Whether the section's contents are inside the file; large ones are cut. */
 static bool has_contents(const elf_file *file, Elf32_Shdr *section) {
   if (section->sh_type == SHT_NOBITS || section->sh_offset >= file->size || section->sh_size == 0)
     return false;

@@ -1,6 +1,6 @@
 //===- objdump_fuzzer.cpp - trax-objdump under libFuzzer -----------------===//
 //
-// A case is a line of words, each of which asks for a part of the listing, and files, which are listed one by one.
+// A case is a line of words, each of which selects a part of the listing, and files, which are listed one by one.
 //
 //===----------------------------------------------------------------------===//
 #include "ArchiveFile.h"
@@ -21,7 +21,7 @@ static const Target &target() {
   return *T;
 }
 
-/// An unknown word asks for nothing, so that every line is one.
+/// An unknown word selects nothing, so every line is valid.
 static void apply(StringRef Word, trax::ListingOptions &Options) {
   if (Word == "-f")
     Options.FileHeader = true;

@@ -26,13 +26,13 @@ void guardCrashes(const char *Program, bool Always);
 /// The innermost parser of assembly, whose place a crash is reported with.
 void enterParser(const llvm::MCAsmParser *Parser);
 
-/// Ends the process by way of LLVM's fatal error, with the place of Loc in a file.
+/// Ends the process by LLVM's fatal error, with the place of Loc in a file. Without Sources, it is the parser's place.
 [[noreturn]] void stopAssembly(const llvm::SourceMgr *Sources, llvm::SMLoc Loc, const llvm::Twine &Message);
 
 /// For a process that assembles one file: at most 200 errors in what is expanded, and 2 GB of memory.
 void limitAssembly(llvm::SourceMgr &Sources);
 
-/// What one run of a parser has expanded.
+/// The expansions of one run of a parser.
 class AsmLimits {
   unsigned SeenBuffers = 0;
   uint64_t Expanded = 0;
@@ -42,7 +42,7 @@ class AsmLimits {
 public:
   /// Called before each instruction and directive.
   void check(const llvm::MCAsmParser &Parser, llvm::SMLoc Loc);
-  /// Called before a directive that repeats something: its number, and the text behind its line.
+  /// Called before a directive that repeats something: checks its count and the text after its line.
   void checkDirective(llvm::MCAsmParser &Parser, llvm::StringRef Name, llvm::SMLoc Loc);
 };
 

@@ -1,5 +1,5 @@
-/* Who calls whom: the functions of the live code, their calls as the relocations and the decoded instructions tell, and
-   what the compiler says of their frames (.stack_sizes). */
+/* The call graph: the functions of the live code, their calls by relocations and decoded instructions, and the sizes of
+   their frames, which the compiler writes (.stack_sizes). */
 #include "ld.h"
 #include "trax/isa.h"
 
@@ -126,7 +126,7 @@ static ld_function *function_at(const ld_context *ctx, const ld_section *section
   return &ctx->functions.items[low];
 }
 
-/* The function that symbol + addend lies in, or NULL. */
+/* The function that contains symbol + addend, or NULL. */
 static ld_function *function_of(const ld_context *ctx, const ld_symbol *symbol, int32_t addend) {
   while (symbol->kind == LD_DEFSYM) { /* no circle: those were refused */
     const ld_defsym *defsym = &ctx->options.defsyms.items[symbol->value];

@@ -81,8 +81,8 @@ static ld_order order_of(const ld_output *output) {
 
 /* --- order within an output section --- */
 
-/* ".init_array.100" runs before ".init_array.200", plain ".init_array" last. Hot code lies together, and code that runs
-   once or hardly ever out of its way: an instruction cache is small. */
+/* ".init_array.100" runs before ".init_array.200", plain ".init_array" last. Hot code is placed together, away from
+   code that runs once or hardly ever: an instruction cache is small. */
 static uint32_t section_order(const ld_section *section) {
   static const char *const text_order[] = {".text.hot", ".text", ".text.startup", ".text.exit", ".text.unlikely"};
   const size_t plain = 1;
@@ -127,7 +127,7 @@ static void order_sections(ld_context *ctx, ld_output *output) {
   bool is_array = output->type == SHT_INIT_ARRAY || output->type == SHT_FINI_ARRAY; /* priorities come first */
   for (size_t i = 0; i < count; i++) {
     uint32_t place = list[i].section->wanted_place;
-    list[i].order = place && !is_array ? place : list[i].order + (UINT64_C(1) << 32); /* behind all that are wanted */
+    list[i].order = place && !is_array ? place : list[i].order + (UINT64_C(1) << 32); /* after all that have a place */
   }
   qsort(list, count, sizeof *list, compare_ordered);
   for (size_t i = 0; i < count; i++)

@@ -12,8 +12,8 @@ ld_output *ld_output_find(const ld_context *ctx, const char *name) {
   return NULL;
 }
 
-/* The initial values of thread-local data lie behind the constants, from at on; each thread copies them into its local
-   memory. Returns where they end, 0 if there are none. */
+/* Places the initial values of thread-local data after the constants, from at on; each thread copies them into its
+   local memory. Returns their end, 0 if there are none. */
 static uint64_t place_initial_values(ld_context *ctx, uint64_t at) {
   bool any = false;
   for (size_t i = 0; i < ctx->outputs.count; i++) {
@@ -244,7 +244,7 @@ bool ld_layout(ld_context *ctx) {
     return false;
   if (ctx->segments.count)
     qsort(ctx->segments.items, ctx->segments.count, sizeof *ctx->segments.items, compare_segments);
-  for (size_t i = 0; i < ctx->segments.count; i++) { /* sections with addresses of their own may lie anywhere */
+  for (size_t i = 0; i < ctx->segments.count; i++) { /* sections with given addresses may be anywhere */
     const ld_segment *segment = &ctx->segments.items[i];
     if (i > 0 && segment->address - segment[-1].address < segment[-1].memory_size && !ctx->error_count)
       ld_error(ctx, "the segments at 0x%x and 0x%x overlap", segment[-1].address, segment->address);

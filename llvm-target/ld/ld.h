@@ -344,7 +344,7 @@ typedef struct ld_call {
 } ld_call;
 
 typedef struct ld_function {
-  ld_section *section; /* NULL: stands for the callees of indirect calls */
+  ld_section *section; /* NULL: represents the callees of indirect calls */
   const char *name;
   uint32_t start, end; /* offsets in the section */
   uint32_t frame;      /* bytes; without a record, what is seen of it */
@@ -375,7 +375,7 @@ bool ld_check_undefined(ld_context *ctx);
 
 /* Applies the relocations of every live section to its bytes in the image. */
 bool ld_relocate(ld_context *ctx);
-/* What unloaded sections hold in place of the address of something that was dropped. */
+/* The value in unloaded sections for the address of a dropped section. */
 uint32_t ld_tombstone(const ld_section *section);
 /* "a.o:(.text+0x4)" */
 const char *ld_place(ld_context *ctx, const ld_section *section, uint32_t offset);

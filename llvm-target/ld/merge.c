@@ -63,7 +63,7 @@ ld_piece *ld_find_piece(const ld_section *section, uint32_t offset) {
 
 /* The merged contents of sections with the same flags, entry size and alignment. */
 typedef struct pool {
-  ld_section *section; /* stands for them in the output */
+  ld_section *section; /* represents them in the output */
   ld_map offsets;      /* piece -> its offset + 1 */
   uint8_t *bytes;
   size_t capacity;

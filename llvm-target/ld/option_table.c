@@ -92,7 +92,7 @@ static const ld_option option_table[] = {
     {"relax", NONE, OPT_ACCEPTED, NULL, NULL},
     {"no-relax", NONE, OPT_ACCEPTED, NULL, NULL},
     {"O", JOINED, OPT_ACCEPTED, "LEVEL", NULL},
-    /* What this linker does not do. */
+    /* Unsupported. */
     {"shared", NONE, OPT_REJECTED, NULL, "the machine has no shared libraries"},
     {"Bdynamic", NONE, OPT_REJECTED, NULL, "the machine has no shared libraries"},
     {"pie", NONE, OPT_REJECTED, NULL, "programs have fixed addresses"},

@@ -210,7 +210,7 @@ static void apply(ld_context *ctx, const ld_option *option, const char *spelled,
   }
 }
 
-/* What -r has no use for: it keeps everything, and has no addresses. */
+/* Reports options that have no meaning with -r, which keeps everything and has no addresses. */
 static void check_relocatable(ld_context *ctx) {
   const ld_options *options = &ctx->options;
   const char *other = options->gc_sections          ? "--gc-sections"

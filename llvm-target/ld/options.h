@@ -64,7 +64,7 @@ typedef struct ld_option {
 /* The option that argument spells, with its value in *value where it is joined; NULL if none. */
 const ld_option *ld_find_option(const char *argument, const char **value);
 
-/* What a mistyped option probably means, as it is spelled; NULL if none is near. */
+/* The spelling of the option that a mistyped one probably means; NULL if none is similar. */
 const char *ld_nearest_option(ld_context *ctx, const char *argument);
 
 typedef LD_VECTOR(const char *) ld_words;

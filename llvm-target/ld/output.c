@@ -66,7 +66,7 @@ static void collect_symbols(ld_context *ctx, ld_symbol_table *table) {
   Elf32_Sym null = {0};
   ld_add_string(ctx, &table->names, "");
   ld_push(ctx, &table->entries, null);
-  add_globals(ctx, table, true); /* first: behind the symbol of a file they would be that file's */
+  add_globals(ctx, table, true); /* first: after the symbol of a file they would belong to that file */
   for (size_t o = 0; o < ctx->objects.count; o++) {
     const ld_object *object = ctx->objects.items[o];
     for (size_t i = 1; i < object->symbol_count && i < object->first_global; i++)

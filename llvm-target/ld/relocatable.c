@@ -18,7 +18,7 @@ static ld_output *add_output(ld_context *ctx, const ld_section *section) {
   return output;
 }
 
-/* What sections must have in common to be joined. */
+/* The properties that sections must share to be joined. */
 typedef struct join_key {
   const ld_output *linked_to;
   uint32_t type, flags, entry_size;

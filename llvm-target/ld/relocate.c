@@ -141,10 +141,10 @@ static void apply(const place *place, uint32_t target, uint32_t address) {
   }
 }
 
-/* What debug information says about code and data that are gone: the highest address, where no code can be. (0, the
-   usual choice, will not do: a dropped function of more than 4 kB would seem to reach from 0 into the text at 0x1000.)
-   In lists of ranges that address would introduce a new base and two zeros would end the list, so there it is 1, an
-   empty range. */
+/* The address of dropped code and data in debug information: the highest one, where no code can be. (0, the usual
+   choice, is wrong here: a dropped function of more than 4 kB would seem to reach from 0 into the text at 0x1000.) In
+   lists of ranges that address would introduce a new base and two zeros would end the list, so there it is 1, an empty
+   range. */
 uint32_t ld_tombstone(const ld_section *section) {
   bool is_list = strcmp(section->name, ".debug_loc") == 0 || strcmp(section->name, ".debug_ranges") == 0;
   return is_list ? 1 : UINT32_MAX;

@@ -39,7 +39,7 @@ static const char *mangled_identifier(const char *name, size_t *length) {
   return *length > 0 && *length <= strlen(name) ? name : NULL;
 }
 
-/* What a name that nobody defines may have meant, or NULL. */
+/* A defined name that an undefined one may have meant, or NULL. */
 static const char *suggestion(ld_context *ctx, const char *name) {
   size_t length, other_length;
   const char *identifier = mangled_identifier(name, &length);

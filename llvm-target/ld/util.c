@@ -33,7 +33,7 @@ void *ld_alloc(ld_context *ctx, size_t size) {
       longjmp(ctx->out_of_memory, 1);
     }
     fresh->size = chunk_size;
-    if (chunk && chunk_size != LD_CHUNK_SIZE) { /* a chunk for itself goes behind the one that is being filled */
+    if (chunk && chunk_size != LD_CHUNK_SIZE) { /* a large block's own chunk goes after the current one */
       fresh->next = chunk->next;
       chunk->next = fresh;
     } else {

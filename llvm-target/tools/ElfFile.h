@@ -56,8 +56,8 @@ public:
   llvm::ArrayRef<llvm::ELF::Elf32_Phdr> segments() const { return Segments; }
   const Section *findSection(llvm::StringRef Name) const; ///< the first of the name, or nullptr
 
-  /// The contents, decompressed and, in a relocatable file, with the relocations applied: symbols of this file count
-  /// with their values, which are offsets in their sections, behind the section's DebugBase, others with 0.
+  /// The contents, decompressed and, in a relocatable file, with the relocations applied. A symbol of this file has its
+  /// value, an offset in its section, plus the section's DebugBase; other symbols have 0.
   llvm::Expected<std::vector<uint8_t>> finalContents(const Section &S) const;
 
 private:

@@ -34,7 +34,7 @@ struct ListingOptions {
   std::function<void(const std::string &Message)> Warning;
 };
 
-/// Prints what Options asks for. Bytes need no alignment. After an error, OS holds a part of the listing.
+/// Prints the parts that Options selects. Bytes need no alignment. After an error, OS holds a part of the listing.
 llvm::Error list(const llvm::Target &T, llvm::StringRef Name, llvm::StringRef Bytes, const ListingOptions &Options,
                  llvm::raw_ostream &OS);
 

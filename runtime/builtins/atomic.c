@@ -1,8 +1,8 @@
-/* Atomic operations that the machine has no instruction for, under a lock made from the one it has. The functions are
-   those of GCC's and LLVM's libatomic. Each object belongs to one of a few locks by its address.
+/* Atomic operations without an instruction, under a lock made from the one that the machine has. The functions are
+   those of GCC's and LLVM's libatomic. An object's address selects one of a few locks.
 
-   Of 1 to 8 bytes the object is read past the cache, so that only an order of acquire or more empties that. A
-   read-modify-write that leaves the value as it was stores nothing: then nobody waits for memory. */
+   Objects of 1 to 8 bytes are read past the cache, so that only an order of acquire or more empties it. A
+   read-modify-write that does not change the value stores nothing, and so waits for no store. */
 #include "../internal/machine.h"
 
 #include <stdbool.h>
@@ -19,7 +19,7 @@ static inline struct ticket_lock *lock_of(const volatile void *p) {
   return &locks[(uintptr_t)p >> 3 & (LOCKS - 1)];
 }
 
-/* What comes before and behind an operation of this order. */
+/* The fences before and after an operation of this order. */
 static inline void begin(int order) {
   if (order >= __ATOMIC_RELEASE)
     release_fence();

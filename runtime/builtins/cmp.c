@@ -1,7 +1,7 @@
 /* Comparisons of doubles, and of floats for code that calls them by name. */
 #include "double.h"
 
-/* -1, 0 or 1; unordered if one is a NaN. Equal magnitudes but for the sign compare as integers; +0 equals -0. */
+/* -1, 0 or 1; unordered if one is a NaN. Without the signs, the values compare as integers; +0 equals -0. */
 static inline int compare(double x, double y, int unordered) {
   uint64_t a = double_bits(x), b = double_bits(y);
   if (is_nan_bits(a) || is_nan_bits(b))

@@ -3,7 +3,7 @@
    within a few units of the true one, as far as that does not cancel. */
 #include "double.h"
 
-/* What the exponent of 0 is taken for: it decides nothing. */
+/* The exponent of 0 for these functions. Results do not depend on it. */
 #define EXPONENT_OF_ZERO (-10000)
 
 #define COMPLEX_ARITHMETIC(suffix, type, fabs_, copysign_, inf_, split, power, scaled)                                 \

@@ -35,7 +35,7 @@ uint64_t __muldi3(uint64_t a, uint64_t b) {
   return words(high, low_word(a) * low_word(b));
 }
 
-/* Of magnitudes: at most one of two cross products is not 0 unless the product overflows. */
+/* Multiplies magnitudes: at most one of two cross products is not 0 unless the product overflows. */
 int64_t __mulodi4(int64_t a, int64_t b, int *overflow) {
   uint64_t sa = (uint64_t)(a >> 63), sb = (uint64_t)(b >> 63), sign = sa ^ sb;
   uint64_t m = ((uint64_t)a ^ sa) - sa, n = ((uint64_t)b ^ sb) - sb;

@@ -1,10 +1,10 @@
-// What compiled C++ calls (Itanium C++ ABI, sections 3.2.6 and 3.3.3): initialisation of function-local statics, and
-// calls of functions that there are not.
+// Functions that compiled C++ calls (Itanium C++ ABI, sections 3.2.6 and 3.3.3): for the initialisation of
+// function-local statics, and for calls of pure virtual and deleted functions.
 #include "../internal/machine.h"
 
-// A guard is two words. The first byte says that the object is initialised, the three behind it which thread (its
-// number plus 1) is at it; the second word counts who asked, so that the first one, by the atomic increment,
-// initialises.
+// A guard is two words. The first byte tells whether the object is initialised. The next three hold the number plus 1
+// of the thread that initialises it. The second word counts the threads that called, by the atomic increment: the first
+// one initialises.
 namespace {
 
 constexpr unsigned initialised = 1;

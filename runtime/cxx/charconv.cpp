@@ -150,7 +150,7 @@ template <class Number> void print_shortest(sink &out, Number value, chars_forma
     print_scientific(out, number);
 }
 
-/// As printf with %f, %e, %g or %a; without a precision, a decimal number is the shortest that reads as value.
+/// Prints like printf with %f, %e, %g or %a; without a precision, the shortest decimal number that reads as value.
 template <class Number>
 to_chars_result convert(char *first, char *last, Number value, chars_format format, bool is_shortest, int precision) {
   if (first == last)

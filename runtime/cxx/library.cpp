@@ -1,4 +1,4 @@
-// What libc++'s headers expect to find compiled, in forms that suit a small stack.
+// The compiled functions that libc++'s headers expect, in forms that suit a small stack.
 #include "../internal/machine.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 _LIBCPP_BEGIN_NAMESPACE_STD
 
-// Where libc++ would throw, and where its checks fail.
+// The functions that replace libc++'s exceptions, and those for its failed checks.
 void __libcpp_verbose_abort(const char *format, ...) {
   static char text[256]; // global, where the host reads it; if two threads write it at once, one of them is heard
   va_list arguments;
@@ -58,7 +58,7 @@ static bool is_prime(unsigned n) {
 
 size_t __next_prime(size_t n) {
   if (n <= 2)
-    return n; // 0 stands for no buckets
+    return n; // 0: no buckets
   if (n > 0xFFFFFFFBu)
     machine_abort("a hash table is too large");
   n |= 1;

@@ -98,8 +98,8 @@ INLINE double canonical_double(double x) {
    has its top bit set. Underflow is gradual, overflow gives infinity. */
 float trax_round_float(uint32_t sign, int exponent, uint32_t significand);
 
-/* The number significand * 2^(exponent - 1023 - 62), likewise; the significand has bit 62 set and bit 63 clear, or the
-   exponent is at most 1 and it is less. */
+/* The number significand * 2^(exponent - 1023 - 62) in the same way; the significand has bit 62 set and bit 63 clear,
+   or the exponent is at most 1 and it is less. */
 double trax_round_double(uint32_t sign, int exponent, uint64_t significand);
 
 #endif

@@ -1,5 +1,4 @@
-/* The little that the C library asks of the machine, in a form that also runs on the host: there the tests supply it.
- */
+/* The C library's interface to the machine. It also runs on the host, where the tests supply these functions. */
 #ifndef TRAX_RUNTIME_MACHINE_H
 #define TRAX_RUNTIME_MACHINE_H
 

@@ -14,7 +14,7 @@
 extern "C" {
 #endif
 
-/* Of each function three: name, namef and namel. */
+/* Each function has three forms: name, namef and namel. */
 #define __TRAX_COMPLEX(name)                                                                                           \
   double _Complex name(double _Complex);                                                                               \
   float _Complex name##f(float _Complex);                                                                              \

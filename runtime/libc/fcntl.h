@@ -13,7 +13,7 @@
 #define O_CREAT 0x200
 #define O_TRUNC 0x400
 #define O_EXCL 0x800
-/* They ask for what is so anyway. */
+/* Accepted without effect: what they demand is always true here. */
 #define O_NONBLOCK 0
 #define O_CLOEXEC 0
 #define O_NOCTTY 0

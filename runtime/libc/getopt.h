@@ -1,5 +1,5 @@
-/* The options of a command line, as GNU has them: they may stand behind other arguments, which getopt moves to the end,
-   unless the text of options begins with "+". The state is shared by all threads. */
+/* The options of a command line, as in GNU's library: they may follow other arguments, which getopt moves to the end,
+   unless the text of options begins with "+". All threads share the state. */
 #ifndef TRAX_GETOPT_H
 #define TRAX_GETOPT_H
 

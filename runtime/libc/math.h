@@ -54,7 +54,7 @@ extern "C" {
 typedef float float_t;
 typedef double double_t;
 
-/* Of each function three: name, namef and namel. */
+/* Each function has three forms: name, namef and namel. */
 #define __TRAX_MATH_1(name)                                                                                            \
   double name(double);                                                                                                 \
   float name##f(float);                                                                                                \

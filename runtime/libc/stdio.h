@@ -1,6 +1,6 @@
-/* Streams of the C library. What is written to stdout goes to the host at once. A call's text is not interleaved with
-   other threads' calls. Files are those below the folders that the user allowed (docs/porting.md). Each function named like its standard twin with an i in front is
-   the same but for the floating-point conversions, and brings none of their code into the program. */
+/* Streams of the C library. Text for stdout goes to the host at once. A call's text is not interleaved with other
+   threads' calls. Files are those below the folders that the user allowed (docs/porting.md). A function with an i
+   before the standard name lacks the floating-point conversions, and brings none of their code into the program. */
 #ifndef TRAX_STDIO_H
 #define TRAX_STDIO_H
 

@@ -59,11 +59,11 @@ unsigned long strtoul(const char *__restrict text, char **__restrict end, int ba
 long long strtoll(const char *__restrict text, char **__restrict end, int base);
 unsigned long long strtoull(const char *__restrict text, char **__restrict end, int base);
 
-/* Not stable; in place, without recursion, in about 2 n log2 n comparisons whatever the order (heapsort). */
+/* Not stable; in place, without recursion, in about 2 n log2 n comparisons for any order (heapsort). */
 void qsort(void *base, size_t count, size_t size, int (*compare)(const void *, const void *));
 void *bsearch(const void *key, const void *base, size_t count, size_t size, int (*compare)(const void *, const void *));
 
-/* Memory from the heap behind the program, shared by all threads; aligned to 8 bytes. NULL if there is none left. */
+/* Memory from the heap, which follows the program; shared by all threads, aligned to 8 bytes. NULL if none is left. */
 void *malloc(size_t size);
 void *calloc(size_t count, size_t size);
 void *realloc(void *memory, size_t size);
@@ -87,7 +87,7 @@ size_t wcstombs(char *__restrict to, const wchar_t *__restrict from, size_t coun
 /* glibc's numbers; one sequence for all threads. */
 long random(void);
 void srandom(unsigned seed);
-/* The numbers that POSIX asks for. */
+/* The sequences that POSIX specifies. */
 double drand48(void);
 double erand48(unsigned short state[3]);
 long lrand48(void);

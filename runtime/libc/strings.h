@@ -1,4 +1,4 @@
-/* What POSIX has here; declared with the others. */
+/* POSIX's header; <string.h> declares the functions. */
 #ifndef TRAX_STRINGS_H
 #define TRAX_STRINGS_H
 

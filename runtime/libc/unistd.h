@@ -1,4 +1,4 @@
-/* What POSIX has here: files by descriptor, and the options of a command line. */
+/* Files by descriptor, and the options of a command line. */
 #ifndef TRAX_UNISTD_H
 #define TRAX_UNISTD_H
 

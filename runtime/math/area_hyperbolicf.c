@@ -81,7 +81,7 @@ float acoshf(float x) {
   if (bits >= BEYOND)
     return logarithm(0, (struct normal){n.significand, n.exponent + 1}, 0);
   int exponent = n.exponent + 31;
-  struct normal s = root(square_of(n) - ((uint64_t)1 << (60 - 2 * exponent)), exponent); /* exact but for the root */
+  struct normal s = root(square_of(n) - ((uint64_t)1 << (60 - 2 * exponent)), exponent); /* exact except for the root */
   if (s.exponent < -32)
     return small_asinh(0, s);
   return logarithm(0, sum(n, s), 0);

@@ -1,4 +1,4 @@
-/* What needs no computation: signs, order, parts of the representation. */
+/* Functions without arithmetic: signs, order, parts of the representation. */
 #include "../internal/bits.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* What needs no computation in binary64: exponents, neighbours, conversions to integers. */
+/* Functions of binary64 without arithmetic: exponents, neighbours, conversions to integers. */
 #include "../builtins/double.h"
 
 #include <math.h>

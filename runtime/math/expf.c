@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-/* What both do where |x| is at least 2^limit or less than 2^-25; NaN too. */
+/* The results of both for NaN, and if |x| is at least 2^limit or less than 2^-25. */
 static float extreme(float x, uint32_t bits) {
   if ((bits & ~FLOAT_SIGN) > FLOAT_INFINITY)
     return bits_float(FLOAT_NAN);

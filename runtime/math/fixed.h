@@ -3,7 +3,7 @@
    A float has 24 bits, a word 32, and the machine multiplies words as fast as floats. So the functions compute a
    significand of 31 or 32 bits with integers and round it once: errors stay within some hundredths of a unit in the
    last place beyond the half that rounding costs, without any double-length floating point. Numbers are written "Qn":
-   the integer stands for itself times 2^-n. */
+   the value is the integer times 2^-n. */
 #ifndef TRAX_RUNTIME_FIXED_H
 #define TRAX_RUNTIME_FIXED_H
 

@@ -9,7 +9,7 @@ float fmaf(float x, float y, float z) {
   double sum = product + (double)z;
   uint64_t bits = double_bits(sum);
   if ((bits & ~DOUBLE_SIGN) < DOUBLE_INFINITY && !(bits & 1)) {
-    /* What the addition rounded away. */
+    /* The part that the addition rounded away. */
     double shared = sum - product;
     double error = (product - (sum - shared)) + ((double)z - shared);
     if (error != 0)

@@ -18,7 +18,7 @@ struct logarithm trax_log2_fixed(uint32_t bits) {
   uint64_t square = mul_high_96(mul_wide(magnitude, magnitude), (uint32_t)p) >> 4; /* Q67 */
   int64_t fraction = (int64_t)((r < 0 ? 0 - linear : linear) - square);
 
-  /* Where the integer part and the table cancel, the fraction is all there is, and keeps its bits. */
+  /* If the integer part and the table's value cancel, only the fraction is left, with all its bits. */
   int64_t whole = (int64_t)(((uint64_t)(int64_t)exponent << 55) + log2_of_reciprocal[i]);
   if (whole == 0)
     return (struct logarithm){fraction, 67};

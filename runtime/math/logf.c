@@ -11,7 +11,7 @@ static float extreme(uint32_t bits) {
   return bits_float(bits == FLOAT_INFINITY ? FLOAT_INFINITY : FLOAT_NAN);
 }
 
-/* log2(x) * factor * 2^-scale; a factor of 0 stands for 2^32. */
+/* log2(x) * factor * 2^-scale; a factor of 0 means 2^32. */
 static inline __attribute__((always_inline)) float scaled_log2(float x, uint32_t factor, int scale) {
   uint32_t bits = float_bits(x);
   if (bits - 1 >= FLOAT_INFINITY - 1)

@@ -11,7 +11,7 @@ static int parity(uint32_t y) {
   if (exponent > 23)
     return 2;
   uint32_t significand = (y & 0x007FFFFF) | 0x00800000;
-  if (significand << 8 << (exponent + 1)) /* digits behind the point; the others are shifted out */
+  if (significand << 8 << (exponent + 1)) /* digits after the point; the others are shifted out */
     return 0;
   return significand >> (23 - exponent) & 1 ? 1 : 2;
 }

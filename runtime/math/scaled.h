@@ -33,7 +33,7 @@ INLINE struct scaled times_power(struct scaled a, int n) {
   return (struct scaled){a.significand, a.exponent + n};
 }
 
-/* Of a number below 1, as Q64. */
+/* A number below 1 as Q64. */
 INLINE uint64_t scaled_fraction(struct scaled a) {
   return a.exponent < -64 ? 0 : a.significand >> (-1 - a.exponent);
 }

@@ -1,8 +1,8 @@
 /* The integer square root that hypotf, asinf, acosf, asinhf, acoshf and sqrt build on. */
 #include "fixed.h"
 
-/* 1 / sqrt(x) to 20 bits, whatever the precision of the machine's own: Newton's iteration does nothing at 21 bits and
- * more. */
+/* 1 / sqrt(x) to 20 bits for every precision of the machine's instruction: Newton's iteration changes nothing at 21
+ * bits and more. */
 static float precise_reciprocal_sqrt(float x) {
   float r = reciprocal_sqrt(x), error;
   while (error = 1 - x * r * r, error > 0x1p-20f || error < -0x1p-20f)

@@ -1,5 +1,5 @@
 /* sin, cos and tan with 64 significant bits. Arguments are reduced as in trigf.c, by multiplying integers with as many
-   bits of 2/pi as the exponent asks for (after Payne and Hanek, "Radian reduction for trigonometric functions", SIGNUM
+   bits of 2/pi as the exponent requires (after Payne and Hanek, "Radian reduction for trigonometric functions", SIGNUM
    18, 1983): one way for all arguments, in a few words of stack. */
 #include "coefficients.h"
 #include "coefficients64.h"
@@ -12,8 +12,8 @@ struct fraction {
   uint32_t word[6];
 };
 
-/* Of m * 2/pi * 2^exponent, the two bits before the point and 190 behind; m < 2^53. What is left out of 2/pi makes it
-   less than 2^-137 too small, and no product of a double comes closer than 2^-62 to an integer. */
+/* Two bits of m * 2/pi * 2^exponent before the point and 190 after it; m < 2^53. The omitted bits of 2/pi make it less
+   than 2^-137 too small, and no product of a double comes closer than 2^-62 to an integer. */
 static inline struct fraction turns(uint64_t m, int exponent) {
   unsigned first = (unsigned)(exponent + 62);
   const uint32_t *w = two_over_pi_long + first / 32;

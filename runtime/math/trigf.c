@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-/* The angle r = +-significand * 2^exponent with |r| <= pi/4, and how many quarter turns lie before it. */
+/* The angle r = +-significand * 2^exponent with |r| <= pi/4, and the number of quarter turns before it. */
 struct reduced {
   uint32_t significand;
   int exponent;
@@ -20,8 +20,7 @@ static struct reduced reduce(uint32_t bits) {
   int exponent = (int)(bits >> 23) - 150; /* x = m * 2^exponent */
   if (bits <= 0x3F490FDA)                 /* below pi/4 */
     return (struct reduced){m << 8, exponent - 8, 0, 0};
-  /* Of 2/pi, the bits that contribute multiples of four quarter turns are left out: what remains of the product is Q62.
-   */
+  /* Bits of 2/pi that contribute multiples of four quarter turns are left out. The rest of the product is Q62. */
   unsigned first = (unsigned)(exponent + 30);
   const uint32_t *w = two_over_pi + first / 32;
   unsigned left = first % 32;

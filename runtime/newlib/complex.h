@@ -1,3 +1,3 @@
-/* newlib's complex functions ask for the guard of its own header. */
+/* newlib's complex functions test the guard of its own header. */
 #include_next <complex.h>
 #define _COMPLEX_H

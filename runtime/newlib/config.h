@@ -1,6 +1,6 @@
-/* How newlib's mathematical functions are compiled: included ahead of each of their files, together with the headers
-   beside this one, which stand for newlib's own. No errno, one rounding mode, no exception flags; the new code for exp,
-   log and pow, which has no divisions. */
+/* The configuration of newlib's mathematical functions, included before each of their files. The headers beside this
+   one replace newlib's own. No errno, one rounding mode, no exception flags; the new code for exp, log and pow, which
+   has no divisions. */
 #ifndef TRAX_NEWLIB_CONFIG_H
 #define TRAX_NEWLIB_CONFIG_H
 

@@ -69,7 +69,7 @@ endforeach()
 list(TRANSFORM NEWLIB_C APPEND .c)
 list(TRANSFORM NEWLIB_C PREPEND ${NEWLIB_DIR}/libm/)
 
-# Our headers stand for newlib's own. The code is not ours to warn about.
+# Our headers replace newlib's own. We do not warn about its code.
 set(NEWLIB_FLAGS -w -include ${CMAKE_CURRENT_LIST_DIR}/config.h -I${CMAKE_CURRENT_LIST_DIR} -I${NEWLIB_DIR}/libm/common)
 file(GLOB NEWLIB_HEADERS CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/*.h ${CMAKE_CURRENT_LIST_DIR}/*/*.h)
 

@@ -1,4 +1,4 @@
-/* What there is of a process: one, with number 1, without an environment. */
+/* The only process: number 1, without an environment. */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>

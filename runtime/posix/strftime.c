@@ -32,7 +32,7 @@ static const char *name_of(const char *const *names, int number, int count) {
   return number >= 0 && number < count ? names[number] : "?";
 }
 
-/* One conversion into text; NULL: it stands for the format that is returned in *other. */
+/* Expands one conversion into text. Returns NULL if it is short for a format, which *other gets. */
 static void convert(char *text, size_t size, char letter, const struct tm *parts, const char **other) {
   int year = parts->tm_year + 1900, hour = parts->tm_hour % 12 ? parts->tm_hour % 12 : 12, iso;
 #define NUMBER(FORMAT, VALUE) sniprintf(text, size, FORMAT, VALUE)
@@ -154,7 +154,7 @@ static void convert(char *text, size_t size, char letter, const struct tm *parts
 
 size_t strftime(char *restrict to, size_t size, const char *restrict format, const struct tm *restrict parts) {
   size_t used = 0;
-  const char *behind = NULL; /* behind a conversion that stands for a format */
+  const char *behind = NULL; /* the rest of the format after a conversion that is short for a format */
   for (;; format++) {
     if (!*format) {
       if (!behind)

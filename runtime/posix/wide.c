@@ -51,7 +51,7 @@ INTEGER(uintmax_t, wcstoumax, strtoumax)
 
 size_t wcsftime(wchar_t *restrict to, size_t size, const wchar_t *restrict format, const struct tm *restrict time) {
   const size_t format_size = 4 * wcslen(format) + 1;
-  char *bytes = size <= (size_t)-1 / 8 ? malloc(4 * size + format_size) : NULL; /* the format behind the result */
+  char *bytes = size <= (size_t)-1 / 8 ? malloc(4 * size + format_size) : NULL; /* the result, then the format */
   size_t length = 0;
   if (bytes && wcstombs(bytes + 4 * size, format, format_size) != (size_t)-1 &&
       strftime(bytes, 4 * size, bytes + 4 * size, time))

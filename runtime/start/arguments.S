@@ -1,5 +1,5 @@
 // argc and argv. The linker takes this file for programs whose main uses them: the compiler refers to __trax_argv there.
-// crt0 has one instruction each to set them to nothing; __trax_start, as it is here, returns behind both.
+// crt0 sets each of them to 0 by one instruction; the __trax_start here returns to the place after both.
 #include <trax/abi.h>
 
   .globl __trax_argv
@@ -29,7 +29,7 @@ __trax_start:
   .long __trax_start
   .uleb128 4
 
-  // The loader stores argc and argv here, and the arguments behind the program.
+  // The loader stores argc and argv here, and the arguments after the program.
   .section .bss.__trax_arguments, "aw", @nobits
   .globl __trax_arguments
   .type __trax_arguments, @object

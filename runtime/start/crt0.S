@@ -1,8 +1,8 @@
-// Program start: every TP begins here at cycle 0 with all registers 0 (docs/abi.md, "Program start"). The stack pointer then
-// stands at the end of local memory already; assembled with TRAX_GLOBAL_STACK, for -mstack=global, this sets it to the top
-// of the thread's stack in global memory.
+// Program start: every TP begins here at cycle 0 with all registers 0 (docs/abi.md, "Program start"). A stack pointer of 0
+// is the end of local memory. Assembled with TRAX_GLOBAL_STACK, for -mstack=global, this sets it to the top of the
+// thread's stack in global memory.
 //
-// What the program does not have is not there to be called: a call of an undefined weak function goes on behind itself.
+// A call of an undefined weak function continues after the call. So parts that the program lacks are skipped.
 #include <trax/abi.h>
 
 #ifdef TRAX_GLOBAL_STACK

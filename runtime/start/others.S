@@ -1,4 +1,4 @@
-// Where the threads other than 0 begin with --main-on 0, in programs that have trax_start_threads: as crt0, but for main.
+// The start of threads other than 0 with --main-on 0, in programs that have trax_start_threads: crt0 without main.
 #include <trax/abi.h>
 
   .weak __trax_stack_size, __trax_stack_top, __trax_end_thread, __trax_end_program

@@ -1,4 +1,4 @@
-/* What a thread does before main, in programs that have initialised thread-local data or constructors; the linker takes
+/* A thread's work before main, in programs that have initialised thread-local data or constructors. The linker takes
    this file only for them, and the start file calls it if it is there. */
 #include "../internal/machine.h"
 
@@ -11,7 +11,7 @@ extern void (*const __init_array_end[])(void);
 extern unsigned __tdata_start[], __tdata_end[];
 extern const unsigned __tdata_load[];
 
-/* What the other threads wait for: constructed, or that thread 0 called exit in a constructor. */
+/* The state that the other threads wait for: constructed, or thread 0 called exit in a constructor. */
 enum { CONSTRUCTING, CONSTRUCTED, ENDED };
 static unsigned construction;
 void __trax_end_construction(void);
@@ -45,7 +45,7 @@ void __trax_prepare(void) {
   }
 }
 
-/* What crt0 calls, unless arguments.S does and calls __trax_prepare. */
+/* Called by crt0. In programs with arguments.S, its __trax_start calls __trax_prepare instead. */
 __attribute__((weak, alias("__trax_prepare"))) void __trax_start(void);
 
 #endif

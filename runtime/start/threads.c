@@ -29,7 +29,7 @@ __attribute__((constructor)) static void register_release(void) {
   __cxa_thread_atexit(release, NULL, NULL);
 }
 
-/* Asks seldom, so that main has memory for itself. */
+/* Polls seldom, so that main has the memory's bandwidth. */
 void __trax_wait(void) {
   enum { PAUSE = 500 /* turns of an empty loop */ };
   unsigned now;

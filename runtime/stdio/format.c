@@ -182,12 +182,12 @@ static const char *parse_number(const char *f, int *value) {
   return f;
 }
 
-/* A va_list that functions can advance for their caller, whatever kind of type it is. */
+/* A va_list that functions can advance for their caller, for any type of va_list. */
 struct arguments {
   va_list list;
 };
 
-/* What stands between % and the letter, and the letter; returns where it is. */
+/* Reads the part between % and the letter, and the letter; returns the letter's place. */
 SEPARATE static const char *parse_conversion(const char *f, struct conversion *how, struct arguments *arguments) {
   f = parse_flags(f, how);
   if (*f == '*') {
@@ -281,8 +281,8 @@ SEPARATE static void store_count(int count, const struct conversion *how, void *
   }
 }
 
-/* What is behind an unknown conversion's argument cannot be found. The message is in global memory, where the host
-   reads it; if two threads write it at once, one of them is heard. */
+/* Arguments after that of an unknown conversion cannot be found. The message is in global memory, where the host reads
+   it; if two threads write it at once, the host gets one of them. */
 __attribute__((noreturn)) SEPARATE static void refuse(const char *why, const char *letter) {
   static char message[64];
   char *to = message;

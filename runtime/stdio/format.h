@@ -1,11 +1,11 @@
-/* The formatting engine behind all of printf's relatives. */
+/* The formatting engine of all functions like printf. */
 #ifndef TRAX_RUNTIME_FORMAT_H
 #define TRAX_RUNTIME_FORMAT_H
 
 #include <stdarg.h>
 #include <stddef.h>
 
-/* Where characters go: the standard output, or memory as far as it reaches. */
+/* The destination of characters: the standard output, or memory up to its end. */
 struct sink {
   char *at, *end; /* at is NULL for the standard output */
   int count;      /* characters so far, stored or not */
@@ -39,7 +39,7 @@ void trax_put(struct sink *out, int c);
 void trax_put_repeated(struct sink *out, int c, int count);
 /* Sign, padding to the width with zeros after a prefix ("-", "0x"), or with blanks before it; body is what follows. */
 void trax_put_prefix(struct sink *out, const struct conversion *how, const char *prefix, int body);
-/* Blanks behind what began when out->count was start, for FLAG_LEFT. */
+/* For FLAG_LEFT: writes blanks after the text that began when out->count was start. */
 void trax_put_suffix(struct sink *out, const struct conversion *how, int start);
 
 /* Formats the arguments and returns out->count, or -1 at a wide character that there is not. A conversion that is

@@ -143,7 +143,7 @@ static int rest_is_zero(const struct digits *d) {
   return 1;
 }
 
-/* Rounds the number to count digits, or, if count is negative, to places digits behind the point. */
+/* Rounds the number to count digits, or, if count is negative, to places digits after the point. */
 SEPARATE static void round_digits(struct digits *d, int count, int places) {
   struct rounded *r = &d->rounded;
   int power = 0, to_read = count < 0 ? places + 1 : count;

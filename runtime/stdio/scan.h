@@ -1,11 +1,11 @@
-/* The engine behind all of scanf's relatives. */
+/* The engine of all functions like scanf. */
 #ifndef TRAX_RUNTIME_SCAN_H
 #define TRAX_RUNTIME_SCAN_H
 
 #include <stdarg.h>
 #include <stdio.h>
 
-/* Where characters come from: text, or a stream whose lock is held. */
+/* The source of characters: text, or a stream whose lock is held. */
 struct source {
   const char *at; /* NULL: the stream */
   void *stream;

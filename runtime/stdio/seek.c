@@ -40,7 +40,7 @@ off_t ftello(FILE *stream) {
   }
   lock_stream(stream);
   int is_reading = (stream->flags & STREAM_IS_READING) != 0;
-  /* What is to be appended goes to the end, wherever the position is. */
+  /* Appended data go to the end, independent of the position. */
   int appends = !is_reading && stream->at && (stream->flags & STREAM_APPENDS);
   long long position = seek_host(stream, 0, appends ? SEEK_END : SEEK_CUR);
   if (position >= 0)

@@ -71,7 +71,7 @@ int trax_stream_begin_reading(FILE *stream) {
   return 0;
 }
 
-/* What was read and not used goes back to the file. */
+/* Moves the file's position back by the bytes that were read and not used. */
 int trax_stream_begin_writing(FILE *stream) {
   if (!(stream->flags & STREAM_WRITES))
     return fail(stream, EBADF);

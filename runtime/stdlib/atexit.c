@@ -1,4 +1,4 @@
-/* What runs when the program ends: functions given to atexit, destructors of static C++ objects, and then those in
+/* Functions that run when the program ends: those given to atexit, destructors of static C++ objects, and then those in
    .fini_array. A program ends with its last thread, which runs them, the latest first. */
 #include "../internal/machine.h"
 

@@ -1,5 +1,5 @@
 /* The heap: free blocks in a list ordered by address, first fit, neighbours joined when freed. Beyond the last block
-   lies untouched memory, from which the heap grows. One lock serves all threads. */
+   is untouched memory, from which the heap grows. One lock serves all threads. */
 #include "../internal/machine.h"
 
 #include <errno.h>

@@ -1,6 +1,5 @@
 /* Pseudo-random numbers: a 32-bit xorshift whose steps have the full period, Marsaglia, "Xorshift RNGs", Journal of
-   Statistical Software 8 (2003). The state is thread-local, and 0, which local memory starts with, stands for the
-   seed 1. */
+   Statistical Software 8 (2003). The state is thread-local. 0, the initial value of local memory, means the seed 1. */
 #include <stdint.h>
 #include <stdlib.h>
 

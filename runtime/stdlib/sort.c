@@ -31,7 +31,7 @@ static inline __attribute__((always_inline)) void heapsort(char *base, size_t co
       start--;
     else
       swap(base, base + --end * size, size);
-    /* The element at the parent moves down until none of its children is greater. */
+    /* Moves the parent's element down until no child is greater. */
     for (size_t parent = start, child; (child = 2 * parent + 1) < end; parent = child) {
       if (child + 1 < end && compare(base + child * size, base + (child + 1) * size, context) < 0)
         child++;

@@ -11,9 +11,9 @@
 /* Inlining would put everything's variables into one frame. */
 #define SEPARATE __attribute__((noinline))
 
-/* The number is digits[0 .. point-1] in base 10^9 before the decimal point and the others behind it. 309 digits may
-   stand before the point, 340 zeros behind it; no number between two doubles has more than 767 digits from the first
-   that is not 0 on, so of more it matters only whether they are zeros. */
+/* digits[0 .. point-1] are the digits before the decimal point in base 10^9, the others those after it. There may be
+   309 decimal digits before the point and 340 zeros after it. No number halfway between two doubles has more than 767
+   digits from the first that is not 0 on, so of further digits it matters only whether they are zeros. */
 #define SIGNIFICANT 774
 #define LIMBS (39 + SIGNIFICANT / 9)
 #define BITS_AT_A_TIME 29 /* 2^29 < 10^9: a limb times that carries less than a limb */
@@ -126,7 +126,7 @@ SEPARATE static void read_digits(const struct decimal *d) {
     shared.digits[shared.last] = limb;
   }
   if (rest)
-    shared.digits[shared.last] |= 1; /* the last digit read, far behind any that decides, as a sign that more follow */
+    shared.digits[shared.last] |= 1; /* the last digit read, far after any that decides, shows that more follow */
 }
 
 /* The integer part to words; returns how many. */
@@ -147,7 +147,7 @@ SEPARATE static int read_integer(void) {
   return count;
 }
 
-/* What stands before the point when the fraction is multiplied by 2^29. */
+/* The integer part of the fraction times 2^29. */
 SEPARATE static uint32_t next_bits(void) {
   uint32_t carry = 0;
   while (shared.last >= shared.first && shared.digits[shared.last] == 0)
@@ -236,7 +236,7 @@ SEPARATE static const char *parse_hexadecimal(const char *p, struct binary *b) {
   return p;
 }
 
-/* The length of a word in lower case if the text begins with it, in whatever case, else 0. */
+/* The length of a word in lower case if the text begins with it in any case, else 0. */
 static int matches(const char *text, const char *word) {
   int n = 0;
   for (; word[n]; n++)

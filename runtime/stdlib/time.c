@@ -1,4 +1,4 @@
-/* What there is of <time.h>. */
+/* clock and difftime. */
 #include "../internal/machine.h"
 
 #include <time.h>

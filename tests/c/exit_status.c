@@ -1,6 +1,5 @@
 // RUN: %run_c %s %t --simflags "--config 1x32" --status 5
-// The exit status is that of the lowest thread whose status is not 0, whether by return or by exit. (Expected output by
-// hand.)
+// The exit status is that of the lowest thread whose status is not 0, whether by return or by exit.
 #include <stdlib.h>
 #include <trax.h>
 

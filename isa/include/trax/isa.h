@@ -56,7 +56,7 @@ enum {
   TRAX_IS_ROOT = 1u << 13        /* reciprocal square root */
 };
 
-/* How many registers an instruction reads from ra and rb on, in its flags: those behind r31 are r0, r1 and so on. */
+/* How many registers an instruction reads from ra and rb on, in its flags: r31 is followed by r0, r1 and so on. */
 #define TRAX_GROUP_A(COUNT) (((COUNT)-1u) << 16)
 #define TRAX_GROUP_B(COUNT) (((COUNT)-1u) << 20)
 static inline unsigned trax_group_a(unsigned flags) {

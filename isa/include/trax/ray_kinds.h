@@ -1,4 +1,4 @@
-/* What the trap `kinds` counts (docs/isa.md, "Traps"). */
+/* The kinds of rays that the trap `kinds` counts (docs/isa.md, "Traps"). */
 #ifndef TRAX_RAY_KINDS_H
 #define TRAX_RAY_KINDS_H
 

@@ -1,4 +1,4 @@
-/* CRC-32 by a table, which is made anew each time. */
+/* CRC-32 by a table, which is computed at each call. */
 #include "../bench.h"
 
 enum { SIZE = 16384 };

@@ -15,7 +15,7 @@ void kernel_setup(void) {
   image.data = pixels;
 }
 
-/* As render_layout does, which does not return on the TP. */
+/* The loop of render_layout, which does not return on the TP. */
 struct result kernel_run(void) {
   const struct trax_render_params *run = params.data;
   next_slot[0] = 0;

@@ -6,7 +6,7 @@
 #include "trax/render_params.h"
 #include "trax/scene_format.h"
 
-/* What raytracer/device/run.h asks for, of this scene: twelve levels, binary nodes, a whole stack. */
+/* The parameters of raytracer/device/run.h for this scene: twelve levels, binary nodes, a whole stack. */
 #define TRAX_TREE_DEPTH 12
 #define TRAX_STACK_ENTRIES 12
 #define TRAX_NODE_LAYOUT TRAX_NODES_BINARY

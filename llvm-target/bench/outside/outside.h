@@ -1,4 +1,4 @@
-/* What the drivers of outside programs share: data to work on, and memory for malloc where there is no loader. */
+/* Shared by the drivers of outside programs: input data, and memory for malloc where there is no loader. */
 #ifndef TRAX_OUTSIDE_H
 #define TRAX_OUTSIDE_H
 
@@ -38,7 +38,8 @@ static inline uint32_t outside_sum(const void *bytes, uint32_t size) {
   return sum;
 }
 
-/* What was packed and unpacked again must be what it was; a checksum that no other result has says that it is not. */
+/* Data that were packed and unpacked must equal the original. Otherwise the checksum is one that no other result has.
+ */
 static inline struct result outside_round_trip(const void *before, const void *after, uint32_t size, const void *packed,
                                                uint32_t packed_size) {
   return (struct result){memcmp(before, after, size) == 0 ? outside_sum(packed, packed_size) : 0, 0};

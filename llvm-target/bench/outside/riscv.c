@@ -1,4 +1,4 @@
-/* What the C library asks of the machine, on Linux for RISC-V: nothing but to end. The programs print nothing. */
+/* The C library's host functions on Linux for RISC-V. The programs print nothing, so only the end is needed. */
 __attribute__((noreturn)) static void end(int status) {
   register long code __asm__("a0") = status;
   register long number __asm__("a7") = 93;

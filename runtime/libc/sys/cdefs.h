@@ -1,4 +1,4 @@
-/* What headers of others take from here. */
+/* Macros that other projects' headers use. */
 #ifndef TRAX_SYS_CDEFS_H
 #define TRAX_SYS_CDEFS_H
 

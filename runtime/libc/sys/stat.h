@@ -1,4 +1,4 @@
-/* What is known of files: kind, the owner's permissions and size. They have no times and no owners. */
+/* A file's kind, the owner's permissions and the size. Files have no times and no owners. */
 #ifndef TRAX_SYS_STAT_H
 #define TRAX_SYS_STAT_H
 

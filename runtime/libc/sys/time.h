@@ -1,9 +1,8 @@
-/* The time of day, as <time.h> has it. */
+/* The time of day. As on other systems, <time.h> is not included. */
 #ifndef TRAX_SYS_TIME_H
 #define TRAX_SYS_TIME_H
 
 #include <sys/types.h>
-#include <time.h>
 
 struct timeval {
   time_t tv_sec;

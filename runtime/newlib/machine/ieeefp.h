@@ -1,2 +1,2 @@
-/* What newlib's mathematical functions ask about the machine's floating point. */
+/* The machine's floating point, for newlib's mathematical functions. */
 #define __IEEE_LITTLE_ENDIAN

@@ -109,7 +109,8 @@ def render(bin_directory, meshes, bits, model, size, chip, scratch):
 
 def read_png(path):
     """The pixels of a picture, as tuples of three."""
-    return [tuple(row[i:i + 3]) for row in png_files.read_png(pathlib.Path(path).read_bytes())[2] for i in range(0, len(row), 3)]
+    width, _, rows = png_files.read_png(pathlib.Path(path).read_bytes())
+    return [tuple(row[i:i + 3]) for row in rows for i in range(0, len(row), len(row) // width)]
 
 
 BACKGROUND = (0x98, 0xA8, 0xB8)  # trax-render's
