@@ -1,4 +1,4 @@
-/* The way from a surface to a light, and the normal of a triangle that is one. */
+/* The direction from a surface to a light, and the normal of an emitting triangle. */
 #ifndef TRAX_DEVICE_AIM_H
 #define TRAX_DEVICE_AIM_H
 
@@ -15,7 +15,8 @@ struct light {
   int32_t cosine_bits; /* of the angle to the normal; not positive: the light is behind the surface */
 };
 
-/* The cosine is that at the ray's start. A picture in which this shows is left to path.h (TRAX_FEATURE_NEAR_LIGHT). */
+/* Takes the cosine at the ray's start. Pictures in which that shows are rendered by path.h (TRAX_FEATURE_NEAR_LIGHT).
+ */
 static inline void aim_at_light(struct light *light, const struct surface *surface, const float *position) {
   struct vector way = minus(load_vector(position), surface->start);
   float square = dot(way, way);
@@ -32,8 +33,8 @@ struct arrival {
   struct vector direction; /* towards the light, unit length */
   int32_t distance_bits;   /* the shadow ray's length; FARTHEST_BITS: unlimited */
   struct vector target;
-  struct vector radiance; /* what a white surface that faces the light sends back */
-  float density;          /* of an emitter: pi times that in solid angle with which the direction was taken; else 0 */
+  struct vector radiance; /* reflected by a white surface that faces the light */
+  float pdf;              /* of an emitter: pi times that in solid angle; else 0 */
 };
 
 #define FARTHEST_BITS 0x7F000000 /* 2^127, farther than anything in a scene that frame.c accepts */
@@ -52,7 +53,7 @@ static inline float aim_at(struct arrival *arrival, struct vector from, struct v
   return inverse * inverse;
 }
 
-/* The unit normal on either side; 0 of a triangle without area. */
+/* A unit normal on either side; 0 if the triangle has no area. */
 static inline struct vector triangle_normal(const float *v) {
   struct vector a = load_vector(v), e = minus(load_vector(v + 3), a), f = minus(load_vector(v + 6), a);
   struct vector n = cross(e, f);

@@ -1,4 +1,4 @@
-/* Where the light comes from: points, directions and rectangles that the view has, and triangles that emit. */
+/* Sampling of lights: points, directions and rectangles of the view, and emitting triangles. */
 #ifndef TRAX_DEVICE_LIGHT_H
 #define TRAX_DEVICE_LIGHT_H
 
@@ -10,7 +10,7 @@
 
 #include <stdbool.h>
 
-/* From 0 to what is as good as infinite. A NaN stays one, to be seen. */
+/* Clamps to 0 and TRAX_MAX_RADIANCE. A NaN stays one, to be seen. */
 static inline float bounded(float value) {
   return magnitude(value) > 0x7F800000 ? value : at_most(at_least(value, 0), TRAX_MAX_RADIANCE);
 }
@@ -19,11 +19,11 @@ static inline struct vector bounded_colour(struct vector colour) {
   return (struct vector){bounded(colour.x), bounded(colour.y), bounded(colour.z)};
 }
 
-/* False: nothing arrives. place chooses a point of the light. */
+/* Samples a point of a light by `place`. False: no light arrives. */
 static inline bool light_arrives(struct arrival *arrival, const struct trax_device_light *light, struct vector point,
                                  struct place place) {
   struct vector target = load_vector(light->place);
-  arrival->density = 0;
+  arrival->pdf = 0;
   arrival->radiance = load_vector(light->radiance);
   if (light->kind == TRAX_FROM_DIRECTION) {
     arrival->direction = arrival->target = target;
@@ -48,13 +48,13 @@ static inline bool light_arrives(struct arrival *arrival, const struct trax_devi
   return true;
 }
 
-/* pi times the density in solid angle of a point of an emitter at a distance's square, seen at a cosine; choices: how
-   many the shadow ray was chosen from. */
-static inline float emitter_density(float per_area, float square, float cosine, float choices) {
+/* pi times the pdf in solid angle of a point of an emitter at the root of `square`, seen at a cosine; choices: the
+   number of lights that the shadow ray chooses from, all emitters being one. */
+static inline float emitter_pdf(float per_area, float square, float cosine, float choices) {
   return bounded(3.14159265f * per_area * square / at_least(choices * cosine, 0x1p-40f));
 }
 
-/* A point of one of the emitters: pick chooses which, place where on it. */
+/* Samples an emitter by pick and a point on it by place. */
 static inline bool emitter_arrives(struct arrival *arrival, bool one_sided, const struct trax_path_params *path,
                                    uint32_t pick, struct vector point, struct place place) {
   const struct trax_emitter *emitters = path_table(path->emitters);
@@ -80,7 +80,7 @@ static inline bool emitter_arrives(struct arrival *arrival, bool one_sided, cons
   if (float_bits(cosine) < float_bits(0x1p-20f) ||
       (one_sided && float_bits(facing) < 0 && material->kind != TRAX_MATERIAL_GLASS))
     return false;
-  arrival->density = emitter_density(material->emitter_density, 1 / falloff, cosine, (float)(int32_t)path->choices);
+  arrival->pdf = emitter_pdf(material->emitter_pdf, 1 / falloff, cosine, (float)(int32_t)path->choices);
   arrival->radiance = load_vector(material->emission);
   return true;
 }

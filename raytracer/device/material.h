@@ -1,5 +1,5 @@
-/* What surfaces do with light. Reflectances here are pi times the BRDF, and densities pi times those in solid angle, so
-   that a white Lambert surface has 1 and its density is the cosine. */
+/* BRDFs, their sampling and their densities. All reflectances are pi times the BRDF, and all pdfs pi times those in
+   solid angle, so that a white Lambert surface has the reflectance 1 and its pdf is the cosine. */
 #ifndef TRAX_DEVICE_MATERIAL_H
 #define TRAX_DEVICE_MATERIAL_H
 
@@ -9,11 +9,11 @@
 
 #include <stdbool.h>
 
-/* Of a surface that scatters. Directions are of unit length and lead away from it. */
+/* The point that is shaded. Directions are of unit length and lead away from it. */
 struct scatterer {
-  struct vector view;   /* where the ray came from */
+  struct vector view;   /* towards the origin of the ray */
   struct vector flat;   /* the triangle's normal, towards the view */
-  struct vector normal; /* the same, or the smooth one */
+  struct vector normal; /* the shading normal */
   struct vector diffuse, specular;
   float roughness; /* of a GGX layer */
 };
@@ -44,7 +44,7 @@ static inline struct place disk_point(struct place place) {
   return steep ? (struct place){across, along} : (struct place){along, across};
 }
 
-/* Of unit length about n, its density the cosine. */
+/* A cosine-distributed direction about n. */
 static inline struct vector cosine_direction(struct vector n, struct place place) {
   struct place disk = disk_point(place);
   struct vector s, t;
@@ -59,8 +59,8 @@ static inline struct vector reflected(struct vector view, struct vector normal) 
   return minus(times(2 * dot(normal, view), normal), view);
 }
 
-/* What a smooth boundary reflects of unpolarised light (Fresnel): cosine on this side, ratio of this side's index to
-   the other's; *transmitted is the cosine on the other side. 1: total reflection. */
+/* Fresnel's reflectance of a dielectric for unpolarised light. cosine: on this side; ratio: of this side's index of
+   refraction to the other's; *transmitted: the cosine on the other side. 1: total reflection. */
 static inline float fresnel(float cosine, float ratio, float *transmitted) {
   float square = 1 - ratio * ratio * (1 - cosine * cosine);
   *transmitted = 0;
@@ -68,20 +68,20 @@ static inline float fresnel(float cosine, float ratio, float *transmitted) {
     return 1;
   float other = root(square);
   *transmitted = other;
-  /* Of the cosines one is more than 0, and index 1 at a grazing angle reflects all. */
+  /* One of the cosines is positive. With index 1, a grazing angle reflects all. */
   float across_sum = at_least(ratio * cosine + other, 0x1p-40f), along_sum = at_least(cosine + ratio * other, 0x1p-40f);
   float across = (ratio * cosine - other) / across_sum, along = (cosine - ratio * other) / along_sum;
   return 0.5f * (across * across + along * along);
 }
 
-/* Where a mirror sends the ray: about the smooth normal, unless that leads into the surface. */
+/* The mirrored direction, about the shading normal unless that leads into the surface. */
 static inline struct vector mirror_direction(const struct scatterer *at) {
   struct vector way = reflected(at->view, at->normal);
   return float_bits(dot(at->flat, way)) > 0 ? way : reflected(at->view, at->flat);
 }
 
-/* Where glass sends the ray: the reflected one if choice, from 0 to 1, is below what is reflected. ratio is that of the
-   index on the view's side to the other's. */
+/* Reflects if choice, from 0 to 1, is below Fresnel's reflectance, else refracts. ratio: of the index of refraction on
+   the view's side to the other's. */
 static inline struct vector glass_direction(const struct scatterer *at, float ratio, float choice, bool *through) {
   struct vector normal = at->normal;
   float cosine = dot(normal, at->view);
@@ -99,10 +99,10 @@ static inline struct vector glass_direction(const struct scatterer *at, float ra
   }
 }
 
-/* --- GGX: Walter and others, "Microfacet Models for Refraction through Rough Surfaces" (EGSR 2007); masking of heights
-   that are correlated, Heitz, "Understanding the Masking-Shadowing Function" (JCGT 3(2), 2014); Fresnel's equations by
-   Schlick's approximation. What the layer does not reflect reaches the Lambert surface below, on the way in and on the
-   way out. */
+/* --- GGX: Walter and others, "Microfacet Models for Refraction through Rough Surfaces" (EGSR 2007); masking with
+   correlated heights, Heitz, "Understanding the Masking-Shadowing Function" (JCGT 3(2), 2014); Fresnel's equations by
+   Schlick's approximation. Light that the layer does not reflect reaches the Lambert surface below, on the way in and
+   out. */
 
 /* (1 - cosine)^5 */
 static inline float schlick_weight(float cosine) {
@@ -124,7 +124,7 @@ static inline float smith(float cosine, float square_roughness) {
   return root(square_roughness + (1 - square_roughness) * cosine * cosine);
 }
 
-/* pi times the density of microfacets whose normal is half; without the cancellation of 1 - cosine^2. */
+/* pi times the GGX distribution of normals at `half`, without the cancellation of 1 - cosine^2. */
 static inline float facets(struct vector normal, struct vector half, float square_roughness) {
   float cosine = dot(normal, half);
   struct vector sine = cross(normal, half);
@@ -134,7 +134,7 @@ static inline float facets(struct vector normal, struct vector half, float squar
 
 #define LEAST_COSINE 0x1p-10f
 
-/* How the surface chooses between its layer and what is below: the probability of the layer. */
+/* The probability with which the layer is sampled, rather than the surface below. */
 static inline float layer_share(const struct scatterer *at) {
   float cosine = at_least(dot(at->normal, at->view), LEAST_COSINE);
   float layer = bits_float(greatest_bits(schlick(at->specular, schlick_weight(cosine))));
@@ -143,10 +143,10 @@ static inline float layer_share(const struct scatterer *at) {
   return float_bits(below) == 0 ? 1 : at_most(at_least(share, 0.125f), 0.875f);
 }
 
-/* pi times the BRDF for light from `way`, and pi times the density with which scatter_layered takes it. cosine is that
-   of the way, and positive. */
+/* pi times the BRDF for light from `way`, and pi times the pdf of that direction in scatter(). cosine: of the way,
+   positive. */
 static inline struct vector layered_reflectance(const struct scatterer *at, struct vector way, float cosine,
-                                                float *density) {
+                                                float *pdf) {
   float view = at_least(dot(at->normal, at->view), LEAST_COSINE);
   float square = at->roughness * at->roughness;
   struct vector sum = plus(at->view, way);
@@ -158,11 +158,11 @@ static inline struct vector layered_reflectance(const struct scatterer *at, stru
   struct vector below = filtered(rest_of(schlick(at->specular, schlick_weight(view))),
                                  rest_of(schlick(at->specular, schlick_weight(cosine))));
   float share = layer_share(at);
-  *density = share * (d * 0.5f / (view + smith_view)) + (1 - share) * cosine;
+  *pdf = share * (d * 0.5f / (view + smith_view)) + (1 - share) * cosine;
   return plus(times(d * masked, mirrored), filtered(at->diffuse, below));
 }
 
-/* A microfacet's normal as the view sees them: Heitz, "Sampling the GGX Distribution of Visible Normals" (JCGT 7(4),
+/* Samples the distribution of visible normals: Heitz, "Sampling the GGX Distribution of Visible Normals" (JCGT 7(4),
    2018). */
 static inline struct vector visible_facet(const struct scatterer *at, struct place place) {
   struct vector s, t;
@@ -189,33 +189,33 @@ static inline struct vector visible_facet(const struct scatterer *at, struct pla
 
 /* --- a layer, or Lambert's law alone --- */
 
-/* For light from `way`, whose cosine is positive. density: pi times that of scatter. */
+/* pi times the BRDF for light from `way`, whose cosine is positive; *pdf: pi times that of scatter(). */
 static inline struct vector reflectance(const struct scatterer *at, bool layered, struct vector way, float cosine,
-                                        float *density) {
+                                        float *pdf) {
   if (layered)
-    return layered_reflectance(at, way, cosine, density);
-  *density = cosine;
+    return layered_reflectance(at, way, cosine, pdf);
+  *pdf = cosine;
   return at->diffuse;
 }
 
-/* Chooses a way that light may have come; choice is from 0 to 1. Returns how much of its light is sent on, which has
-   been divided by the way's density, given in *density. {0, 0, 0}: none. */
+/* Samples a direction of incident light; choice is from 0 to 1. Returns BRDF times cosine divided by the pdf; *pdf is
+   pi times that. {0, 0, 0}: no direction. */
 static inline struct vector scatter(const struct scatterer *at, bool layered, struct place place, float choice,
-                                    struct vector *way, float *density) {
+                                    struct vector *way, float *pdf) {
   if (layered && choice < layer_share(at))
     *way = unit(reflected(at->view, visible_facet(at, place)));
   else
     *way = cosine_direction(at->normal, place);
   float cosine = dot(at->normal, *way);
-  *density = 0;
+  *pdf = 0;
   if (float_bits(cosine) < float_bits(LEAST_COSINE * LEAST_COSINE) || float_bits(dot(at->flat, *way)) <= 0)
     return (struct vector){0, 0, 0};
   if (!layered) {
-    *density = cosine;
+    *pdf = cosine;
     return at->diffuse;
   }
-  struct vector part = layered_reflectance(at, *way, cosine, density);
-  return times(cosine / at_least(*density, 0x1p-40f), part);
+  struct vector part = layered_reflectance(at, *way, cosine, pdf);
+  return times(cosine / at_least(*pdf, 0x1p-40f), part);
 }
 
 #endif

@@ -1,16 +1,17 @@
-/* Pictures with more than the paper's workload: several lights, mirrors, glass, rough layers, textures, holes, and
-   paths over many surfaces. One loop over rays again, so that there is one copy of the traversal; what a path must
-   remember lies in global memory, unless the local one has room for it beside the traversal's stack.
+/* Pictures with more than the paper's workload: several lights, mirrors, glass, rough layers, textures, alpha masks,
+   and paths over many surfaces. There is one loop over rays again, so that there is one copy of the traversal. The
+   state of a path lies in global memory, unless local memory has room for it beside the traversal's stack.
 
    Without TRAX_FEATURE_PATHS a ray from the eye is followed through mirrors and glass to the first surface that
-   scatters, which every light is asked for and the ambient light added to; with TRAX_FEATURE_OCCLUSION that part of it
-   whose rays, cosine-distributed, hit nothing within their reach. Glass reflects or lets through, whichever is
-   more; with several samples, each according to its share.
+   scatters. Each light sends it a shadow ray, and the ambient light is added: with TRAX_FEATURE_OCCLUSION the part
+   whose cosine-distributed rays hit nothing within their reach. Glass reflects or refracts, whichever is more; with
+   several samples, in proportion.
 
-   With it, light arrives from lights, emitting triangles and the background over up to max_depth surfaces. At each that
-   scatters, a shadow ray goes to one of the lights or to a point of an emitter, and a ray goes on in a direction that
-   the surface's reflectance suggests. What both could have found is weighted by the balance heuristic (Veach, "Robust
-   Monte Carlo Methods for Light Transport Simulation", 1997); paths that carry little end by Russian roulette. */
+   With TRAX_FEATURE_PATHS, light arrives from lights, emitting triangles and the background over up to max_depth
+   surfaces. At each surface that scatters, a shadow ray goes to one of the lights or to a point of an emitter, and the
+   path continues in a direction sampled from the BRDF. Light that both can find is weighted by the balance heuristic
+   (Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997). Paths of low throughput end by Russian
+   roulette. */
 #ifndef TRAX_DEVICE_PATH_H
 #define TRAX_DEVICE_PATH_H
 
@@ -29,8 +30,8 @@
 
 extern struct trax_buffer paths;
 
-/* With few features a path has little to remember: then it has its place in the registers and the stack of one function
-   (TRAX_PATHS_LOCAL; render/specialise.c tries that first), and the caches are the scene's. */
+/* With few features a path has little state. It is then kept in the registers and on the stack of one function
+   (TRAX_PATHS_LOCAL; render/specialise.c tries that first), and leaves the caches to the scene. */
 #ifdef TRAX_PATHS_LOCAL
 #define PATH_STEP static inline __attribute__((always_inline))
 #define LOAD_PATH_AGAIN(path) ((void)0)
@@ -42,24 +43,24 @@ extern struct trax_buffer paths;
 struct path {
   struct vector sum;                         /* of the pixel's samples so far */
   struct vector light;                       /* of this sample so far */
-  struct vector weight;                      /* what part of the light along the ray reaches the eye */
-  struct vector pending;                     /* what the shadow ray lets through, if nothing is in its way */
-  struct vector origin, direction;           /* of the ray under way */
+  struct vector throughput;                  /* the part of the light along the ray that reaches the eye */
+  struct vector pending;                     /* added to light if the shadow ray is not blocked */
+  struct vector origin, direction;           /* of the current ray */
   struct vector next_origin, next_direction; /* of the one after the shadow rays, */
-  struct vector next_weight;                 /* and its weight */
-  struct vector point, target;               /* which light arrives at, and where it comes from */
+  struct vector next_throughput;             /* and its throughput */
+  struct vector point, target;               /* where light arrives, and where it comes from */
   struct scatterer at;
   struct hit hit; /* of the ray */
   uint32_t layered;
-  float density;         /* pi times that of the ray's direction; 0: there was no choice */
-  int32_t distance_bits; /* how far a shadow ray goes */
+  float pdf;             /* pi times that of the ray's direction in solid angle; 0: a mirror, glass or the eye */
+  int32_t distance_bits; /* the length of a shadow ray */
   uint32_t pixel, sample, key;
   uint32_t depth;        /* surfaces so far */
-  uint32_t lights_left;  /* that this surface is still to be lit by */
-  uint32_t ambient_left; /* occlusion rays that it is still to send */
-  uint32_t holes;        /* that the ray under way has passed, */
-  float travelled;       /* and how far it was to the last of them */
-  uint32_t goes_on;      /* the ray after the shadow rays, as it is counted; 0: there is none */
+  uint32_t lights_left;  /* shadow rays that the surface is still to send */
+  uint32_t ambient_left; /* occlusion rays, too */
+  uint32_t holes;        /* that the current ray has passed, */
+  float travelled;       /* and the distance to the last of them */
+  uint32_t goes_on;      /* the ray after the shadow rays, as trax_count_kinds takes it; 0: none */
   struct vector start;   /* of the rays that leave the point; LIT_AT_POINT */
 };
 _Static_assert(sizeof(struct path) <= TRAX_PATH_BYTES, "render_params.h");
@@ -70,7 +71,7 @@ _Static_assert(sizeof(struct path) <= TRAX_PATH_BYTES, "render_params.h");
    away (TRAX_FEATURE_NEAR_LIGHT): then path->point is that start, and nothing else is kept. */
 #define LIT_AT_POINT(run) (NEEDS(run, LIGHTS) || NEEDS(run, NEAR_LIGHT) || (NEEDS(run, PATHS) && NEEDS(run, EMISSION)))
 #define PATH_START(run, path) (LIT_AT_POINT(run) ? (path)->start : (path)->point)
-#define SURE_DEPTH 3 /* surfaces that no path ends before by roulette */
+#define SURE_DEPTH 3 /* roulette begins at this depth */
 
 static inline struct path *path_of_thread(void) {
   unsigned end = (trax_thread() + 1) * TRAX_PATH_BYTES;
@@ -90,8 +91,8 @@ static inline struct place path_point(const struct trax_render_params *run, cons
 PATH_STEP void begin_sample(struct path *path, const struct trax_render_params *run) {
   struct place place = PIXEL_MIDDLE;
   path->light = (struct vector){0, 0, 0};
-  path->weight = (struct vector){1, 1, 1};
-  path->density = 0;
+  path->throughput = (struct vector){1, 1, 1};
+  path->pdf = 0;
   path->depth = 0;
   path->holes = 0, path->travelled = 0;
   if (NEEDS(run, PATHS))
@@ -108,26 +109,25 @@ static inline const struct trax_device_material *hit_material(const struct trax_
   return NEEDS(run, MATERIALS) ? &materials[triangle_material(hit->triangle)] : materials;
 }
 
-/* weight: what part of the light reaches the eye. */
-static inline void add_to(struct vector *sum, struct vector weight, struct vector light) {
-  *sum = plus(*sum, filtered(weight, light));
+static inline void add_to(struct vector *sum, struct vector throughput, struct vector light) {
+  *sum = plus(*sum, filtered(throughput, light));
 }
 
 #define MOST_CORRECTION 4.0f
 
-/* The light of a surface that shines, found by a ray; path->point and path->at are still those of the surface that
-   scattered it. A shadow ray might have found it, too: both weights are of the same way, from point to point. The ray
-   began beside its point. On a Lambert surface the light is multiplied by the ratio of the form factors at the point
-   and at the ray's start, so that near lamps are no brighter by chance than by shadow rays. */
+/* The light of an emitter that a ray has hit, with its MIS weight; path->point and path->at are still those of the
+   surface that scattered the ray. Both densities of the weight are of the direction from point to point, although the
+   ray starts beside its point. On a Lambert surface the light is multiplied by the ratio of the form factors at the
+   point and at the ray's start, so that near lamps are as bright as by shadow rays. */
 static inline struct vector emission_found(const struct trax_render_params *run, const struct path *path,
                                            const struct surface *surface, const struct trax_device_material *material,
                                            const struct hit *hit) {
   struct vector light = load_vector(material->emission);
-  if (!NEEDS(run, PATHS) || float_bits(path->density) == 0)
+  if (!NEEDS(run, PATHS) || float_bits(path->pdf) == 0)
     return light;
   float distance = path->travelled + bits_float(hit->distance_bits), square = distance * distance;
   float cosine = bits_float(magnitude(dot(surface->normal, path->direction))) * surface->inverse_length;
-  float own = path->density, share = 1;
+  float own = path->pdf, share = 1;
   struct vector way = minus(surface->point, path->point);
   float way_square = dot(way, way);
   if (float_bits(way_square) >= float_bits(0x1p-80f)) {
@@ -140,8 +140,8 @@ static inline struct vector emission_found(const struct trax_render_params *run,
     }
     cosine = facing, square = way_square;
   }
-  if (float_bits(material->emitter_density) != 0) {
-    float other = emitter_density(material->emitter_density, square, cosine, (float)(int32_t)RUN_PATH(run)->choices);
+  if (float_bits(material->emitter_pdf) != 0) {
+    float other = emitter_pdf(material->emitter_pdf, square, cosine, (float)(int32_t)RUN_PATH(run)->choices);
     share *= own / at_least(own + other, 0x1p-120f);
   }
   return times(share, light);
@@ -159,7 +159,7 @@ static inline void describe_scatterer(const struct trax_render_params *run, stru
   if (NEEDS(run, SMOOTH)) {
     smooth_surface(surface, hit, run->normals_distance);
     struct vector normal = times(surface->inverse_length, surface->normal);
-    /* Where a mirror's smooth normal is turned away, its triangle's must do. */
+    /* A mirror whose smooth normal is turned away uses its triangle's. */
     if (scatters || float_bits(dot(normal, at->view)) > 0)
       at->normal = normal;
   }
@@ -167,7 +167,7 @@ static inline void describe_scatterer(const struct trax_render_params *run, stru
   at->specular = load_vector(material->specular);
   at->roughness = material->roughness;
   path->layered = material->kind == TRAX_MATERIAL_GGX;
-  if (NEEDS(run, TEXTURES)) { /* of metals, which have no colour below the layer, the layer's */
+  if (NEEDS(run, TEXTURES)) { /* of a metal, which has no diffuse colour, the specular one */
     bool metal = NEEDS(run, GLOSSY) && path->layered && greatest_bits(at->diffuse) == 0;
     if (metal)
       at->specular = filtered(texel, at->specular);
@@ -176,25 +176,25 @@ static inline void describe_scatterer(const struct trax_render_params *run, stru
   }
 }
 
-/* Where a ray goes on from a surface that scatters; the path may end. */
+/* Samples the next direction at a surface that scatters; the path may end. */
 static inline void choose_direction(const struct trax_render_params *run, struct path *path) {
   struct place choice = path_point(run, path, DIMENSION_CHOICE);
   struct vector part = scatter(&path->at, NEEDS(run, GLOSSY) && path->layered, path_point(run, path, DIMENSION_SCATTER),
-                               choice.x, &path->next_direction, &path->density);
-  struct vector weight = filtered(path->weight, part);
+                               choice.x, &path->next_direction, &path->pdf);
+  struct vector throughput = filtered(path->throughput, part);
   uint32_t rays = TRAX_RAYS(NEEDS(run, GLOSSY) && path->layered ? TRAX_RAY_GLOSSY : TRAX_RAY_DIFFUSE, 1);
-  path->goes_on = greatest_bits(weight) > 0 ? rays : 0;
+  path->goes_on = greatest_bits(throughput) > 0 ? rays : 0;
   if (path->depth >= SURE_DEPTH) {
-    float chance = at_most(at_least(bits_float(greatest_bits(weight)), 0x1p-10f), 0.95f);
+    float chance = at_most(at_least(bits_float(greatest_bits(throughput)), 0x1p-10f), 0.95f);
     if (!(choice.y < chance))
       path->goes_on = 0;
-    weight = times(1 / chance, weight);
+    throughput = times(1 / chance, throughput);
   }
-  path->next_weight = weight;
+  path->next_throughput = throughput;
   path->next_origin = PATH_START(run, path);
 }
 
-/* The ambient light that a surface sends back where nothing is near it. */
+/* The ambient light that an unoccluded surface reflects. */
 static inline struct vector ambient_of(const struct trax_render_params *run, const struct path *path) {
   float ambient = run->ambient + dot(path->at.normal, load_vector(run->fill));
   struct vector reflectance = path->at.diffuse;
@@ -203,7 +203,7 @@ static inline struct vector ambient_of(const struct trax_render_params *run, con
   return times(ambient, reflectance);
 }
 
-/* What a surface does that a ray from the eye or from another surface has found. */
+/* Shades a hit that is no hole: adds its emission, and prepares shadow rays and the next ray. */
 static inline void meet_surface(const struct trax_render_params *run, struct path *path, struct surface *surface,
                                 const struct trax_device_material *material, const struct hit *hit,
                                 struct vector texel) {
@@ -212,19 +212,19 @@ static inline void meet_surface(const struct trax_render_params *run, struct pat
   path->ambient_left = 0;
   bool turned = surface->turned;
   if (NEEDS(run, EMISSION))
-    add_to(&path->light, path->weight, emission_found(run, path, surface, material, hit));
+    add_to(&path->light, path->throughput, emission_found(run, path, surface, material, hit));
   describe_scatterer(run, path, surface, material, hit, texel);
   if (path->depth >= RUN_PATH(run)->max_depth)
     return;
   path->point = surface->start;
   if (LIT_AT_POINT(run))
     path->point = surface->point, path->start = surface->start;
-  path->next_weight = path->weight;
+  path->next_throughput = path->throughput;
   if (NEEDS(run, REFLECTION) && material->kind == TRAX_MATERIAL_MIRROR) {
-    path->next_weight = filtered(path->weight, path->at.specular);
+    path->next_throughput = filtered(path->throughput, path->at.specular);
     path->next_origin = surface->start;
     path->next_direction = mirror_direction(&path->at);
-    path->density = 0;
+    path->pdf = 0;
     path->goes_on = TRAX_RAYS(TRAX_RAY_MIRROR, 1);
     return;
   }
@@ -234,8 +234,8 @@ static inline void meet_surface(const struct trax_render_params *run, struct pat
     path->next_direction = glass_direction(&path->at, ratio, path_point(run, path, DIMENSION_CHOICE).x, &through);
     path->next_origin = through ? surface->behind : surface->start;
     if (through)
-      path->next_weight = filtered(path->weight, path->at.specular);
-    path->density = 0;
+      path->next_throughput = filtered(path->throughput, path->at.specular);
+    path->pdf = 0;
     path->goes_on = TRAX_RAYS(through ? TRAX_RAY_GLASS : TRAX_RAY_MIRROR, 1);
     return;
   }
@@ -248,10 +248,10 @@ static inline void meet_surface(const struct trax_render_params *run, struct pat
   if (NEEDS(run, OCCLUSION))
     path->ambient_left = RUN_PATH(run)->occlusion_rays;
   else
-    add_to(&path->light, path->weight, ambient_of(run, path));
+    add_to(&path->light, path->throughput, ambient_of(run, path));
 }
 
-/* Prepares the next occlusion ray; false if there is none. One that would begin behind its triangle is blocked. */
+/* Prepares the next occlusion ray; false if there is none. A direction below the triangle counts as blocked. */
 static inline bool next_occlusion(const struct trax_render_params *run, struct path *path) {
   const struct trax_path_params *more = RUN_PATH(run);
   while (path->ambient_left > 0) {
@@ -260,7 +260,7 @@ static inline bool next_occlusion(const struct trax_render_params *run, struct p
         path->at.normal, random_point(number, DIMENSION_SCATTER + DIMENSIONS_OF_SURFACE * path->depth, path->key));
     if (float_bits(dot(path->at.flat, path->direction)) <= 0)
       continue;
-    path->pending = filtered(path->weight, times(more->occlusion_weight, ambient_of(run, path)));
+    path->pending = filtered(path->throughput, times(more->occlusion_weight, ambient_of(run, path)));
     path->origin = PATH_START(run, path);
     path->target = plus(PATH_START(run, path), times(more->occlusion_reach, path->direction));
     path->distance_bits = float_bits(more->occlusion_reach);
@@ -270,7 +270,7 @@ static inline bool next_occlusion(const struct trax_render_params *run, struct p
   return false;
 }
 
-/* Prepares the next shadow ray; false if there is none, or no need of one. */
+/* Prepares the next shadow ray; false if there is none. Without shadows it adds the light of all instead. */
 static inline bool next_light(const struct trax_render_params *run, struct path *path) {
   const struct trax_path_params *more = RUN_PATH(run);
   const struct trax_device_light *lights = path_table(more->lights);
@@ -294,13 +294,12 @@ static inline bool next_light(const struct trax_render_params *run, struct path 
     float cosine = arrives ? dot(path->at.normal, arrival.direction) : 0;
     if (float_bits(cosine) <= 0 || float_bits(dot(path->at.flat, arrival.direction)) <= 0)
       continue;
-    float density;
-    struct vector part =
-        reflectance(&path->at, NEEDS(run, GLOSSY) && path->layered, arrival.direction, cosine, &density);
+    float pdf;
+    struct vector part = reflectance(&path->at, NEEDS(run, GLOSSY) && path->layered, arrival.direction, cosine, &pdf);
     float scale = cosine * choices;
-    if (NEEDS(run, EMISSION) && float_bits(arrival.density) > 0)
-      scale = cosine / (arrival.density + density);
-    path->pending = filtered(path->weight, filtered(times(scale, part), arrival.radiance));
+    if (NEEDS(run, EMISSION) && float_bits(arrival.pdf) > 0)
+      scale = cosine / (arrival.pdf + pdf);
+    path->pending = filtered(path->throughput, filtered(times(scale, part), arrival.radiance));
     if (NEEDS(run, SHADOWS)) {
       path->origin = PATH_START(run, path);
       if (LIT_AT_POINT(run) && arrival.distance_bits != FARTHEST_BITS)
@@ -316,10 +315,10 @@ static inline bool next_light(const struct trax_render_params *run, struct path 
   return false;
 }
 
-/* Are there triangles that a ray goes through? */
+/* Can a triangle be transparent, by its alpha mask or its side? */
 #define HAS_HOLES(run) (NEEDS(run, ALPHA) || NEEDS(run, ONE_SIDED))
 
-/* Has the ray hit a hole, and goes on behind it? */
+/* Moves the start of the ray behind the hit if that is a hole. Returns whether it is. */
 static inline bool pass_hole(const struct trax_render_params *run, struct path *path, bool shadow,
                              const struct surface *surface, const struct trax_device_material *material,
                              const struct hit *hit, float texel_alpha) {
@@ -329,7 +328,7 @@ static inline bool pass_hole(const struct trax_render_params *run, struct path *
   if (!hole || path->holes >= MOST_HOLES)
     return false;
   path->origin = surface->behind;
-  if (shadow && path->distance_bits != FARTHEST_BITS) { /* towards the light anew: no error adds up before it */
+  if (shadow && path->distance_bits != FARTHEST_BITS) { /* aimed at the light again, so that errors do not add up */
     struct arrival arrival = {.direction = path->direction, .distance_bits = 0};
     aim_at(&arrival, path->origin, path->target);
     path->direction = arrival.direction;
@@ -354,14 +353,14 @@ static inline void store_radiance(const struct trax_render_params *run, struct p
   trax_store_nt(to + number, pixel_of(red, green, 255 * root_of_light(at_most(light.z, 1))));
 }
 
-/* A ray is known by how it is counted. Of some only this matters: is something in their way? */
+/* Rays are distinguished by their counter. Shadow and occlusion rays are any-hit rays. */
 #define PRIMARY_RAY TRAX_RAYS(TRAX_RAY_PRIMARY, 1)
 #define SHADOW_RAY TRAX_RAYS(TRAX_RAY_SHADOW, 1)
 #define OCCLUSION_RAY TRAX_RAYS(TRAX_RAY_OCCLUSION, 1)
 #define IS_SHADOW(run, rays) (((rays) & (SHADOW_RAY | (NEEDS(run, OCCLUSION) ? OCCLUSION_RAY : 0))) != 0)
 
-/* The ray that path has: what does it hit? A function of its own, as what follows, since no thread has room for the
-   frames of both. */
+/* Traces the current ray. This and after_ray are two functions, since local memory has no room for the frames of both.
+ */
 PATH_STEP bool follow_ray(const struct trax_render_params *run, struct path *path, uint32_t rays) {
   struct ray ray;
   bool shadow = IS_SHADOW(run, rays);
@@ -377,7 +376,7 @@ PATH_STEP bool follow_ray(const struct trax_render_params *run, struct path *pat
   return found;
 }
 
-/* What follows from it: the next ray, which path has, as it is counted; 0: there is none. */
+/* Shades the result of the ray. Returns the next ray, as it is counted; 0: none. */
 PATH_STEP uint32_t after_ray(const struct trax_render_params *run, struct path *path, uint32_t rays, bool found) {
   bool shadow = IS_SHADOW(run, rays);
   if (found && (!shadow || HAS_HOLES(run))) {
@@ -396,7 +395,7 @@ PATH_STEP uint32_t after_ray(const struct trax_render_params *run, struct path *
   } else if (!found && shadow) {
     path->light = plus(path->light, path->pending);
   } else if (!found) {
-    add_to(&path->light, path->weight, load_vector(RUN_PATH(run)->background));
+    add_to(&path->light, path->throughput, load_vector(RUN_PATH(run)->background));
     return 0;
   }
   if (next_light(run, path))
@@ -408,13 +407,13 @@ PATH_STEP uint32_t after_ray(const struct trax_render_params *run, struct path *
     return 0;
   path->origin = path->next_origin;
   path->direction = path->next_direction;
-  path->weight = path->next_weight;
+  path->throughput = path->next_throughput;
   path->depth++;
   path->holes = 0, path->travelled = 0;
   return next;
 }
 
-/* True: the pixel has another sample. */
+/* Adds the sample to the pixel. Returns whether there is another one. */
 PATH_STEP bool end_sample(const struct trax_render_params *run, struct path *path) {
   path->sum = plus(path->sum, bounded_colour(path->light));
   if (NEEDS(run, SAMPLES) && ++path->sample < run->samples)
@@ -424,7 +423,7 @@ PATH_STEP bool end_sample(const struct trax_render_params *run, struct path *pat
   return false;
 }
 
-/* Little is kept across the calls: the frame of this one and the greatest of theirs are all the stack that there is. */
+/* Keeps little across the calls: this frame and the largest of theirs are all of the stack. */
 static inline void render_path_pixel(const struct trax_render_params *run, struct path *path, struct pixel pixel) {
   path->pixel = pixel.packed;
   path->key = hash_word(pixel.packed ^ hash_word(RUN_PATH(run)->seed));

@@ -1,6 +1,6 @@
 /* Which slot a thread takes next (trax/render_params.h says what slots are). A specialised program may have TRAX_QUEUES
    queues, in which every so many-th tile waits. A TM begins with its own, so that with as many queues as TMs a tile is
-   seen through one cache; who finds his queue empty goes on with the next one. */
+   seen through one cache. A thread that finds its queue empty goes on with the next one. */
 #ifndef TRAX_DEVICE_SLOTS_H
 #define TRAX_DEVICE_SLOTS_H
 
@@ -30,7 +30,7 @@ static inline uint32_t ask_for_number(unsigned next[TRAX_QUEUES], uint32_t queue
 }
 
 /* The slot of a number that was asked for, or of another queue's, if this one has no more. False: there is none left.
-   next: of each queue, how many were taken, and how often someone found it empty. */
+   next: of each queue, the numbers taken, including those taken when it was empty. */
 static inline bool take_slot(const struct trax_render_params *run, unsigned next[TRAX_QUEUES], uint32_t number,
                              uint32_t *queue, uint32_t *slot) {
   const uint32_t tile_bits = 2 * run->tile_log2_side;

@@ -77,7 +77,7 @@ static void fill_emitters(struct trax_emitter *emitters, struct trax_device_mate
   }
   for (uint32_t i = 0; i < scene->material_count; i++)
     if (emits(&scene->materials[i]) && !(scene->materials[i].alpha_cutoff > 0))
-      materials[i].emitter_density = (float)(luminance(scene->materials[i].emission) / total);
+      materials[i].emitter_pdf = (float)(luminance(scene->materials[i].emission) / total);
 }
 
 /* --- lights --- */

@@ -114,7 +114,7 @@ struct trax_device_material {
   float ior;
   float opacity, alpha_cutoff;
   uint32_t texture;
-  float emitter_density; /* probability per area that a path's shadow ray goes to a point of this material; 0: never */
+  float emitter_pdf; /* probability per area that a path's shadow ray goes to a point of this material; 0: never */
 };
 
 enum trax_device_light_kind { TRAX_FROM_POINT, TRAX_FROM_DIRECTION, TRAX_FROM_FADING_POINT, TRAX_FROM_RECTANGLE };
