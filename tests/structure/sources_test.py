@@ -30,7 +30,8 @@ def main():
             return print("the same sources have another hash") or 1
         header = copy / "machine/address_space.h"
         text = header.read_text()
-        swapped = text.replace("TRAX_PERMIT_READ = 1, TRAX_PERMIT_WRITE = 2", "TRAX_PERMIT_READ = 2, TRAX_PERMIT_WRITE = 1")
+        swapped = text.replace("TRAX_PERMIT_READ = 1, TRAX_PERMIT_WRITE = 2",
+                               "TRAX_PERMIT_READ = 2, TRAX_PERMIT_WRITE = 1")
         header.write_text(swapped)
         if swapped == text or hash_of(copy) == first:
             return print("another order of an enumeration has the same hash") or 1
