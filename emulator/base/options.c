@@ -191,7 +191,7 @@ static trax_parsed apply(struct parser *parser, const trax_option *option, const
   }
 }
 
-/* For programs that pass options on: a line for each that was given before. */
+/* Prints a line for each option that was given before, for programs that pass options on. */
 static void show_given(const struct parser *parser, FILE *out) {
   fprintf(out, "options of %s:\n", parser->command->name);
   for (const trax_option *row = parser->command->rows; row->name; row++)

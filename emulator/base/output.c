@@ -14,8 +14,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Before main, in every program. A file that is opened while a standard stream is closed would get its number, and what
-   is printed would go into it. A file beyond the size limit is one that cannot be written, and does not end the
+/* Runs before main in every program. Opens closed standard streams: a file would get the number of one, and the program
+   would print into it. Ignores SIGXFSZ: a file beyond the size limit is an error of writing, and does not end the
    program. */
 __attribute__((constructor)) static void prepare_process(void) {
   signal(SIGXFSZ, SIG_IGN);
@@ -66,7 +66,7 @@ char *trax_link_target(const char *path) {
   return joined;
 }
 
-/* Returns the path behind all symbolic links, whether a file is there or not; NULL with errno if there is none. */
+/* Returns the path to which all symbolic links lead, whether a file is there or not; NULL with errno: there is none. */
 static char *behind_links(const char *path) {
   char *at = strdup(path);
   for (int links = 0; at; links++) {

@@ -91,7 +91,7 @@ static void unescape(char *text) {
   *to = '\0';
 }
 
-/* The least quota of the group and of the groups that contain it, as far as they are in the mount. */
+/* Returns the least quota of the group and of those groups that contain it and are in the mount. */
 static unsigned quota_of_mount(const char *root, char *mounted, char *mount_point, bool second_version) {
   char *group = group_path(root, second_version), directory[PATH];
   unsigned least = UINT_MAX;

@@ -94,7 +94,7 @@ trax_status trax_wait_for_child(pid_t child, int signal, const volatile int *int
   return interrupt && *interrupt ? TRAX_INTERRUPTED : TRAX_OK;
 }
 
-/* Also as a zombie, which a process is until its own parent has asked for its status. */
+/* Whether the process has ended. Until its parent has asked for its status it is a zombie. */
 static bool has_ended(pid_t process) {
   if (kill(process, 0) < 0 && errno == ESRCH)
     return true;

@@ -13,7 +13,7 @@ enum { TRAX_CONTENTS_PAGE = 4096 };
 static const uint64_t trax_contents_most = (uint64_t)1 << 32;
 
 struct trax_contents {
-  uint8_t **pages; /* [page_count]; NULL: a hole. Bytes behind the size are zeros */
+  uint8_t **pages; /* [page_count]; NULL: a hole. Bytes after the size are zeros */
   size_t page_count;
   uint64_t size;
 };

@@ -14,7 +14,7 @@ static bool interrupted(const struct trax_calls *calls) {
   return calls->streams.interrupt && *calls->streams.interrupt;
 }
 
-/* Of a stream without a descriptor (fmemopen), up to the end of a line: it cannot be asked what there is. */
+/* Reads a stream without a descriptor (fmemopen) up to the end of a line, since it cannot be polled. */
 static int refill_by_stdio(struct trax_stream_input *input, FILE *stream) {
   for (int byte = 0; input->end < CAPACITY && byte != '\n';) {
     byte = getc(stream);

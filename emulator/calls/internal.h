@@ -1,4 +1,4 @@
-/* What the files of emulator/calls/ share. Functions return 0 or an error number (errno.h) unless they say otherwise.
+/* Declarations that the files of emulator/calls/ share. Functions return 0 or an error number (errno.h) unless stated.
 
    A *folder* is one of the host that a path led through. The allowed ones are open for the whole run, the others as far
    as there are descriptors for them; they are found again by their names below an allowed one.
@@ -37,7 +37,7 @@ struct trax_folder {
 
 enum trax_last { TRAX_LAST_NAME, TRAX_LAST_HERE, TRAX_LAST_ABOVE };
 
-/* What a path ends in; it need not exist. */
+/* The place that a path names; nothing need be there. */
 struct trax_place {
   struct trax_folder *folder; /* a reference of the place's own; NULL: released */
   enum trax_last last;        /* a name, "." or ".." */
@@ -101,7 +101,7 @@ struct trax_name {
 
 /* The name at a place; NULL: there is none. */
 struct trax_name *trax_name_at(const struct trax_calls *calls, const struct trax_folder *folder, const char *name);
-/* What the program finds at a place: the kind (S_IFMT of stat's mode), 0 for nothing, and the name, NULL for none. */
+/* Sets the kind of what the program finds at a place (S_IFMT of stat's mode; 0: nothing) and its name (NULL: none). */
 int trax_name_look(struct trax_calls *calls, const struct trax_place *place, mode_t *kind, struct trax_name **name);
 /* Finds the name of the file at a place, where the program finds one, or reads the host's. `empty`: without its
    contents, which are about to be replaced. */

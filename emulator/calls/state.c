@@ -185,7 +185,7 @@ static trax_status restore_input(struct trax_calls *calls, const struct header *
   return TRAX_OK;
 }
 
-/* What is being restored. */
+/* A restoration in progress. */
 struct restored {
   struct trax_calls *calls;
   struct reader reader;

@@ -23,7 +23,7 @@ struct trax_run {
   struct trax_poll poll;
 };
 
-/* After an error, too, the run must be destroyed. */
+/* The run must be destroyed even after an error. */
 trax_status trax_run_create(struct trax_run *run, struct trax_machine *machine, const struct trax_engine *engine,
                             const struct trax_run_options *options, trax_error *error);
 void trax_run_destroy(struct trax_run *run);

@@ -1,4 +1,4 @@
-/* The trace of transfers (docs/traces.md): what leaves for off-chip memory, written while the run goes on. */
+/* The trace of transfers (docs/traces.md): the requests to off-chip memory, written during the run. */
 #include "explain/span.h"
 
 #include <inttypes.h>

@@ -1,7 +1,12 @@
 /* The machine's registers in the debugger's numbering. Stock GDB does not know the TP. The nearest machine that it
    knows is 32-bit RISC-V: return address in x1, stack pointer in x2, arguments in registers, results in the first of
    these. Each TRaX register has the RISC-V number of its role (docs/abi.md, "Registers"), so that GDB finds frames,
-   results and arguments. After pc, all registers follow once more by their TRaX numbers. */
+   results and arguments. After pc, all registers follow once more by their TRaX numbers.
+
+   A target description alone does not suffice: it names and numbers the registers of the protocol, and GDB takes the
+   numbers in debug information, arguments and results from its own tables of RISC-V. With x_i = r_i and debug
+   information as it is, frames and variables are right, but `finish` shows another register, and a call of a function
+   by `print` faults. */
 #ifndef TRAX_GDB_REGISTERS_H
 #define TRAX_GDB_REGISTERS_H
 

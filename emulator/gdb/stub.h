@@ -79,7 +79,7 @@ struct trax_gdb {
   uint32_t break_count;
   struct trax_gdb_watch watches[TRAX_GDB_WATCHES];
   uint32_t watch_count;
-  bool named_only;    /* the latest resume named single threads: removed breakpoints still stop the other threads */
+  bool named_only; /* the latest resume named single threads: removed breakpoints still stop the other threads */
   /* Steps of the stopped thread that were reported to GDB and not made (stub.c, pretend_step). While the run is
      stopped, `steps` and `pc` count. A resume that steps the same thread moves `steps` to `catch_up`: the thread issues
      these instructions before its next step counts. Any other resume, and a change of its pc, forget them. */

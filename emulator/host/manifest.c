@@ -323,7 +323,7 @@ bool trax_manifest_picture(const trax_manifest *manifest, const char **symbol, u
   return *is_float || strcmp(layout, "rgba uint8") == 0;
 }
 
-/* As trax_config_set takes it. */
+/* Makes a value's text, as trax_config_set takes it. */
 static trax_status value_text(const struct place *place, char text[TRAX_CONFIG_WORD], trax_error *error) {
   if (json_is_string(place->value)) {
     const char *word = json_string_value(place->value);

@@ -352,7 +352,7 @@ trax_status trax_options_check_outputs(const struct trax_options *options, trax_
   return status;
 }
 
-/* A manifest instead of a program: what it says of the run, as far as the command line does not say otherwise. */
+/* Reads a manifest that is given instead of a program. Options of the command line take precedence over it. */
 static trax_status take_manifest(struct trax_options *options, trax_error *error) {
   if (!options->program || !trax_manifest_is(options->program))
     return TRAX_OK;

@@ -15,7 +15,7 @@ struct trax_page_picture {
    picture does not fit in its buffer. */
 trax_status trax_page_picture_find(struct trax_page_picture *picture, struct trax_explain_options *explain,
                                    const struct trax_options *options, trax_machine *machine, trax_error *error);
-/* Gives what the run has left in the buffer to the explanation, until whose end the pixels must stay. */
+/* Gives the buffer's contents after the run to the explanation. The pixels must stay until its end. */
 trax_status trax_page_picture_give(struct trax_page_picture *picture, trax_machine *machine,
                                    struct trax_explain *explain, trax_error *error);
 void trax_page_picture_release(struct trax_page_picture *picture);

@@ -17,7 +17,7 @@ struct trax_timing {
 };
 
 struct trax_timing trax_timing_of(trax_op op, const struct trax_config *config);
-/* For how many cycles an instruction takes the shared unit that it needs. */
+/* Returns the number of cycles for which an instruction takes the shared unit that it needs. */
 uint32_t trax_occupies(trax_op op, const struct trax_config *config);
 /* Whether an instruction needs a shared unit of which the machine has none: it is illegal there. */
 bool trax_lacks_unit(trax_op op, const struct trax_config *config);
@@ -31,7 +31,7 @@ struct trax_shared_kind {
 
 struct trax_shared_kind trax_shared_kind(trax_shared unit, const struct trax_config *config);
 
-/* What a unit of the kind is called. */
+/* Returns the name of a unit of the kind. */
 const char *trax_shared_words(trax_shared unit);
 /* Whether no instruction takes a unit of the kind for more than one cycle. */
 bool trax_always_free(trax_shared unit, const struct trax_config *config);

@@ -56,7 +56,7 @@ static bool is_text(const struct trax_machine *machine, uint32_t pc) {
   return false;
 }
 
-/* Finds the instruction behind the start code's call of main, where a thread ends. */
+/* Finds the instruction after the start code's call of main, where a thread ends. */
 static bool find_end(const struct trax_machine *machine, uint32_t *end) {
   const trax_image *image = trax_loaded_of(machine)->image;
   const struct trax_symbol *start = trax_image_symbol(image, "_start"), *main = trax_image_symbol(image, "main");

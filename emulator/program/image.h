@@ -30,7 +30,7 @@ typedef struct trax_image trax_image;
 
 /* Opens a TRaX executable. NULL, with the reason in *error: the file is not a complete, consistent one. */
 trax_image *trax_image_open(const char *path, trax_error *error);
-/* The same of a file's bytes, which are copied. path: for messages. */
+/* Opens an executable whose bytes are given, and copies them. path: for messages. */
 trax_image *trax_image_of(const char *path, const uint8_t *bytes, size_t size, trax_error *error);
 void trax_image_close(trax_image *image);
 

@@ -22,7 +22,7 @@ enum { LEAST_STEP = 32, MOST_STEP = 2000 }; /* cycles between inspections of the
 
 __extension__ typedef unsigned __int128 trax_wide;
 
-#define FAR 4 /* times the possible draws: so many will not be too few by the error of the deviations so far */
+#define FAR 4 /* times the possible draws. The number of needed draws may be wrong, but not by this factor */
 
 enum phase { BEGINNING, WARM_UP, UNIT, LEAD, END };
 

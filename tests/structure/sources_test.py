@@ -28,10 +28,10 @@ def main():
         first = hash_of(copy)
         if hash_of(copy) != first:
             return print("the same sources have another hash") or 1
-        header = copy / "fast/function/blocks.h"
+        header = copy / "machine/address_space.h"
         text = header.read_text()
-        swapped = text.replace("TRAX_BLOCK_LOADED = 1, TRAX_BLOCK_WRITTEN,",
-                               "TRAX_BLOCK_WRITTEN = 1, TRAX_BLOCK_LOADED,")
+        swapped = text.replace("TRAX_PERMIT_READ = 1, TRAX_PERMIT_WRITE = 2",
+                               "TRAX_PERMIT_READ = 2, TRAX_PERMIT_WRITE = 1")
         header.write_text(swapped)
         if swapped == text or hash_of(copy) == first:
             return print("another order of an enumeration has the same hash") or 1

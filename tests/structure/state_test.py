@@ -1,9 +1,9 @@
-"""No list of the state is forgotten: patched.py added a field to structures of the fast engine, at random places, and the engine
-brings each back after it has gone back, and from a checkpoint, whose layout is another one.
+"""The lists of the state are complete. patched.py added fields to structures of the fast engine, at random places. The
+engine restores each field after a roll back and from a checkpoint, whose layout differs from that without the fields.
 
   state_test.py SCRATCH TIMING-ROLLBACK-TEST
 
-SCRATCH is patched.py's, the program that of the sources without the fields."""
+SCRATCH is the folder of patched.py, the program that of the sources without the fields."""
 
 import os
 import sys

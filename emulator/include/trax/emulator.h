@@ -72,7 +72,7 @@ void trax_machine_destroy(trax_machine *machine);
 /* Loads the one program of the machine. Errors: the file is not a valid TRaX executable, the program does not fit into
    memory, or the machine already has a program. */
 trax_status trax_machine_load_elf(trax_machine *machine, const char *path, trax_error *error);
-/* The same of the bytes of such a file. path: for messages, and the program's name. */
+/* Loads the bytes of such a file. path: for messages, and the program's name. */
 trax_status trax_machine_load_bytes(trax_machine *machine, const char *path, const void *bytes, size_t size,
                                     trax_error *error);
 

@@ -51,12 +51,12 @@ struct trax_explain_options {
   /* An item's place is the address of its last store to this buffer, as an offset in units of item_bytes. */
   const char *item_buffer; /* NULL: none */
   uint32_t item_bytes;
-  /* For the page: its title (NULL: the program's name), and parts of buffers that count as objects. */
+  /* The page's title (NULL: the program's name), and the parts of buffers that its tables list as objects. */
   const char *title;
   const struct trax_explore_part *parts;
   size_t part_count;
-  /* For the page: folders whose files may be copied into it, besides those that docs/explaining.md names. Added by
-     trax_explain_add_source_folder. */
+  /* Folders whose files may be copied into the page, besides those that docs/explaining.md names.
+     trax_explain_add_source_folder adds them. */
   const char *source_folders[TRAX_EXPLAIN_MAX_SOURCE_FOLDERS];
   unsigned source_folder_count;
   void (*note)(const char *text); /* receives a sentence about the sources in the page; NULL: nobody */
