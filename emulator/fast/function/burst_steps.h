@@ -91,7 +91,8 @@ static unsigned BURST(struct trax_chip *chip, struct trax_tm *tm, unsigned numbe
     } else if (alone && store_ahead(chip, tp, address, word, BYTES)) {                                                 \
       at = AT;                                                                                                         \
       tp->loads[loads++] = address;                                                                                    \
-      tp->step[at] |= TRAX_STEP_QUEUE | TRAX_STEP_SLOW;                                                                \
+      tp->step[at] |=                                                                                                  \
+          (uint16_t)(TRAX_STEP_BANK | TRAX_STEP_SLOW | data_bank(banks, bank_mask, address) << TRAX_STEP_BANK_SHIFT);  \
     } else {                                                                                                           \
       goto stop;                                                                                                       \
     }                                                                                                                  \

@@ -45,11 +45,11 @@ static uint64_t quiet_until(const struct trax_tm *tm, uint64_t t, uint64_t end) 
   return end;
 }
 
-/* Serves a store of the burst that needs no place in the memory queue. */
+/* Serves a slow step if it is a store of the burst that needs no place in the memory queue. */
 static bool store(struct trax_tm *tm, unsigned number, unsigned at, unsigned load, uint64_t t) {
   struct trax_tp *tp = &tm->tp[number];
   const struct trax_fast_timing *timing = &tm->chip->program.timing[trax_fast_index(tp, at)];
-  if (!tm->config->memory.write_combining ||
+  if (!timing->decoded->is_store || !tm->config->memory.write_combining ||
       (tp->run_begin != tp->run_end && !trax_tp_combines(tp, tp->loads[load], timing->decoded->bytes)))
     return false;
   tp->inst = timing->decoded;
@@ -75,17 +75,14 @@ bool trax_fast_run_alone(struct trax_tm *tm, uint64_t t, uint64_t end) {
   struct used used = {0};
   for (; t < end && at < last; t++, at++) {
     const unsigned step = tp->step[at], kind = step & TRAX_STEP_KIND;
-    if (step & TRAX_STEP_SLOW) {
-      if (kind != TRAX_STEP_QUEUE || !store(tm, number, at, load, t))
+    if (kind == TRAX_STEP_BANK) {
+      if (step & TRAX_STEP_SLOW ? !store(tm, number, at, load, t)
+                                : !trax_cache_tags_have(tags, trax_line_of(tags, tp->loads[load])))
         break;
+      hits += !(step & TRAX_STEP_SLOW);
       load++;
-    } else if (kind == TRAX_STEP_BANK) {
-      if (!trax_cache_tags_have(tags, trax_line_of(tags, tp->loads[load])))
-        break;
-      load++;
-      hits++;
       used.data_banks |= (uint64_t)1 << (step >> TRAX_STEP_BANK_SHIFT & 63);
-    } else if (kind > TRAX_STEP_INT_MUL) {
+    } else if ((step & TRAX_STEP_SLOW) || kind > TRAX_STEP_INT_MUL) {
       break;
     }
     used.kinds |= 1u << (kind >> 1);

@@ -263,7 +263,7 @@ static bool load_hits(struct trax_tm *tm, unsigned number, uint64_t t) {
   if (!trax_cache_tags_use(&tm->dcache.tags, trax_line_of(&tm->dcache.tags, address)))
     return false;
   tm->stats->dcache_hits++;
-  tm->single_hits++;
+  tm->single_hits += tm->serial_hits;
   const uint32_t latency = tm->config->dcache.hit_latency_cycles;
   if (latency > 1) {
     const unsigned rd = trax_fast_head_timing(tm, number)->decoded->rd;
@@ -274,7 +274,7 @@ static bool load_hits(struct trax_tm *tm, unsigned number, uint64_t t) {
 }
 
 static bool serve(struct trax_tm *tm, unsigned number, uint64_t t) {
-  if (!(tm->executes_at_issue >> number & 1) && (tm->heads.low[number] & TRAX_STEP_KIND) == TRAX_STEP_BANK &&
+  if (!(tm->executes_at_issue >> number & 1) && !trax_fast_head_timing(tm, number)->decoded->is_store &&
       load_hits(tm, number, t))
     return true;
   trax_fast_export_head(tm, number);
@@ -375,8 +375,8 @@ static ALWAYS_INLINE uint64_t grant(struct trax_tm *tm, const bool wide, struct 
                                  bit[TRAX_STEP_BANK_SHIFT + 2], t);
     won = grant_banks(tm, wide, requesters & ~filling, bit + TRAX_STEP_BANK_SHIFT, &hits);
     refused->bank = requesters & ~won;
-    if (tm->serial_hits)
-      hits = 0; /* serve() handles them */
+    if (tm->serial_hits || tm->chip->alone)
+      hits = 0; /* serve() handles them, and stores */
     tm->stats->dcache_hits += count_bits(hits);
     granted |= hits;
     queue_requesters |= won & ~hits;
@@ -388,37 +388,55 @@ static ALWAYS_INLINE uint64_t grant(struct trax_tm *tm, const bool wide, struct 
   return granted;
 }
 
+/* As many counters as a vector of the host has: larger vectors would go through memory in parts. */
+#if defined(__AVX512F__)
+enum { PART = 8 };
+#elif defined(__AVX2__)
+enum { PART = 4 };
+#else
+enum { PART = 2 };
+#endif
+typedef uint64_t counters __attribute__((vector_size(8 * PART), may_alias));
+
 /* Adds two terms to a bit of each counter, a full adder; returns the carries to the next bit. */
 #define ADD_TWO(SUM, ONE, OTHER)                                                                                       \
   (__extension__({                                                                                                     \
-    const trax_fast_refusals one_ = (ONE), either_ = *(SUM) ^ one_, other_ = (OTHER);                                  \
-    const trax_fast_refusals carry_ = (*(SUM)&one_) | (either_ & other_);                                              \
+    const counters one_ = (ONE), either_ = *(SUM) ^ one_, other_ = (OTHER);                                            \
+    const counters carry_ = (*(SUM)&one_) | (either_ & other_);                                                        \
     *(SUM) = either_ ^ other_;                                                                                         \
     carry_;                                                                                                            \
   }))
 
-static bool is_any(const trax_fast_refusals *refusals) {
+static bool is_any(const counters *some) {
   uint64_t any = 0;
-  for (unsigned i = 0; i < TRAX_FAST_COUNTERS; i++)
-    any |= (*refusals)[i];
+  for (unsigned i = 0; i < PART; i++)
+    any |= (*some)[i];
   return any != 0;
 }
 
-static void count_log(struct trax_fast_refusal_counts *counts) {
-  const trax_fast_refusals none = {0};
-  trax_fast_refusals carry = none;
-  for (; counts->logged < TRAX_FAST_LOG; counts->logged++)
-    counts->log[counts->logged] = none;
+/* Adds the log to the planes of the counters from `first` on. */
+static void count_part(struct trax_fast_refusal_counts *counts, unsigned first) {
+  const counters none = {0};
+  counters log[TRAX_FAST_LOG], carry = none;
   unsigned count = TRAX_FAST_LOG; /* number of terms of the current bit, at the beginning of the log */
+  for (unsigned i = 0; i < count; i++)
+    log[i] = *(const counters *)&counts->log[i][first];
   for (unsigned bit = 0; bit < TRAX_FAST_LOG_BITS; bit++) {
-    trax_fast_refusals sum = counts->log[0];
+    counters sum = log[0];
     count /= 2;
     for (unsigned i = 0; i < count; i++)
-      counts->log[i] = ADD_TWO(&sum, counts->log[2 * i + 1], counts->log[2 * i + 2]);
-    carry = ADD_TWO(&counts->planes[bit], sum, carry);
+      log[i] = ADD_TWO(&sum, log[2 * i + 1], log[2 * i + 2]);
+    carry = ADD_TWO((counters *)&counts->planes[bit][first], sum, carry);
   }
   for (unsigned bit = TRAX_FAST_LOG_BITS; bit < 64 && is_any(&carry); bit++)
-    carry = ADD_TWO(&counts->planes[bit], carry, none);
+    carry = ADD_TWO((counters *)&counts->planes[bit][first], carry, none);
+}
+
+static void count_log(struct trax_fast_refusal_counts *counts) {
+  if (counts->logged < TRAX_FAST_LOG)
+    memset(counts->log[counts->logged], 0, (TRAX_FAST_LOG - counts->logged) * sizeof *counts->log);
+  for (unsigned first = 0; first < TRAX_FAST_COUNTERS; first += PART)
+    count_part(counts, first);
   counts->logged = 0;
 }
 

@@ -82,8 +82,7 @@ uint32_t trax_fast_advance(struct trax_tm *tm, unsigned number) {
   if (tm->heads.at[number] == tm->heads.last[number]) {
     trax_fast_refill(tm, number);
   } else {
-    const unsigned kind = tm->heads.low[number] & TRAX_STEP_KIND;
-    tm->heads.load[number] += kind == TRAX_STEP_BANK || kind == TRAX_STEP_QUEUE;
+    tm->heads.load[number] += (tm->heads.low[number] & TRAX_STEP_KIND) == TRAX_STEP_BANK;
     trax_fast_set_head(&tm->heads, number, tm->heads.at[number] + 1u);
   }
   return tm->executes_at_issue & bit ? tm->tp[number].pc : trax_fast_head_timing(tm, number)->pc;

@@ -97,6 +97,61 @@ static inline __attribute__((always_inline)) void trax_fast_fill_rows(struct tra
   }
   trax_fast_set_steps(heads, wide, step);
 }
+#elif defined(__AVX2__)
+/* Returns the steps of the heads of 16 TPs: the lowest 16 bits of each lane of half a row. */
+static inline __m256i trax_fast_join_rows(const __m256i *row) {
+  const __m256i two = _mm256_blend_epi16(row[0], _mm256_slli_epi64(row[1], 16), 0x22);
+  const __m256i three = _mm256_blend_epi16(two, _mm256_slli_epi64(row[2], 32), 0x44);
+  return _mm256_blend_epi16(three, _mm256_slli_epi64(row[3], 48), 0x88);
+}
+
+/* Stores the steps of the heads of 32 TPs. */
+static inline void trax_fast_set_steps(struct trax_fast_heads *heads, unsigned half, const __m256i *step) {
+  const __m256i byte = _mm256_set1_epi16(0xFF);
+  const __m256i low = _mm256_packus_epi16(_mm256_and_si256(step[0], byte), _mm256_and_si256(step[1], byte));
+  const __m256i high = _mm256_packus_epi16(_mm256_srli_epi16(step[0], 8), _mm256_srli_epi16(step[1], 8));
+  _mm256_store_si256((__m256i *)heads->low + half, _mm256_permute4x64_epi64(low, 0xD8));
+  _mm256_store_si256((__m256i *)heads->high + half, _mm256_permute4x64_epi64(high, 0xD8));
+}
+
+/* Loads the lanes of 32 TPs with the steps from the heads on. */
+static inline void trax_fast_fill_rows(struct trax_fast_heads *heads, unsigned half) {
+  __m256i row[2][4];
+  __m256i at = _mm256_load_si256((const __m256i *)heads->at + half);
+#pragma GCC unroll 4
+  for (unsigned i = 0; i < 4; i++, at = _mm256_srli_epi32(at, 8)) {
+    const __m256i index = _mm256_add_epi32(_mm256_and_si256(at, _mm256_set1_epi32(0xFF)),
+                                           _mm256_load_si256((const __m256i *)heads->row_begin[4 * half + i]));
+    row[0][i] = _mm256_i32gather_epi64((const void *)heads->steps, _mm256_castsi256_si128(index), 2);
+    row[1][i] = _mm256_i32gather_epi64((const void *)heads->steps, _mm256_extracti128_si256(index, 1), 2);
+    _mm256_store_si256((__m256i *)heads->next[4 * half + i], row[0][i]);
+    _mm256_store_si256((__m256i *)heads->next[4 * half + i] + 1, row[1][i]);
+  }
+  const __m256i step[2] = {trax_fast_join_rows(row[0]), trax_fast_join_rows(row[1])};
+  trax_fast_set_steps(heads, half, step);
+}
+
+/* Shifts the lanes of those of 32 TPs that are in `who`. */
+static inline void trax_fast_shift_rows(struct trax_fast_heads *heads, unsigned half, uint32_t who) {
+  __m256i step[2];
+#pragma GCC unroll 2
+  for (unsigned part = 0; part < 2; part++) {
+    /* Lane i has the bit of TP 16 * part + 4 * i + 3 as its sign. */
+    const __m256i signs = _mm256_sllv_epi64(_mm256_set1_epi64x((long long)((uint64_t)who << (32 - 16 * part))),
+                                            _mm256_set_epi64x(16, 20, 24, 28));
+    __m256i row[4];
+#pragma GCC unroll 4
+    for (unsigned i = 0; i < 4; i++) {
+      __m256i *const next = (__m256i *)heads->next[4 * half + i] + part;
+      const __m256i lane = _mm256_load_si256(next);
+      row[i] = (__m256i)_mm256_blendv_pd((__m256d)lane, (__m256d)_mm256_srli_epi64(lane, 16),
+                                         (__m256d)_mm256_slli_epi64(signs, 3 - i));
+      _mm256_store_si256(next, row[i]);
+    }
+    step[part] = trax_fast_join_rows(row);
+  }
+  trax_fast_set_steps(heads, half, step);
+}
 #endif
 
 /* Makes the next step of each TP of `who` its head. `wide`: the TM has more than 32 TPs. */
@@ -122,6 +177,21 @@ static inline __attribute__((always_inline)) void trax_fast_move_on(struct trax_
     step[half] = trax_fast_join_rows(row);
   }
   trax_fast_set_steps(heads, wide, step);
+#elif defined(__AVX2__)
+  const bool fills = ++heads->moves % TRAX_FAST_NEXT == 0;
+#pragma GCC unroll 2
+  for (unsigned half = 0; half < 1u + wide; half++) {
+    const uint32_t here = (uint32_t)(who >> 32 * half);
+    const __m256i spread = _mm256_shuffle_epi8(
+        _mm256_set1_epi32((int)here), _mm256_set_epi64x(0x0303030303030303, 0x0202020202020202, 0x0101010101010101, 0));
+    const __m256i bit = _mm256_set1_epi64x((long long)0x8040201008040201);
+    __m256i *const at = (__m256i *)heads->at + half; /* lanes of all ones are subtracted */
+    _mm256_store_si256(at, _mm256_sub_epi8(*at, _mm256_cmpeq_epi8(_mm256_and_si256(spread, bit), bit)));
+    if (fills)
+      trax_fast_fill_rows(heads, half);
+    else
+      trax_fast_shift_rows(heads, half, here);
+  }
 #else
   (void)wide;
   for (; who; who &= who - 1) {

@@ -88,6 +88,8 @@ static inline __attribute__((always_inline)) void issue_quickly(struct trax_tm *
 }
 
 static void issue_all_quickly(struct trax_tm *tm, uint64_t quick) {
+  if (!quick)
+    return;
   if (tm->wide)
     issue_quickly(tm, true, quick);
   else

@@ -143,20 +143,16 @@ struct trax_fast_refused {
    is counted for all TPs at once. A log of several cycles is added together, since the carries cost most. */
 enum { TRAX_FAST_LOG_BITS = 5, TRAX_FAST_LOG = (1 << TRAX_FAST_LOG_BITS) - 1 /* cycles */ };
 #define TRAX_FAST_COUNTERS (TRAX_FAST_REFUSALS <= 8 ? 8 : TRAX_FAST_REFUSALS <= 16 ? 16 : 32) /* a power of two */
-typedef uint64_t trax_fast_refusals
-    __attribute__((vector_size(8 * TRAX_FAST_COUNTERS), may_alias)); /* in the order of TRAX_FAST_REFUSED */
 
 struct trax_fast_refusal_counts {
-  trax_fast_refusals planes[64];
-  trax_fast_refusals log[TRAX_FAST_LOG];
+  _Alignas(64) uint64_t planes[64][TRAX_FAST_COUNTERS]; /* in the order of TRAX_FAST_REFUSED */
+  uint64_t log[TRAX_FAST_LOG][TRAX_FAST_COUNTERS];
   uint32_t logged;
 };
 
 /* Appends a cycle to the log. Returns whether the log is full. */
 static inline bool trax_fast_count(struct trax_fast_refusal_counts *counts, const struct trax_fast_refused *refused) {
-  /* Words are stored singly: they are not read soon, and to assemble a vector would cost more. */
-  typedef uint64_t word __attribute__((may_alias));
-  word *log = (word *)&counts->log[counts->logged];
+  uint64_t *log = counts->log[counts->logged];
 #define LOG(MEMBER, CAUSE) *log++ = refused->MEMBER;
   TRAX_FAST_REFUSED(LOG)
 #undef LOG
