@@ -4,8 +4,8 @@
     text                                  what the commands before it print
     c hello.c (any language and a name)   a file, written before the commands run
     c of PATH (any language)              a part of that file of the sources
-sh long, console long                 commands that take minutes or need files that are not here; only their options are
-checked
+    sh long, console long                 commands that take minutes or need files that are not here; only their
+                                          options are checked
     sh whole, text whole                  the same, in the tutorial: they need changed sources built anew
     sh recipe                             what the test clang/recipes.test runs
     output                                what a program prints, shown to explain it

@@ -1,9 +1,9 @@
 """Commands of the pages: commands_test.py SOURCE BUILD [--update] [PAGE...]
 
 - Blocks of `sh` are run, each page in a folder of its own, and `text` behind one is what it prints (blocks.py has the
-kinds). - Of blocks of `sh long`, and of `code` that is a command, the program and its options must exist. Those of
-trax-render are
-  also started, without their files: a file that is not there must be all that is wrong.
+  kinds).
+- Of blocks of `sh long`, and of `code` that is a command, the program and its options must exist. Those of trax-render
+  are also started, without their files: a file that is not there must be all that is wrong.
 
 Stand-ins (small meshes, small programs) have the names that pages use for files of the reader's. --update writes into
 the pages what the commands print. tests/tutorial does the tutorial's two pages."""

@@ -1,14 +1,16 @@
 """The pages hang together: links_test.py SOURCE
 
-- Every link leads to a file, every #anchor and every quoted chapter (`[isa.md](isa.md), "Order"`) to a heading of it. -
-Every `docs/PAGE.md, "Chapter"` in the sources, too. - `folder/file` is a file of the sources, `trax_name` a word of
-them. - docs/index.md and README.md lead to every page, directly or by another page; docs/index.md names every page of
-docs/. - A page begins with a title and a sentence, and has at most LINES lines besides generated lists; pages of
-results and GENERATED
-  may have long tables.
+- Every link leads to a file, every #anchor and every quoted chapter (`[isa.md](isa.md), "Order"`) to a heading of it.
+- Every `docs/PAGE.md, "Chapter"` in the sources, too.
+- `folder/file` is a file of the sources, `trax_name` a word of them.
+- docs/index.md and README.md lead to every page, directly or by another page; docs/index.md names every page of docs/.
+- A page begins with a title and a sentence, and has at most LINES lines besides generated lists; pages of results and
+  GENERATED may have long tables.
 - A page of results says once, with `*Measured with ...*`, which versions measured it: those that stand above its
-tables. - What is code stands between backticks: an indented block has no kind, and no test runs it. - VERSION has a
-chapter in CHANGELOG.md. - Every picture in docs/ is shown by a page, is what its name says, and is small.
+  tables.
+- What is code stands between backticks: an indented block has no kind, and no test runs it.
+- VERSION has a chapter in CHANGELOG.md.
+- Every picture in docs/ is shown by a page, is what its name says, and is small.
 
 It also sees that it can fail."""
 

@@ -5,7 +5,7 @@ bytes.
     tests/evaluation/evaluation_test.py --bin build/bin [--only NAME] [--kills N]
 
 --only slurm needs Slurm's commands and a controller that answers: tests/evaluation/slurm.sh starts one. Exit status 77:
-there is none. """
+there is none."""
 
 import argparse
 import importlib
