@@ -11,10 +11,12 @@ from trax_eval.table_spec import AS, descriptions
 from .results import deviation, mean, number, ratio
 from .table import Cell, Table, between, duration, figure, percent, share
 
-SUMMARIES = {
-    "geometric mean": lambda values: math.prod(values)**(1 / len(values))
-    if min(values) > 0 else None, "least": min, "greatest": max
-}
+
+def geometric_mean(values):
+    return math.exp(math.fsum(map(math.log, values)) / len(values)) if min(values) > 0 else None
+
+
+SUMMARIES = {"geometric mean": geometric_mean, "least": min, "greatest": max}
 NAMED = ("program", "workload", "kind", "variant", "chip", "size", "mode", "scene")
 # Titles of figures; those that are shares are shown in per cent.
 TITLES = {
