@@ -177,38 +177,20 @@ class Run:
                                            self.mode) if part)
 
 
-def upgrade(document):
-    """Version 1 had no titles; what of the paper its scenes stand for was known here."""
-    papers = {
-        "conference": "conference", "crytek-sponza": "crytek", "dragon": "dragon", "forest": "fairy",
-        "dragon-close": "dragon"
-    }
-    runs = [run for run in document.get("runs") or [] if isinstance(run, dict)]
-
-    def named(key, order=()):
-        return sorted({run[key] for run in runs if isinstance(run.get(key), str)}, key=lambda name:
-                      (order.index(name) if name in order else len(order), name))
-
-    return {
-        **document, "version": 2, "programs": [{"name": name} for name in named("program")],
-        "scenes": [{"name": name, "paper": papers.get(name)} for name in named("scene", list(papers))]
-    }
-
-
 class Results:
     def __init__(self, document, runs=None):
         if not isinstance(document, dict) or document.get("format") != FORMAT:
             raise Problem(f"is not a file of results: \"format\" is not \"{FORMAT}\"")
-        if document.get("version") not in (1, 2):
-            raise Problem(f"\"version\" is {document.get('version')!r}; this report reads versions 1 and 2")
+        if document.get("version") != 2:
+            raise Problem(f"\"version\" is {document.get('version')!r}, not 2: another trax-eval wrote it; its command "
+                          "writes it anew")
         for key in ("runs", "sweeps", "series", "programs", "scenes", "workloads"):
             if not isinstance(document.get(key), (list, type(None))):
                 raise Problem(f"\"{key}\" is not a list")
             for index, entry in enumerate(document.get(key) or []):
                 if not isinstance(entry, dict):
                     raise Problem(f"{key}[{index}] is not an object")
-        self.document = document = upgrade(document) if document["version"] == 1 else document
-        self.asked = {}
+        self.document, self.asked = document, {}
         self.runs = [Run(record, index, self.asked)
                      for index, record in enumerate(document.get("runs") or [])] if runs is None else runs
         self.sweeps = document.get("sweeps") or []
