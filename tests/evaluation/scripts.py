@@ -24,12 +24,16 @@ def main(doc, listed, **more):
         parser.add_argument(f"--{name}", type=type(default), default=default)
     options = parser.parse_args()
     with tempfile.TemporaryDirectory(dir=os.environ.get("TRAX_TEST_FOLDER")) as temporary:
-        for name, test in listed(options, pathlib.Path(temporary).resolve()).items():
+        tests = listed(options, pathlib.Path(temporary).resolve())
+        if options.only not in (None, *tests):
+            parser.error(f"--only {options.only}: there are {', '.join(tests)}")
+        for name, test in tests.items():
             if options.only in (None, name):
-                begin = time.monotonic()
+                begin, used = time.monotonic(), sum(os.times()[:4])
                 try:
                     test()
                 except Exception:
                     check(False, traceback.format_exc())
-                print(f"{name}: {time.monotonic() - begin:.1f} s", flush=True)
+                used = sum(os.times()[:4]) - used
+                print(f"{name}: {time.monotonic() - begin:.1f} s, {used:.1f} s of a processor", flush=True)
     return 1 if checking.failures else 0
