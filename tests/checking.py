@@ -1,4 +1,5 @@
-"""What tests in Python share: a condition that must hold, and a command that is run. `failures` counts what did not hold."""
+"""What tests in Python share: a condition that must hold, and a command that is run. `failures` counts what did not
+hold."""
 import subprocess
 
 failures = 0
@@ -19,6 +20,7 @@ def equal(a, b, *what):
 
 def call(folder, program, *words, status=0):
     """A program of the folder, which must end with the status."""
-    done = subprocess.run([folder / program, *map(str, words)], capture_output=True, text=True, timeout=280, check=False)
+    done = subprocess.run([folder / program, *map(str, words)], capture_output=True, text=True, timeout=280,
+                          check=False)
     check(done.returncode == status, program, *words, "status", done.returncode, done.stdout, done.stderr)
     return done

@@ -5,9 +5,9 @@
                                    [--cycles 60000:160000] [--bin build/bin]
 
 SCENES_DIRECTORY holds the scenes as for speed.py. The figures are instructions of the host in user mode while trax-sim
-simulates the cycles of the picture between the two numbers of --cycles, on one thread of the host. They are the difference
-of two runs, so loading and the end of the run cancel out. Inlined functions count where they are inlined. Debian's valgrind
-does not support AVX-512, so the variant for AVX2 is measured. The figures are reproducible.
+simulates the cycles of the picture between the two numbers of --cycles, on one thread of the host. They are the
+difference of two runs, so loading and the end of the run cancel out. Inlined functions count where they are inlined.
+Debian's valgrind does not support AVX-512, so the variant for AVX2 is measured. The figures are reproducible.
 """
 
 import json
@@ -26,11 +26,13 @@ ROWS = 12  # of functions; the rest is one row
 def count(programs, words, cycles, scratch):
     """Host instructions by function, and the statistics of the run."""
     out, stats = scratch / "callgrind.out", scratch / "stats.json"
-    run = subprocess.run(["valgrind", "--tool=callgrind", f"--callgrind-out-file={out}", programs / "trax-sim", *words, "--host-threads",
-                          "1", "--max-cycles", str(cycles), "--stats", stats], cwd=scratch, capture_output=True, text=True)
+    run = subprocess.run(["valgrind", "--tool=callgrind", f"--callgrind-out-file={out}", programs / "trax-sim", *words,
+                          "--host-threads", "1", "--max-cycles", str(cycles), "--stats", stats],
+                         cwd=scratch, capture_output=True, text=True)
     if run.returncode != 124 or not stats.exists():
         sys.exit(f"instructions.py: error: the run has not stopped at cycle {cycles}:\n{run.stderr}")
-    listing = subprocess.run(["callgrind_annotate", "--threshold=100", "--auto=no", out], check=True, capture_output=True, text=True).stdout
+    listing = subprocess.run(["callgrind_annotate", "--threshold=100", "--auto=no", out], check=True,
+                             capture_output=True, text=True).stdout
     functions = {}
     for number, name in re.findall(r"^ *([\d,]+) \([ \d.]+%\)  \S*?:([^\[\n]+?) *(?:\[[^\]\n]*\])?$", listing, re.M):
         name = re.sub(r"(_v3)?('\d+)?$", "", name)  # suffixes of the variant and of recursive calls
@@ -61,7 +63,9 @@ def main():
     rows = [(name, number) for number, name in difference[:ROWS]]
     rows.append(("the rest", total - sum(number for _, number in rows)))
     for name, number in rows:
-        print(f"| {name if name == 'the rest' else f'`{name}`'} | {number / cycles:,.0f} | {100 * number / total:.1f} % |")
+        print(
+            f"| {name if name == 'the rest' else f'`{name}`'} | {number / cycles:,.0f} | {100 * number / total:.1f} % |"
+        )
     print(f"| all | {total / cycles:,.0f} | 100 % |")
     print(f"\n{total / instructions:.1f} host instructions for each instruction of the program")
 

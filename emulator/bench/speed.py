@@ -5,9 +5,9 @@
                             [--whole | --max-cycles 400000] [--repeats 3] [--bin build/bin]
 
 SCENES_DIRECTORY holds the meshes of trax-eval's scenes. The rows are those of engine-bench (emulator/bench/engines.c):
-million simulated instructions per second of wall time for each engine, and ratios. The timed engines run the first cycles of
-the picture, the functional engine the whole picture. With --whole, all engines run the whole picture, without the reference.
-The first line names the host's processor: processors differ by more than versions do.
+million simulated instructions per second of wall time for each engine, and ratios. The timed engines run the first
+cycles of the picture, the functional engine the whole picture. With --whole, all engines run the whole picture, without
+the reference. The first line names the host's processor: processors differ by more than versions do.
 """
 
 import argparse
@@ -42,20 +42,25 @@ def files_of(directory, scene):
 
 def prepare(options, scene, scratch):
     """The executable of the scene's picture and its buffers, in scratch, as engine-bench takes them."""
-    subprocess.run([options.bin / "trax-render", *files_of(options.scenes, scene), "--view", scene, "--size", options.size, "--quiet", "--prepare", scratch],
+    subprocess.run([options.bin / "trax-render", *files_of(options.scenes, scene), "--view", scene, "--size",
+                    options.size, "--quiet", "--prepare", scratch],
                    check=True)
     manifest = read_manifest(scratch)
-    return [manifest["program"]["file"], *(f"{buffer['symbol']}={buffer['file']}" if "file" in buffer else f"{buffer['symbol']}:{buffer['bytes']}"
-                                           for buffer in manifest["buffers"])]
+    return [
+        manifest["program"]["file"],
+        *(f"{buffer['symbol']}={buffer['file']}" if "file" in buffer else f"{buffer['symbol']}:{buffer['bytes']}"
+          for buffer in manifest["buffers"])]
 
 
 def processor():
-    """The host's processor, as Linux names it, with its family and model, since names may be those of a whole family."""
+    """The host's processor, as Linux names it, with its family and model, since names may be those of a whole
+    family."""
     facts = {}
     for line in pathlib.Path("/proc/cpuinfo").read_text().split("\n\n")[0].splitlines():
         name, _, value = line.partition(":")
         facts[name.strip()] = value.strip()
-    return f"{facts.get('model name', 'unknown')} (family {facts.get('cpu family', '?')}, model {facts.get('model', '?')})"
+    return (f"{facts.get('model name', 'unknown')} (family {facts.get('cpu family', '?')}, model "
+            f"{facts.get('model', '?')})")
 
 
 def main():
@@ -73,7 +78,8 @@ def main():
         with tempfile.TemporaryDirectory() as scratch:
             arguments_of_program = prepare(options, scene, scratch)
             how_far = ["--no-reference"] if options.whole else ["--max-cycles", options.max_cycles]
-            run = subprocess.run([(options.bin / "../tests/bin/engine-bench").resolve(), "--chips", options.chips, *how_far,
+            run = subprocess.run([(options.bin / "../tests/bin/engine-bench").resolve(), "--chips", options.chips,
+                                  *how_far,
                                   "--repeats", options.repeats, *arguments_of_program],
                                  cwd=scratch, text=True, stdout=subprocess.PIPE)
         rows = run.stdout.splitlines()

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Writes the seeds of the fuzzers: usage seeds.py BUILD DIRECTORY
 
-BUILD is a finished build. DIRECTORY gets a folder for each fuzzer, with a file for each case, in the form of fuzz_case.h.
+BUILD is a finished build. DIRECTORY gets a folder for each fuzzer, with a file for each case, in the form of
+fuzz_case.h.
 """
 
 import glob
@@ -72,11 +73,16 @@ def packets(*lines):
         file.write(case)
 
 
-packets("qSupported:swbreak+;hwbreak+", "?", "Hg0", "qXfer:features:read:target.xml:0,ffb", "qfThreadInfo", "qsThreadInfo",
-        "qXfer:threads:read::0,200", "qC", "qAttached", "g", "p20", "vCont?", "m1000,40", "mfffffff0,10", "T2", "qThreadExtraInfo,3")
-packets("QStartNoAckMode", "Z0,1008,4", "vCont;c", "z0,1008,4", "vCont;s:1", "Z0,1008,4", "vCont;c", "Hg2", "vCont;s:2;c", "c", "c", "D")
-packets("Z2,10004,4", "c", "c", "z2,10004,4", "Z3,10000,4", "c", "Z4,fffffff8,4", "c", "Z2,10000,4", "c", "c", "c", "vKill;1")
-packets("P5=02000000", "P20=08100000", "M10000,4:01020304", "X10000,3:abc", "G" + "00" * 260, "vCont;r1000,1010:1;c", "s", "S05", "C0b;1008")
+packets("qSupported:swbreak+;hwbreak+", "?", "Hg0", "qXfer:features:read:target.xml:0,ffb", "qfThreadInfo",
+        "qsThreadInfo",
+        "qXfer:threads:read::0,200", "qC", "qAttached", "g", "p20", "vCont?", "m1000,40", "mfffffff0,10", "T2",
+        "qThreadExtraInfo,3")
+packets("QStartNoAckMode", "Z0,1008,4", "vCont;c", "z0,1008,4", "vCont;s:1", "Z0,1008,4", "vCont;c", "Hg2",
+        "vCont;s:2;c", "c", "c", "D")
+packets("Z2,10004,4", "c", "c", "z2,10004,4", "Z3,10000,4", "c", "Z4,fffffff8,4", "c", "Z2,10000,4", "c", "c", "c",
+        "vKill;1")
+packets("P5=02000000", "P20=08100000", "M10000,4:01020304", "X10000,3:abc", "G" + "00" * 260, "vCont;r1000,1010:1;c",
+        "s", "S05", "C0b;1008")
 packets("vCont;c", "\x03", "qRcmd," + b"cycle".hex(), "qRcmd," + b"stats".hex(), "qRcmd," + b"registers".hex(),
         "qRcmd," + b"disassemble 0x1000 5".hex(), "qRcmd," + b"help".hex(), "vCont;c", "\x03", "k")
 packets("Z0,1024,4", "Z0,1028,4", "c", "z0,1024,4", "vCont;s:1", "vCont;s:1", "vCont;s:1", "c", "c", "c", "c")

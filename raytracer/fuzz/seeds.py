@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Writes cases to begin with: usage seeds.py BUILD DIRECTORY
 
-BUILD is a finished build. DIRECTORY gets a folder for each fuzzer, one file a case, in the form that fuzz_case.h describes
-or, for scenes, views and pictures, the file itself.
+BUILD is a finished build. DIRECTORY gets a folder for each fuzzer, one file a case, in the form that fuzz_case.h
+describes or, for scenes, views and pictures, the file itself.
 """
 
 import glob
@@ -50,26 +50,28 @@ def render(*words):
 
 # JPEG, 8 x 8, grey: as libjpeg writes it.
 JPEG = bytes.fromhex(
-    "ffd8ffe000104a46494600010100000100010000ffdb004300080606070605080707070909080a0c140d0c0b0b0c1912130f141d1a1f1e1d1a1c1c"
-    "20242e2720222c231c1c2837292c30313434341f27393d38323c2e333432ffc0000b080008000801011100ffc4001f000001050101010101010000"
-    "0000000000000102030405060708090a0bffc400b5100002010303020403050504040000017d010203000411051221314106135161072271143281"
-    "91a1082342b1c11552d1f02433627282090a161718191a25262728292a3435363738393a434445464748494a535455565758595a63646566676869"
-    "6a737475767778797a838485868788898a92939495969798999aa2a3a4a5a6a7a8a9aab2b3b4b5b6b7b8b9bac2c3c4c5c6c7c8c9cad2d3d4d5d6d7"
-    "d8d9dae1e2e3e4e5e6e7e8e9eaf1f2f3f4f5f6f7f8f9faffda0008010100003f00f7fa28a2bfffd9")
+    "ffd8ffe000104a46494600010100000100010000ffdb004300080606070605080707070909080a0c140d0c0b0b0c1912130f"
+    "141d1a1f1e1d1a1c1c20242e2720222c231c1c2837292c30313434341f27393d38323c2e333432ffc0000b08000800080101"
+    "1100ffc4001f0000010501010101010100000000000000000102030405060708090a0bffc400b51000020103030204030505"
+    "04040000017d01020300041105122131410613516107227114328191a1082342b1c11552d1f02433627282090a161718191a"
+    "25262728292a3435363738393a434445464748494a535455565758595a636465666768696a737475767778797a8384858687"
+    "88898a92939495969798999aa2a3a4a5a6a7a8a9aab2b3b4b5b6b7b8b9bac2c3c4c5c6c7c8c9cad2d3d4d5d6d7d8d9dae1e2"
+    "e3e4e5e6e7e8e9eaf1f2f3f4f5f6f7f8f9faffda0008010100003f00f7fa28a2bfffd9")
 
 image = png(4, 2, 6, b"\x80\x40\xff\x20")
 OBJ = (b"mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\nvn 0 1 1\nusemtl a\n"
        b"f 1/1/1 2/2/1 3/3/2 4/1/2\nusemtl b\nf -4//1 -3//2 -1//1\nf 1 2 4\n")
 MTL = (b"newmtl a\nKd .5 .5 .5\nmap_Kd -clamp on a.png\nmap_d a.png\nKs .2 .2 .2\nNs 20\nillum 2\n"
        b"newmtl b\nKe 1 2 3\nNi 1.3\nillum 7\nd 0.5\nTr 0.5\n")
-PLY = (b"ply\nformat ascii 1.0\ncomment TextureFile a.png\nelement vertex 4\nproperty float x\nproperty float y\n"
-       b"property float z\nproperty float nx\nproperty float ny\nproperty float nz\nproperty float s\nproperty float t\n"
-       b"element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 0 0 1 0 0\n1 0 0 0 0 1 1 0\n"
-       b"1 1 0 0 0 1 1 1\n0 1 0 0 0 1 0 1\n4 0 1 2 3\n")
-BINARY_PLY = (b"ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty double y\nproperty short z\n"
-              b"element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
-              + b"".join(struct.pack("<fdh", *v) for v in ((0, 0, 0), (1, 0, 0), (0, 1, 2)))
-              + struct.pack("<5i", 4, 0, 1, 2, -1))
+PLY = (
+    b"ply\nformat ascii 1.0\ncomment TextureFile a.png\nelement vertex 4\nproperty float x\nproperty float y\n"
+    b"property float z\nproperty float nx\nproperty float ny\nproperty float nz\nproperty float s\nproperty float t\n"
+    b"element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 0 0 1 0 0\n1 0 0 0 0 1 1 0\n"
+    b"1 1 0 0 0 1 1 1\n0 1 0 0 0 1 0 1\n4 0 1 2 3\n")
+BINARY_PLY = (
+    b"ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty double y\nproperty short z\n"
+    b"element tristrips 1\nproperty list int int vertex_indices\nend_header\n" +
+    b"".join(struct.pack("<fdh", *v) for v in ((0, 0, 0), (1, 0, 0), (0, 1, 2))) + struct.pack("<5i", 4, 0, 1, 2, -1))
 add_case("trax-scene-mesh", "a=mirror emit:1,2,3", ("a.obj", OBJ), ("a.mtl", MTL), ("a.png", image))
 add_case("trax-scene-mesh", "", ("a.obj", OBJ), ("a.mtl", MTL), ("a.png", JPEG))
 add_case("trax-scene-mesh", "glass:2", ("a.ply", PLY), ("a.png", image))
@@ -83,7 +85,8 @@ add_case("trax-scene-mesh", "", ("a.gltf", GLTF))
 add_case("trax-scene-mesh", "", ("a.gltf", GLTF_1))
 glb = b"glTF" + struct.pack("<4I", 2, 20 + len(GLTF), len(GLTF), 0x4E4F534A) + GLTF
 add_case("trax-scene-mesh", "", ("a.glb", glb))
-comb = b"".join(b"v %d %d 0\n" % (i, 5 * (i // 2 % 2)) for i in range(40)) + b"f " + b" ".join(b"%d" % (i + 1) for i in range(40))
+comb = b"".join(b"v %d %d 0\n" % (i, 5 * (i // 2 % 2)) for i in range(40)) + b"f " + b" ".join(b"%d" % (i + 1)
+                                                                                               for i in range(40))
 add_case("trax-scene-mesh", "", ("a.obj", comb))
 
 numbers = random.Random(1)
@@ -94,7 +97,9 @@ for view in glob.glob(os.path.join(here, "..", "views", "*.view")):
     with open(view, "rb") as file:
         add("trax-view", file.read())
 VIEW = b"eye = (0, 1.5, 4); look_at = [0.0, 0.0, 0.0]; up = [0, 1, 0]; fov = 45;\n"
-add("trax-view", VIEW + b'lights = ( { type = "point"; position = [1, 2, 3]; colour = (1, 0.5, 0); strength = 0.5; falloff = 4; } );\n')
+add(
+    "trax-view", VIEW +
+    b'lights = ( { type = "point"; position = [1, 2, 3]; colour = (1, 0.5, 0); strength = 0.5; falloff = 4; } );\n')
 add("trax-view", VIEW + b'lights = ( { type = "directional"; direction = [1, 2, 3]; },\n'
     b'  { type = "rectangle"; corner = [1, 2, 3]; edges = ([1, 0, 0], [0, 0, 1]); strength = 8.0; } );\n')
 
@@ -109,14 +114,19 @@ def npy(kind, shape, data):
     return b"\x93NUMPY\x01\x00" + struct.pack("<H", len(header)) + header.encode() + data
 
 
-# Over the fuzzer's mesh of nine triangles: a root and two leaves, and a deeper one; with boxes a triangle is in two leaves.
+# Over the fuzzer's mesh of nine triangles: a root and two leaves, and a deeper one; with boxes a triangle is in two
+# leaves.
 everything = struct.pack("<6f", -99, -99, -99, 99, 99, 99)
 ORDER = npy("<i4", (9,), struct.pack("<9i", *range(9)))
 LEAVES = npy("<i4", (3, 3), struct.pack("<9i", 1, 2, 0, 0, 0, 5, 5, 0, 4))
 add_case("trax-scene-tree", "", ("nodes.npy", LEAVES), ("order.npy", ORDER))
-add_case("trax-scene-tree", "quantised twins smooth", ("nodes.npy", npy("<u8", (5, 3), struct.pack("<15Q", 1, 2, 0, 0, 0, 3, 3, 4, 0, 3, 0, 3, 6, 0, 3))), ("order.npy", ORDER))
-add_case("trax-scene-tree", "deep", ("nodes.npy", LEAVES), ("order.npy", ORDER), ("boxes.npy", npy("<f4", (3, 2, 3), 3 * everything)))
-add_case("trax-scene-tree", "lamps", ("nodes.npy", npy("<i4", (3, 3), struct.pack("<9i", 1, 2, 0, 0, 0, 5, 4, 0, 5))), ("order.npy", ORDER), ("boxes.npy", npy("<f4", (3, 6), 3 * everything)))
+add_case("trax-scene-tree", "quantised twins smooth",
+         ("nodes.npy", npy("<u8", (5, 3), struct.pack("<15Q", 1, 2, 0, 0, 0, 3, 3, 4, 0, 3, 0, 3, 6, 0, 3))),
+         ("order.npy", ORDER))
+add_case("trax-scene-tree", "deep", ("nodes.npy", LEAVES), ("order.npy", ORDER),
+         ("boxes.npy", npy("<f4", (3, 2, 3), 3 * everything)))
+add_case("trax-scene-tree", "lamps", ("nodes.npy", npy("<i4", (3, 3), struct.pack("<9i", 1, 2, 0, 0, 0, 5, 4, 0, 5))),
+         ("order.npy", ORDER), ("boxes.npy", npy("<f4", (3, 6), 3 * everything)))
 
 with tempfile.TemporaryDirectory() as work:
     def write(name, data):
@@ -134,9 +144,12 @@ with tempfile.TemporaryDirectory() as work:
             with open(picture, "rb") as file:
                 add("trax-picture", file.read())
     box = os.path.join(here, "..", "..", "tests", "render", "box.obj")
-    for number, words in enumerate(([mesh, "--smooth"], [mesh, "--material", "b=glass", "--no-source-ids"], [mesh, "--no-textures"],
-                                    [box, "--nodes", "binary"], [box, "--nodes", "quantised", "--no-source-ids", "--leaf", "2"],
-                                    [box, "--material", "red=mirror", "--material", "white=ggx:0.3"], [box, "--smooth", "--leaf", "1"])):
+    for number, words in enumerate(([mesh, "--smooth"], [mesh, "--material", "b=glass", "--no-source-ids"],
+                                    [mesh, "--no-textures"],
+                                    [box, "--nodes", "binary"], [box, "--nodes", "quantised", "--no-source-ids",
+                                                                 "--leaf", "2"],
+                                    [box, "--material", "red=mirror", "--material", "white=ggx:0.3"],
+                                    [box, "--smooth", "--leaf", "1"])):
         scene = os.path.join(work, f"{number}.trax")
         subprocess.run([os.path.join(build, "bin", "trax-scene"), "-q", *words, "-o", scene], check=True)
         with open(scene, "rb") as file:

@@ -17,7 +17,7 @@ from inside import Inside  # noqa: E402, F401
 def main(doc, listed, **more):
     """Runs the tests of listed(options, scratch), a dictionary of functions, or the one that --only names. A test that
     fails does not stop the others. more: further options with their defaults."""
-    parser = argparse.ArgumentParser(description=doc.split("\n")[0])
+    parser = argparse.ArgumentParser(description=doc.split("\n\n")[0])
     parser.add_argument("--bin", type=lambda text: pathlib.Path(text).resolve(), required=True)
     parser.add_argument("--only", metavar="TEST")
     for name, default in more.items():

@@ -2,10 +2,10 @@
 
   layers_test.py SOURCE
 
-The packages of trax-eval import one another in the same way. A table is read from its chapter: a row for each folder, and in its second column what the folder may include. Rows stand from
-the top layer to the bottom one, so a folder may only name those below it: there is no circle. The test also sees that it can
-fail: with includes added to a copy of a file of each folder that look up or, in the ray tracer, at what the emulator keeps to
-itself."""
+The packages of trax-eval import one another in the same way. A table is read from its chapter: a row for each folder,
+and in its second column what the folder may include. Rows stand from the top layer to the bottom one, so a folder may
+only name those below it: there is no circle. The test also sees that it can fail: with includes added to a copy of a
+file of each folder that look up or, in the ray tracer, at what the emulator keeps to itself."""
 
 import os
 import re
@@ -18,7 +18,8 @@ PARTS = [("emulator", "## The emulator's layers", 10, 100), ("raytracer", "## Th
          ("raytracer/evaluation", "## The packages of trax-eval", 3, 30)]
 C, PYTHON = (".c", ".cpp", ".h"), (".py",)
 # What other parts offer to the ray tracer as trax/*.h.
-PUBLIC = {"emulator": "emulator/include/trax", "base": "emulator/base/include/trax", "isa": "isa/include/trax", "runtime": "runtime/include"}
+PUBLIC = {"emulator": "emulator/include/trax", "base": "emulator/base/include/trax", "isa": "isa/include/trax",
+          "runtime": "runtime/include"}
 
 
 def table(chapter):
@@ -28,7 +29,8 @@ def table(chapter):
     text = text[text.index(chapter) :].split("\n## ")[0]
     rows = re.findall(r"^\| `(\w+)/` \| ([^|]*) \|", text, re.M)
     names = [name for name, _ in rows]
-    return {name: names[i + 1 :] if below == "all below" else re.findall(r"`(\w+)/?`", below) for i, (name, below) in enumerate(rows)}
+    return {name: names[i + 1 :] if below == "all below" else re.findall(r"`(\w+)/?`", below) for i,
+            (name, below) in enumerate(rows)}
 
 
 def sources(part, folders, endings):
@@ -52,13 +54,14 @@ class Part:
             self.headers.setdefault(os.path.basename(path), set()).add(folder)
 
     def folder_of(self, path, include):
-        """Whose header it is: a folder of the part, or one of PUBLIC; "" if that is nobody's; None of those that need no
-        permission: the system's, generated ones and, in the emulator, the public ones."""
+        """Whose header it is: a folder of the part, or one of PUBLIC; "" if that is nobody's; None of those that need
+        no permission: the system's, generated ones and, in the emulator, the public ones."""
         first = include.split("/")[0]
         if self.name == "emulator":  # "fast/chip.h", not "trax/files.h" or a file beside it
             return first if "/" in include and first != "trax" else None
         if first == "trax":
-            found = [public for public, place in PUBLIC.items() if os.path.exists(os.path.join(SOURCE, place, include[5:]))]
+            found = [public for public,
+                     place in PUBLIC.items() if os.path.exists(os.path.join(SOURCE, place, include[5:]))]
             return (found or ["include"])[0]
         beside = os.path.normpath(os.path.join(os.path.dirname(path), include))
         if os.path.exists(os.path.join(SOURCE, beside)):
@@ -70,7 +73,8 @@ class Part:
     def check(self, files):
         """What is wrong, in lines."""
         order = list(self.allowed)
-        wrong = [f"{PAGE}: {name}/ may include {other}/, which stands above it" for name, below in self.allowed.items() for other in below
+        wrong = [f"{PAGE}: {name}/ may include {other}/, which stands above it" for name,
+                 below in self.allowed.items() for other in below
                  if other in order and order.index(other) < order.index(name)]
         for folder, path, text in files:
             if folder not in self.allowed:
@@ -93,7 +97,8 @@ class Part:
             if self.name == "emulator":
                 added = [f"{other}/x.h" for other in reversed(order[:i]) if other not in self.allowed[name]][:1]
             else:
-                others = (header for header, folders in self.headers.items() if header.endswith(".h") and not folders & {name, *self.allowed[name]})
+                others = (header for header, folders in self.headers.items()
+                          if header.endswith(".h") and not folders & {name, *self.allowed[name]})
                 added = ["machine/machine.h", "program/program.h", next(others)]
             for include in added:
                 if not self.check([(own, path, f'#include "{include}"\n' + text)]):
@@ -111,7 +116,10 @@ class Packages(Part):
         return include if include in self.allowed else None
 
     def included(self, text):
-        return [first for line in re.findall(r"^ *(?:from|import) +(.*)", text, re.M) for first in re.findall(r"(?:^|, *)(\w+)", line.split(" import ")[0])]
+        return [
+            first for line in re.findall(r"^ *(?:from|import) +(.*)", text, re.M)
+            for first in re.findall(r"(?:^|, *)(\w+)",
+                                    line.split(" import ")[0])]
 
     def unnoticed(self):
         order = list(self.allowed)
@@ -127,7 +135,8 @@ def main():
         part = (Packages if "packages" in chapter else Part)(name, chapter)
         wrong = part.check(part.files) + list(part.unnoticed())
         if len(part.allowed) < folders or len(part.files) < files:
-            wrong.append(f"{len(part.allowed)} rows and {len(part.files)} files of {name}/ are too few to prove anything")
+            wrong.append(
+                f"{len(part.allowed)} rows and {len(part.files)} files of {name}/ are too few to prove anything")
         for line in wrong:
             print(line)
         failed = failed or bool(wrong)

@@ -2,8 +2,8 @@
 
   patched.py SOURCE SCRATCH [COMPILER-LAUNCHER]
 
-makes a copy of the sources in SCRATCH, which receives all patches, and builds what their tests need. Each patch fits the
-sources without the others. Some of the fast engine's structures receive a field more, for state_test.py."""
+makes a copy of the sources in SCRATCH, which receives all patches, and builds what their tests need. Each patch fits
+the sources without the others. Some of the fast engine's structures receive a field more, for state_test.py."""
 
 import glob
 import json
@@ -15,7 +15,8 @@ import subprocess
 import sys
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-PARTS = ["CMakeLists.txt", "VERSION", "cmake", "docs", "emulator", "isa", "llvm-target", "raytracer", "runtime", "tests", "LICENSE", "README.md"]
+PARTS = ["CMakeLists.txt", "VERSION", "cmake", "docs", "emulator", "isa", "llvm-target", "raytracer", "runtime",
+         "tests", "LICENSE", "README.md"]
 TARGETS = ["timing-engines-test", "timing-rollback-test", "timing-units-page", "emulator-programs", "trax-sim"]
 
 ADDED = "added-fields.txt"  # in SCRATCH: the names of the structures
@@ -26,13 +27,14 @@ NESTED = ["trax_request_list", "trax_instant"]  # only within others, as bytes o
 def run(*command, **options):
     done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False, **options)
     if done.returncode:
-        sys.exit(f"{' '.join(map(str, command))}: exit status {done.returncode}\n{done.stdout[-4000:]}{done.stderr[-4000:]}")
+        sys.exit(
+            f"{' '.join(map(str, command))}: exit status {done.returncode}\n{done.stdout[-4000:]}{done.stderr[-4000:]}")
     return done.stdout
 
 
 def add_fields(scratch):
-    """Adds a field to each of some structures whose saved fields stand in a list, behind any of these. TRAX_RANDOM_SEED makes it
-    different."""
+    """Adds a field to each of some structures whose saved fields stand in a list, behind any of these. TRAX_RANDOM_SEED
+    makes it different."""
     generator = random.Random(int(os.environ.get("TRAX_RANDOM_SEED", "1")))
     lists = []
     for path in sorted(glob.glob(os.path.join(scratch, "emulator", "fast", "*.h"))):
@@ -74,7 +76,8 @@ def build(source, scratch, launcher):
         run("git", "apply", patch, cwd=scratch, env=in_no_repository)
     add_fields(scratch)
     launchers = [f"-DCMAKE_{language}_COMPILER_LAUNCHER={launcher}" for language in ("C", "CXX")]
-    run("cmake", "-S", scratch, "-B", f"{scratch}/build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=None", "-DCMAKE_C_FLAGS=-O1",
+    run("cmake", "-S", scratch, "-B", f"{scratch}/build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=None",
+        "-DCMAKE_C_FLAGS=-O1",
         "-DCMAKE_CXX_FLAGS=-O1", "-DTRAX_FAST_VARIANTS=OFF", *launchers)
     run("ninja", "-C", f"{scratch}/build", "-j2", *TARGETS)
     run(f"{scratch}/build/tests/bin/emulator-programs", scratch)
@@ -92,7 +95,8 @@ class Patched:
         self.failures = 0
         with open(os.path.join(HERE, patch), encoding="utf-8") as file:
             self.files = re.findall(r"^\+\+\+ b/(\S+)", file.read(), re.M)
-        self.check(0 < len(self.files) <= most_files, f"the patch changes {len(self.files)} files: {' '.join(self.files)}")
+        self.check(0 < len(self.files) <= most_files,
+                   f"the patch changes {len(self.files)} files: {' '.join(self.files)}")
 
     def check(self, good, text):
         if not good:
@@ -116,7 +120,8 @@ class Patched:
         with open(os.path.join(self.scratch, "docs", "trax-sim.md"), encoding="utf-8") as page:
             text = page.read()
         for option in ("--help-config", "--help-stats"):
-            self.check(self.run("trax-sim", option) in text, f"docs/trax-sim.md has not got what trax-sim {option} prints")
+            self.check(self.run("trax-sim", option) in text,
+                       f"docs/trax-sim.md has not got what trax-sim {option} prints")
 
     def end(self):
         self.check_pages()

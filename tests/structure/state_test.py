@@ -1,5 +1,5 @@
-"""No list of the state is forgotten: patched.py added a field to structures of the fast engine, at random places, and the engine
-brings each back after it has gone back, and from a checkpoint, whose layout is another one.
+"""No list of the state is forgotten: patched.py added a field to structures of the fast engine, at random places, and
+the engine brings each back after it has gone back, and from a checkpoint, whose layout is another one.
 
   state_test.py SCRATCH TIMING-ROLLBACK-TEST
 

@@ -8,7 +8,8 @@ import subprocess
 import sys
 
 FOLDERS = "cmake docs emulator isa llvm-target raytracer runtime tests .ci .githooks".split()
-FILES = "CHANGELOG.md CMakeLists.txt CMakePresets.json CONTRIBUTING.md LICENSE README.md VERSION demo.sh setup.sh test.sh .clang-format .flake8 .gitignore".split()
+FILES = ("CHANGELOG.md CMakeLists.txt CMakePresets.json CONTRIBUTING.md LICENSE README.md VERSION demo.sh setup.sh "
+         "test.sh .clang-format .flake8 .gitignore").split()
 
 try:
     listed = subprocess.run(["git", "-C", sys.argv[1], "ls-files", "-z"], capture_output=True, text=True)
@@ -21,7 +22,8 @@ top = {path.split("/")[0] for path in paths}
 unknown = top - set(FOLDERS) - set(FILES)
 missing = set(FOLDERS + FILES) - top
 for name in sorted(unknown):
-    print(f"{name!r} is at the top of the tree; what belongs there is listed in tests/structure/top_test.py", file=sys.stderr)
+    print(f"{name!r} is at the top of the tree; what belongs there is listed in tests/structure/top_test.py",
+          file=sys.stderr)
 for name in sorted(missing):
     print(f"{name!r} is not at the top of the tree", file=sys.stderr)
 sys.exit(bool(unknown or missing))

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""What every program does with signals while it waits or works, and with inputs that never end: docs/architecture.md, "Signals".
+"""What every program does with signals while it waits or works, and with inputs that never end: docs/architecture.md,
+"Signals".
 
     tests/tools/signals_test.py build/bin"""
 
@@ -24,8 +25,10 @@ TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 def waits(program, scratch, pipe):
     """Command lines that wait for what a pipe's writer does not write."""
     mesh = scratch / "triangle.obj"
-    return {"trax-render": ([mesh, "--view", pipe, "-o", "p.png"], [mesh, "--config", pipe, "-o", "p.png"], [pipe, "-o", "p.png"]),
-            "trax-scene": ([pipe, "-o", "s.trax"], ["--check", pipe]), "trax-sim": ([pipe], ["--config", pipe, "none"], ["--gdb-symbols", "s.elf", pipe]),
+    return {"trax-render": ([mesh, "--view", pipe, "-o", "p.png"], [mesh, "--config", pipe, "-o", "p.png"],
+                            [pipe, "-o", "p.png"]),
+            "trax-scene": ([pipe, "-o", "s.trax"], ["--check", pipe]),
+            "trax-sim": ([pipe], ["--config", pipe, "none"], ["--gdb-symbols", "s.elf", pipe]),
             "trax-compare": ([pipe, pipe],), "trax-eval": ([pipe], ["report", pipe])}[program]
 
 
@@ -51,10 +54,12 @@ def reads(pipe, writers):
 
 
 def interrupted(command, scratch, folder, number, pipe):
-    """Ends by the signal, soon, with its children, and leaves nothing. It is sent when the command reads the pipe, or without one has a child."""
+    """Ends by the signal, soon, with its children, and leaves nothing. It is sent when the command reads the pipe, or
+    without one has a child."""
     folder.mkdir()
     writers = []
-    process = subprocess.Popen(command, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, env=os.environ | {"TMPDIR": str(folder)})
+    process = subprocess.Popen(command, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                               env=os.environ | {"TMPDIR": str(folder)})
     deadline = time.monotonic() + 60
     while not (reads(pipe, writers) if pipe else children(process.pid)) and time.monotonic() < deadline:
         time.sleep(0.02)
@@ -80,7 +85,9 @@ def interrupted(command, scratch, folder, number, pipe):
 
 def test_signals(programs, scratch):
     source = scratch / "large.c"
-    source.write_text("".join(f"int f{i}(int a,int b){{int s=0;for(int i=0;i<a;i++){{s+=i*b^{i};if(s&1)s*=3;}}return s;}}\n" for i in range(2000)) + "int main(void){return 0;}\n")
+    source.write_text("".join(
+        f"int f{i}(int a,int b){{int s=0;for(int i=0;i<a;i++){{s+=i*b^{i};if(s&1)s*=3;}}return s;}}\n"
+        for i in range(2000)) + "int main(void){return 0;}\n")
     place = 0
     with ThreadPoolExecutor(4) as pool:  # which mostly wait
         ends = []
@@ -91,7 +98,8 @@ def test_signals(programs, scratch):
                     pipe = scratch / f"pipe-{place}.json"
                     os.mkfifo(pipe)
                     words = waits(program, scratch, pipe)[which]
-                    ends.append(pool.submit(interrupted, [str(programs / program), *map(str, words)], scratch, scratch / f"at-{place}", number, pipe))
+                    ends.append(pool.submit(interrupted, [str(programs / program), *map(str, words)], scratch,
+                                            scratch / f"at-{place}", number, pipe))
             place += 1
             command = [str(programs / "clang"), "--target=trax", "-O2", str(source), "-o", "large.elf"]
             ends.append(pool.submit(interrupted, command, scratch, scratch / f"at-{place}", number, None))
@@ -100,19 +108,23 @@ def test_signals(programs, scratch):
 
 
 def test_orphans(programs):
-    """A compiler or linker whose driver has ended before it could look ends, too; one that something else has started does not."""
+    """A compiler or linker whose driver has ended before it could look ends, too; one that something else has started
+    does not."""
     ended = subprocess.Popen(["true"])
     os.waitid(os.P_PID, ended.pid, os.WEXITED | os.WNOWAIT)  # it stays a zombie
 
     def status(command, parent):
-        return subprocess.run(["sh", "-c", f'TRAX_PARENT={parent} "$@"; exit $?', "sh", *command], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode
+        return subprocess.run(["sh", "-c", f'TRAX_PARENT={parent} "$@"; exit $?', "sh", *command],
+                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode
 
     def check_all(cases):
         for command in ([programs / "trax-ld", "--version"], [programs / "clang", "-cc1", "-version"]):
             for parent, wanted, what in cases:
-                check((found := status(command, parent)) == wanted, f"{command[0].name}, whose driver is {what}: {found}")
+                check((found := status(command, parent)) == wanted,
+                      f"{command[0].name}, whose driver is {what}: {found}")
 
-    check_all([(ended.pid, 128 + signal.SIGTERM, "a zombie"), (os.getpid(), 0, "behind another process"), ("$$", 0, "its parent"), ("x", 0, "nobody")])
+    check_all([(ended.pid, 128 + signal.SIGTERM, "a zombie"), (os.getpid(), 0, "behind another process"),
+               ("$$", 0, "its parent"), ("x", 0, "nobody")])
     ended.wait()
     check_all([(ended.pid, 128 + signal.SIGTERM, "gone")])
 
@@ -120,15 +132,20 @@ def test_orphans(programs):
 def test_limits(programs, scratch):
     """/dev/zero in the place of each small input: refused, in memory that is small."""
     mesh = str(scratch / "triangle.obj")
-    for words, limit in ((["trax-sim", "/dev/zero"], 64), (["trax-sim", "--config", "/dev/zero", "none"], 64), (["trax-sim", "--gdb-symbols", "s.elf", "/dev/zero"], 64),
-                         (["trax-render", mesh, "--view", "/dev/zero", "-o", "p.png"], 512), (["trax-render", mesh, "--config", "/dev/zero", "-o", "p.png"], 512),
-                         (["trax-scene", "/dev/zero", "--unpack-limit", "8M", "-o", "s.trax"], 256), (["trax-scene", "--check", "/dev/zero", "--unpack-limit", "8M"], 256)):
-        process = subprocess.Popen([str(programs / words[0]), *words[1:]], cwd=scratch, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+    for words, limit in ((["trax-sim", "/dev/zero"], 64), (["trax-sim", "--config", "/dev/zero", "none"], 64),
+                         (["trax-sim", "--gdb-symbols", "s.elf", "/dev/zero"], 64),
+                         (["trax-render", mesh, "--view", "/dev/zero", "-o", "p.png"], 512),
+                         (["trax-render", mesh, "--config", "/dev/zero", "-o", "p.png"], 512),
+                         (["trax-scene", "/dev/zero", "--unpack-limit", "8M", "-o", "s.trax"], 256),
+                         (["trax-scene", "--check", "/dev/zero", "--unpack-limit", "8M"], 256)):
+        process = subprocess.Popen([str(programs / words[0]), *words[1:]], cwd=scratch, stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.PIPE, text=True,
                                    preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (60, 60)))
         errors = process.stderr.read()
         _, status, usage = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)
-        check(process.returncode == 1 and "error: /dev/zero: " in errors, f"{words}: {process.returncode}: {errors[-300:]}")
+        check(process.returncode == 1 and "error: /dev/zero: " in errors,
+              f"{words}: {process.returncode}: {errors[-300:]}")
         check(usage.ru_maxrss < limit << 10, f"{words}: {usage.ru_maxrss} kB")
 
 
