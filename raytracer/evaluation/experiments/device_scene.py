@@ -1,5 +1,5 @@
-"""What a specialised program reads (trax/scene_format.h), for converters of experiments: they run in the folder of
-prepared inputs, and change scene.trax."""
+"""Reads and changes scene.trax (trax/scene_format.h), for converters of experiments, which run in the folder of
+prepared inputs."""
 
 import array
 import pathlib
@@ -22,8 +22,8 @@ def negated_if(is_leaf):
 
 
 class Scene:
-    """What the device reads (trax/scene_format.h): its words, little endian as is the host (x86-64), and where things
-    are in them."""
+    """The device's scene (trax/scene_format.h) as words, little endian as the host (x86-64), and the places of its
+    parts."""
 
     def __init__(self, path="scene.trax"):
         self.path, self.words = pathlib.Path(path), array.array("I")
@@ -57,7 +57,8 @@ class Scene:
         return (reference - self.base - self.nodes * 4) // (self.node_size * 4)
 
     def boxes(self, node):
-        """Of a node's children: lows and highs along each axis, those in planes in proportion to lengths."""
+        """Returns the lows and highs of a node's children along each axis. Planes on a grid are in proportion to
+        lengths."""
         at = self.nodes + node * self.node_size
         planes = memoryview(self.words)[at:at + self.children].cast("B").cast(self.plane_format)
         return [[[plane * unit for plane,

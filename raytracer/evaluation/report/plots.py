@@ -19,7 +19,7 @@ MARKS = {
 
 
 def can_be_drawn(value):
-    """Whether a figure is there, and its axis needs no numbers beyond binary64's."""
+    """Returns whether a figure is known and lies in the range that axes can have."""
     return value is not None and (value == 0 or 1e-100 < abs(value) < 1e100)
 
 
@@ -54,7 +54,7 @@ class Axis:
         return (self.scale(value) - self.scale(self.low)) / (self.scale(self.high) - self.scale(self.low))
 
     def steps(self):
-        """At most seven multiples of 1, 2 or 5 times a power of ten."""
+        """Returns at most seven ticks: multiples of 1, 2 or 5 times a power of ten."""
         unit = 10.0**math.floor(math.log10((self.high - self.low) / 5))
         step = next(step for step in (unit, 2 * unit, 5 * unit, 10 * unit) if (self.high - self.low) / step <= 6.5)
         counts = range(math.ceil(self.low / step), math.floor(self.high / step) + 1)

@@ -1,5 +1,5 @@
-"""What trax-eval measured (results.json), as the report asks for it. Nothing here is invented: a figure that a file
-does not have, or that is no finite number, is None, and arithmetic on None gives None."""
+"""The measurements of trax-eval (results.json), as the report needs them. A figure that a file does not have, or that
+is no finite number, is None, and arithmetic on None gives None."""
 
 import copy
 import math
@@ -34,12 +34,12 @@ def deviation(ours, published):
 
 
 def mean(values):
-    """Of all, or None if one is missing: an average over fewer scenes would be another figure."""
+    """The mean of all values, or None if one is missing: an average over fewer scenes would be another figure."""
     values = list(values)
     if not values or None in values:
         return None
-    return values[0] if len(values) == 1 else math.fsum(values) / len(
-        values)  # a count stays a whole number; sum rounds otherwise from Python 3.12 on
+    # A count stays a whole number. sum() rounds otherwise from Python 3.12 on.
+    return values[0] if len(values) == 1 else math.fsum(values) / len(values)
 
 
 class Run:
@@ -66,12 +66,12 @@ class Run:
         self.variant = text("variant")
         self.status, self.error, self.command = text("status", "missing"), text("error"), text("command")
         self.json, self.csv, self.picture = text("json"), text("csv"), text("picture")
-        self.set, self.stats, self.values, self.machine = table("set"), table("stats"), table("values"), table(
-            "machine")
+        self.set, self.machine = table("set"), table("machine")
+        self.stats, self.values = table("stats"), table("values")
         self.host_seconds = number(record.get("host_seconds"))
         size = record.get("size")
-        self.size = tuple(size) if isinstance(size, list) and len(size) == 2 and all(
-            isinstance(n, int) and n > 0 for n in size) else None
+        good = isinstance(size, list) and len(size) == 2 and all(isinstance(n, int) and n > 0 for n in size)
+        self.size = tuple(size) if good else None
         experiments = record.get("experiments") or []
         if not isinstance(experiments, list):
             raise Problem(f"runs[{index}].experiments is not a list")
@@ -104,7 +104,7 @@ class Run:
         return number(value)
 
     def processor_seconds(self):
-        """What the run took of the host, whatever else that did."""
+        """The host's processor time of the run, whatever else the host did."""
         self.asked.setdefault(self.index, set()).add("host.processor_seconds")
         host = self.record.get("host")
         return number(host.get("processor_seconds")) if isinstance(host, dict) else None
@@ -117,14 +117,14 @@ class Run:
         return float(value) if isinstance(value, bool) else number(value)
 
     def kinds(self):
-        """Of rays, of which the run has any."""
+        """The kinds of rays that the run has."""
         found = [name.split(".")[1] for name in self.values
                  if name.startswith("rays.") and name.endswith(".count")] if self.done else []
         found.sort(key=lambda kind: (KINDS.index(kind) if kind in KINDS else len(KINDS), kind))
         return [kind for kind in found if self.get(f"values.rays.{kind}.count")]
 
     def axis(self, name):
-        """What a sweep's table can have a row or a column for, as it is."""
+        """The run's value on an axis of a sweep's tables."""
         if name in ("program", "scene", "chip", "variant", "workload", "mode", "size"):
             value = getattr(self, "config" if name == "chip" else name)
             return value and "{}x{}".format(*value) if name == "size" else value
@@ -160,12 +160,12 @@ class Run:
         return rays * clock / high, rays * clock / low
 
     def is_estimate(self):
-        """Whether the run may be off: its interval has two ends. A quick run of which all is simulated is exact."""
+        """Returns whether the run's interval has two ends. A quick run of which all is simulated is exact."""
         interval = self.interval()
         return interval is not None and interval[0] != interval[1]
 
     def frames_per_second(self):
-        """At 1280x720, whatever the size of the picture: the simulated time a pixel, times as many."""
+        """Frames per second at 1280x720: the simulated time a pixel, times the pixels of such a picture."""
         seconds = self.get("seconds")
         if not seconds or not self.size:
             return None
@@ -242,7 +242,7 @@ class Results:
         return Results(self.document, [run for run in self.runs if sweep in run.experiments])
 
     def named(self, kind):
-        """Of "programs", "scenes", "workloads": what is known of each that has runs, by name, in the order of the
+        """Returns the entries of "programs", "scenes" or "workloads" that have runs, by name, in the order of the
         file."""
         known = {entry["name"]: entry for entry in self.document.get(kind) or [] if isinstance(entry.get("name"), str)}
         present = dict.fromkeys(getattr(run, kind[:-1]) for run in self.runs)
@@ -269,7 +269,8 @@ class Results:
         return paper.mrps(self.stands_for.get(scene), chip)
 
     def machine(self, program):
-        """What all machines of a program have besides their chip and what was set for single runs: (key, value)."""
+        """Returns the settings (key, value) that all machines of a program have, apart from their chip and from
+        settings of single runs."""
         seen = {}  # by key, the values of the runs that do not set it
         runs = [run for run in self.runs if run.program == program and run.done]
         for run in runs:

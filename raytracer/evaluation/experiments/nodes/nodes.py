@@ -31,12 +31,12 @@ FRAME_EXPONENT, FRAME_LEAST, FRAME_BITS = 149, -7, 0x47800000  # the bits of 655
 
 
 def plain(reference):
-    """Of those that a specialised program reads, the ones that lead to leaves are negated."""
+    """Decodes a reference. A specialised program reads those that lead to leaves negated."""
     return -reference & 0xFFFFFFFF if reference >> 31 else reference
 
 
 class Scene:
-    """What the device has (trax/scene_format.h), little endian as the host is."""
+    """The device's scene (trax/scene_format.h), little endian as the host."""
 
     def __init__(self, path):
         self.data = path.read_bytes()

@@ -15,8 +15,8 @@ def box_area(box):
 
 
 class Below:
-    """What is below a child: its box's and its triangles' areas, and what a visit costs on the average, where a node
-    and a triangle cost 1."""
+    """Returns the areas of a child's box and of its triangles, and the mean cost of a visit, where a node and a
+    triangle cost 1."""
 
     def __init__(self, box, surface, cost):
         self.area, self.surface, self.cost = box_area(box) or 1e-30, surface, cost
@@ -57,8 +57,8 @@ def larger_box_first(scene):
 
 
 def larger_surface_first(scene):
-    """In the manner of Nah and Manocha, "SATO: Surface Area Traversal Order for Shadow Ray Tracing" (Computer Graphics
-    Forum 33(6), 2014)."""
+    """Orders children after Nah and Manocha, "SATO: Surface Area Traversal Order for Shadow Ray Tracing" (Computer
+    Graphics Forum 33(6), 2014)."""
     sort_children(scene, lambda child: child.surface)
 
 
