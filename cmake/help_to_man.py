@@ -16,7 +16,8 @@ def roff(text):
 def main():
     program, name, summary, version = sys.argv[1:5]
     text = subprocess.run([program, "--help"], capture_output=True, text=True, check=True).stdout
-    out = [f'.TH {roff(name.upper())} 1 "" "trax {version}"', ".SH NAME", f"{roff(name)} \\- {roff(summary)}", ".SH SYNOPSIS"]
+    out = [f'.TH {roff(name.upper())} 1 "" "trax {version}"', ".SH NAME", f"{roff(name)} \\- {roff(summary)}",
+           ".SH SYNOPSIS"]
     described = listed = in_usage = False
     for line in text.splitlines():
         usage = re.match(r"(?:usage|USAGE): *(.*)", line)
@@ -24,7 +25,8 @@ def main():
         option = re.match(r"  +(-\S.*?|@FILE|=\S+)(?:  +- *|   *|  +)(\S.*)$| +(-\S+)$", line)
         if usage or (in_usage and line.startswith("    ")):
             call = usage[1] if usage else line.strip()
-            out += [*([".br"] if in_usage else []), f"\\fB{roff(call.split(' ')[0])}\\fR {roff(call.partition(' ')[2])}"]
+            out += [*([".br"] if in_usage else []),
+                    f"\\fB{roff(call.split(' ')[0])}\\fR {roff(call.partition(' ')[2])}"]
             in_usage = True
             continue
         in_usage = False
@@ -47,7 +49,10 @@ def main():
             out += [] if described or listed else [".SH DESCRIPTION"]
             described = True
             out.append(roff(" ".join(words)))
-    page = [line for number, line in enumerate(out) if line and not (line == ".PP" and (number + 1 == len(out) or out[number + 1][:3] in (".PP", ".SH", ".SS", ".TP")))]
+    page = [
+        line for number, line in enumerate(out)
+        if line and not (line == ".PP" and
+                         (number + 1 == len(out) or out[number + 1][:3] in (".PP", ".SH", ".SS", ".TP")))]
     print("\n".join(page))
 
 

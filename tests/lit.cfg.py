@@ -1,7 +1,7 @@
 """The lit tests: assembler, code generator, clang, linker and C programs.
 
-A test is a file whose RUN lines all succeed; directories named Inputs hold what they read. Run them with `ninja check-lit`, or
-some of them with lit.py -v BUILD/tests/codegen/frames.ll. Substitutions beyond lit's own:
+A test is a file whose RUN lines all succeed; directories named Inputs hold what they read. Run them with `ninja
+check-lit`, or some of them with lit.py -v BUILD/tests/codegen/frames.ll. Substitutions beyond lit's own:
 
   %clang         clang --target=trax          %trax_sim      the emulator
   %clangxx       clang++ --target=trax        %trax_ld       the linker
@@ -11,8 +11,8 @@ some of them with lit.py -v BUILD/tests/codegen/frames.ll. Substitutions beyond 
   %unwind_test   compares frame information with the call chain (tests/unwind)
   %run_c         run_c.py: compiles a C program at several -O levels, runs each and compares (see tests/c)
 
-LLVM's tools (FileCheck, not, split-file, yaml2obj, llvm-readelf, ...) are on the PATH. Nothing is skipped when a program is
-missing: the test fails.
+LLVM's tools (FileCheck, not, split-file, yaml2obj, llvm-readelf, ...) are on the PATH. Nothing is skipped when a
+program is missing: the test fails.
 """
 
 import os

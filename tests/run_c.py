@@ -5,13 +5,12 @@
     // RUN: %run_c %s %t --levels -O2,-Os --cflags "-ffast-math" --simflags "--config 1x32" --status 3
     // RUN: %run_c %s %t --clang-only        (compile and link at every level, run nothing)
 
-Standard output must equal NAME.expected beside the program, byte for byte. Without that file it must equal the one in the folder
-of --expected, which the build made on the host (c/CMakeLists.txt). The exit status must be the one given (default 0). With
---fault TEXT the program must end in a fault report that contains TEXT, once for each --fault, with the status 1 or, if it aborts,
-the one given.
-Without --levels, the level is -O2, and for every second program -O0, too; with TRAX_LEVELS=all in the environment, every one.
-The compiler verifies its machine code at every step. Exit status: 0 if every level agrees, else 1 with the first difference of
-each level that does not.
+Standard output must equal NAME.expected beside the program, byte for byte. Without that file it must equal the one in
+the folder of --expected, which the build made on the host (c/CMakeLists.txt). The exit status must be the one given
+(default 0). With --fault TEXT the program must end in a fault report that contains TEXT, once for each --fault, with
+the status 1 or, if it aborts, the one given. Without --levels, the level is -O2, and for every second program -O0,
+too; with TRAX_LEVELS=all in the environment, every one. The compiler verifies its machine code at every step. Exit
+status: 0 if every level agrees, else 1 with the first difference of each level that does not.
 """
 
 import argparse
@@ -44,7 +43,8 @@ def check_output(expected, output):
     if output == expected:
         return None
     difference = difflib.unified_diff(
-        expected.decode(errors="replace").splitlines(), output.decode(errors="replace").splitlines(), "expected", "printed",
+        expected.decode(errors="replace").splitlines(), output.decode(errors="replace").splitlines(), "expected",
+        "printed",
         lineterm="", n=1)
     return "\n".join(list(difference)[:40]) or "the output differs in its line ends"
 
@@ -52,7 +52,8 @@ def check_output(expected, output):
 def check_level(options, level, expected):
     """Compile and run at one level; return None or what went wrong."""
     binary = f"{options.binary}{level}"
-    compile_command = [options.clang, "--target=trax", level, "-g", "-Wall", "-Werror", "-mllvm", "-verify-machineinstrs",
+    compile_command = [options.clang, "--target=trax", level, "-g", "-Wall", "-Werror", "-mllvm",
+                       "-verify-machineinstrs",
                        *shlex.split(options.cflags), options.source, "-o", binary]
     status, _, error = run(compile_command)
     if status != 0:
@@ -65,7 +66,8 @@ def check_level(options, level, expected):
         return describe(command, status, error) + output.decode(errors="replace")[-2000:]
     for text in options.fault:
         if text not in error.decode(errors="replace"):
-            return f"{shlex.join(command)}\n  the fault report does not contain '{text}':\n{error.decode(errors='replace')}"
+            return (f"{shlex.join(command)}\n  the fault report does not contain '{text}':\n"
+                    f"{error.decode(errors='replace')}")
     return None if expected is None else check_output(expected, output)
 
 
@@ -81,7 +83,8 @@ def main():
     parser.add_argument("binary", help="where the programs go; the level is appended")
     parser.add_argument("--clang", required=True)
     parser.add_argument("--sim", required=True)
-    parser.add_argument("--expected", required=True, help="a folder of expected outputs that are not beside their programs")
+    parser.add_argument("--expected", required=True,
+                        help="a folder of expected outputs that are not beside their programs")
     parser.add_argument("--levels", help="comma separated (default: -O2, for every second program -O0, too)")
     parser.add_argument("--cflags", default="")
     parser.add_argument("--simflags", default="")

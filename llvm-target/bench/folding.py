@@ -3,8 +3,9 @@
 
     llvm-target/bench/folding.py ARCHIVE-OR-OBJECT...
 
-Sections of code are equal if their bytes and their relocations are, the latter by kind, place, addend and the symbol's name, or the
-contents of the section that it stands for. That is what linkers fold without further rounds. Each file is counted by itself."""
+Sections of code are equal if their bytes and their relocations are, the latter by kind, place, addend and the symbol's
+name, or the contents of the section that it stands for. That is what linkers fold without further rounds. Each file is
+counted by itself."""
 
 import subprocess
 import struct
@@ -20,7 +21,10 @@ def sections_of(data):
     size, count, names = struct.unpack_from("<HHH", data, 0x2E)
     headers = [struct.unpack_from("<10I", data, at + i * size) for i in range(count)]
     strings = data[headers[names][4]:]
-    text = lambda offset: strings[offset:strings.index(b"\0", offset)].decode()
+
+    def text(offset):
+        return strings[offset:strings.index(b"\0", offset)].decode()
+
     return [(text(h[0]), h[2], h[1], data[h[4]:h[4] + h[5]] if h[1] != 8 else b"", h[6], h[7]) for h in headers]
 
 
@@ -35,7 +39,8 @@ def code_of(data):
         for at in range(0, len(section[3]), 12):
             offset, info, addend = struct.unpack_from("<IIi", section[3], at)
             name, value, _, kind, _, index = struct.unpack_from("<IIIBBH", symbols, 16 * (info >> 8))
-            place = sections[index][3] + bytes([value & 255]) if kind & 15 == 3 and index < len(sections) else strings[name:strings.index(b"\0", name)]
+            place = sections[index][3] + bytes([
+                value & 255]) if kind & 15 == 3 and index < len(sections) else strings[name:strings.index(b"\0", name)]
             found[section[5]][1].append((offset, info & 255, addend, place))
     return [((contents, tuple(sorted(places))), len(contents)) for contents, places in found.values()]
 
@@ -58,7 +63,10 @@ def main():
                 groups[key].append(size)
         total = sum(sum(sizes) for sizes in groups.values())
         folded = sum(sum(sizes[1:]) for sizes in groups.values())
-        print(f"{Path(name).name:40} {sum(map(len, groups.values())):8} {total:9} {folded:7} {100 * folded / max(total, 1):5.2f}%")
+        print(
+            f"{Path(name).name:40} {sum(map(len, groups.values())):8} {total:9} {folded:7} "
+            f"{100 * folded / max(total, 1):5.2f}%"
+        )
 
 
 if __name__ == "__main__":

@@ -29,12 +29,14 @@ class Failure(Exception):
 def run(command):
     """Run a command; return what it printed to standard output and to standard error."""
     try:
-        done = subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=SECONDS, check=False,
+        done = subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=SECONDS,
+                              check=False,
                               stdin=subprocess.DEVNULL)
     except subprocess.TimeoutExpired as expired:
         raise Failure(f"{' '.join(map(str, command))}\n  did not end in {SECONDS} s") from expired
     if done.returncode != 0:
-        raise Failure(f"{' '.join(map(str, command))}\n  ended with status {done.returncode}\n{done.stderr}{done.stdout}")
+        raise Failure(
+            f"{' '.join(map(str, command))}\n  ended with status {done.returncode}\n{done.stderr}{done.stdout}")
     return done.stdout, done.stderr
 
 
@@ -42,13 +44,17 @@ def run_logged(command, counter):
     """Run a command whose standard error the program `counter` reads; return what both printed to standard output."""
     with subprocess.Popen([counter], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as counting:
         try:
-            done = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=counting.stdin, text=True, timeout=SECONDS, check=False,
+            done = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=counting.stdin,
+                                  text=True, timeout=SECONDS, check=False,
                                   stdin=subprocess.DEVNULL)
         except subprocess.TimeoutExpired as expired:
             raise Failure(f"{' '.join(map(str, command))}\n  did not end in {SECONDS} s") from expired
         counted, _ = counting.communicate()
     if done.returncode != 0 or counting.returncode != 0:
-        raise Failure(f"{' '.join(map(str, command))}\n  ended with status {done.returncode}, its counter with {counting.returncode}")
+        raise Failure(
+            f"{' '.join(map(str, command))}\n  ended with status {done.returncode}, its counter with "
+            f"{counting.returncode}"
+        )
     return done.stdout, counted
 
 
@@ -71,7 +77,8 @@ class Trax:
     def execute(self, program):
         """Run a program; return what it printed and how many instructions it took."""
         statistics = program.with_suffix(".json")
-        printed, _ = run([self.build / "bin/trax-sim", "--engine", "functional", "--quiet", "--stats", statistics, program])
+        printed, _ = run([self.build / "bin/trax-sim", "--engine", "functional", "--quiet", "--stats", statistics,
+                          program])
         return printed, json.loads(statistics.read_text())["instructions"]
 
 
@@ -80,9 +87,10 @@ class Riscv:
 
     def __init__(self, build, work, name="riscv", flags=(), library=True, extensions="", jobs=1):
         self.build, self.work, self.name, self.jobs = build, work, name, jobs
-        self.compiler = ["clang-19", *RISCV, f"-march=rv32im{extensions}_zfinx", "-nostdlibinc", "-isystem", build / "lib/trax/include", "-I", BENCH / "twin",
+        self.compiler = ["clang-19", *RISCV, f"-march=rv32im{extensions}_zfinx", "-nostdlibinc", "-isystem",
+                         build / "lib/trax/include", "-I", BENCH / "twin",
                          *flags]
-        if not library: # to compile only
+        if not library:  # to compile only
             return
         how = ["-shared", "-fPIC", BENCH / "count_plugin.c"] if takes_plugins() else [BENCH / "count_trace.c"]
         self.counter = work / f"{name}-count"
@@ -91,9 +99,11 @@ class Riscv:
 
     def make_library(self):
         """The runtime's functions, with the flags that the runtime is compiled with."""
-        sources = [source for part in ("builtins", "math", "string") for source in sorted((ROOT / "runtime" / part).glob("*.c"))]
+        sources = [source for part in ("builtins", "math",
+                                       "string") for source in sorted((ROOT / "runtime" / part).glob("*.c"))]
         objects = [self.work / f"{self.name}-{source.parent.name}-{source.stem}.o" for source in sources]
-        command = [*self.compiler, "-std=c17", "-O2", "-ffreestanding", "-fno-builtin", "-fno-math-errno", "-ffunction-sections", LIBRARY_SQRT,
+        command = [*self.compiler, "-std=c17", "-O2", "-ffreestanding", "-fno-builtin", "-fno-math-errno",
+                   "-ffunction-sections", LIBRARY_SQRT,
                    f"-I{ROOT / 'isa/include'}"]
         with ThreadPoolExecutor(self.jobs) as pool:
             list(pool.map(lambda source, made: run([*command, "-c", source, "-o", made]), sources, objects))
@@ -109,7 +119,7 @@ class Riscv:
         if takes_plugins():
             printed, counted = run([*qemu, "-plugin", self.counter, program])
         else:
-            qemu[-1] += ",zfa=false" # which needs f in the releases without plugins
+            qemu[-1] += ",zfa=false"  # which needs f in the releases without plugins
             printed, counted = run_logged([*qemu, "-d", "in_asm,exec,nochain", program], self.counter)
         return printed, int(counted.split()[1])
 
@@ -131,12 +141,13 @@ class Host:
 @functools.lru_cache(maxsize=None)
 def compiled(machine, source, flags, level="-O3"):
     """The object of a source, which is compiled once."""
-    name = machine.work / "-".join([machine.name + level, source.stem, *(flag.strip("-").replace("=", "") for flag in flags)])
+    name = machine.work / "-".join([machine.name + level, source.stem,
+                                    *(flag.strip("-").replace("=", "") for flag in flags)])
     run([*machine.compiler, *COMMON, level, *flags, "-c", source, "-o", f"{name}.o"])
     return f"{name}.o"
 
 
-DRIVER = threading.Lock() # kernels share it
+DRIVER = threading.Lock()  # kernels share it
 
 
 def build_and_run(machine, source, repetitions, flags=(), level="-O3"):

@@ -3,8 +3,8 @@
 
     llvm-target/bench/profiled.py --build build SCENE...
 
-The profile is that of the first scene; each scene is then rendered by both programs on a chip of 4x32. SCENE is a mesh or generate:NAME;
-its view has its name. Pictures must be the same in every bit.
+The profile is that of the first scene; each scene is then rendered by both programs on a chip of 4x32. SCENE is a mesh
+or generate:NAME; its view has its name. Pictures must be the same in every bit.
 
 Exit status: 0 if all programs ran, 1 if not.
 """
@@ -18,7 +18,8 @@ from pathlib import Path
 from machines import ROOT, Failure, run
 
 DEVICE = ROOT / "raytracer/device/main.c"
-FLAGS = ["-std=c17", "-O3", "-g", "-fdebug-info-for-profiling", "-DTRAX_TREE_DEPTH=TRAX_SCENE_DEFAULT_DEPTH", f"-I{ROOT / 'raytracer/include'}"]
+FLAGS = ["-std=c17", "-O3", "-g", "-fdebug-info-for-profiling", "-DTRAX_TREE_DEPTH=TRAX_SCENE_DEFAULT_DEPTH",
+         f"-I{ROOT / 'raytracer/include'}"]
 
 
 def build(options, output, *flags):
@@ -31,15 +32,17 @@ def render(options, scene, program, work, *more):
     view = scene.rpartition(":")[2].rpartition("/")[2].partition(".")[0]
     folder = work / f"{view}-{program.stem}"
     if not folder.exists():
-        run([options.build / "bin/trax-render", scene, "--view", view, "--size", options.size, "--program", program, "--quiet", "--prepare", folder])
-    run([options.build / "bin/trax-sim", folder / "manifest.json", "--config", "4x32", "--quiet", "--stats", folder / "stats.json",
+        run([options.build / "bin/trax-render", scene, "--view", view, "--size", options.size, "--program", program,
+             "--quiet", "--prepare", folder])
+    run([options.build / "bin/trax-sim", folder / "manifest.json", "--config", "4x32", "--quiet", "--stats",
+         folder / "stats.json",
          "--dump", f"image={folder / 'image'}", *more])
     statistics = json.loads((folder / "stats.json").read_text())
     return view, statistics["cycles"], statistics["instructions"], (folder / "image").read_bytes()
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("scenes", nargs="+", metavar="SCENE")
     parser.add_argument("--build", type=Path, required=True, help="the build folder")
     parser.add_argument("--size", default="160x90", help="of the pictures (default: 160x90)")
@@ -51,13 +54,19 @@ def main():
             plain = build(options, work / "plain.elf")
             render(options, options.scenes[0], plain, work, "--profile-sample", work / "samples")
             profiled = build(options, work / "profiled.elf", f"-fprofile-sample-use={work / 'samples'}")
-            print(f"{'4x32, ' + options.size:16} {'cycles':>10} {'profiled':>10} {'ratio':>6} {'instructions':>12} {'profiled':>10} {'ratio':>6}")
+            print(
+                f"{'4x32, ' + options.size:16} {'cycles':>10} {'profiled':>10} {'ratio':>6} {'instructions':>12} "
+                f"{'profiled':>10} {'ratio':>6}"
+            )
             for scene in options.scenes:
                 view, cycles, instructions, picture = render(options, scene, plain, work)
                 _, cycles2, instructions2, picture2 = render(options, scene, profiled, work)
                 if picture != picture2:
                     raise Failure(f"{scene}: the pictures differ")
-                print(f"{view:16} {cycles:10} {cycles2:10} {cycles2 / cycles:6.3f} {instructions:12} {instructions2:10} {instructions2 / instructions:6.3f}")
+                print(
+                    f"{view:16} {cycles:10} {cycles2:10} {cycles2 / cycles:6.3f} {instructions:12} {instructions2:10} "
+                    f"{instructions2 / instructions:6.3f}"
+                )
     except Failure as failure:
         print(f"profiled.py: error: {failure}", file=sys.stderr)
         return 1

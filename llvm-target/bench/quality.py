@@ -5,16 +5,18 @@
     llvm-target/bench/quality.py --build build --compile-time    seconds for the ray tracer's program
     llvm-target/bench/quality.py --build build --code-size       bytes of the ray tracer's program and of the library
 
-Both compilers have -O3 and the same flags; RISC-V is rv32im_zfinx, which has 32 registers for integers and floats alike, as ours,
-besides a divide, a square root and a fused multiply-add, which ours has not. It contracts to the latter by default; the columns
-behind say what it does with -ffp-contract=off, what rv32im_zbb_zfinx does, which has min and max as ours, but rotations and
-counts of bits, too, and what both do at -O2. The limit for each kernel is that of the column without contraction: a fused
-multiply-add computes another result. A kernel's instructions are those of two repetitions less those of one, so
-that start-up does not count. Ours are counted by trax-sim, RISC-V's by qemu-riscv32 with a plugin, or, where it takes none, from its
-log; both are tried on a loop that was counted by hand. Both link the same library, compiled by the compiler that is measured. Every result is compared with the same
-source's on the host: equal to the bit without contraction, within 0.1 % with it.
+Both compilers have -O3 and the same flags; RISC-V is rv32im_zfinx, which has 32 registers for integers and floats
+alike, as ours, besides a divide, a square root and a fused multiply-add, which ours has not. It contracts to the latter
+by default; the columns behind say what it does with -ffp-contract=off, what rv32im_zbb_zfinx does, which has min and
+max as ours, but rotations and counts of bits, too, and what both do at -O2. The limit for each kernel is that of the
+column without contraction: a fused multiply-add computes another result. A kernel's instructions are those of two
+repetitions less those of one, so that start-up does not count. Ours are counted by trax-sim, RISC-V's by qemu-riscv32
+with a plugin, or, where it takes none, from its log; both are tried on a loop that was counted by hand. Both link the
+same library, compiled by the compiler that is measured. Every result is compared with the same source's on the host:
+equal to the bit without contraction, within 0.1 % with it.
 
-The kernels in missing/ are about instructions that the TP has not got. They are measured, but no compiler can make up for those.
+The kernels in missing/ are about instructions that the TP has not got. They are measured, but no compiler can make up
+for those.
 
 Exit status: 0 if what is required holds (the constants below), 2 if not, 1 if something failed.
 """
@@ -35,18 +37,19 @@ from machines import (BENCH, COMMON, ROOT, Failure, Host, Riscv, Trax, build_and
 
 GEOMETRIC_MEAN_LIMIT = 0.87
 ZBB_LIMIT = 0.93
-SECOND_LIMIT = 1.00 # -O2 against -O2
-KERNEL_LIMIT = 1.05 # without contraction
+SECOND_LIMIT = 1.00  # -O2 against -O2
+KERNEL_LIMIT = 1.05  # without contraction
 COMPILE_TIME_LIMIT = 1.30
 CONTRACTION_TOLERANCE = 1e-3
 RAY_TRACER = ROOT / "raytracer/device/main.c"
 
 
-#--- executed instructions ----------------------------------------------------
+# --- executed instructions ----------------------------------------------------
 
 @dataclass
 class Row:
-    """Executed instructions of a kernel: ours and RISC-V's, the latter without contraction and with Zbb, and both at -O2."""
+    """Executed instructions of a kernel: ours and RISC-V's, the latter without contraction and with Zbb, and both at
+    -O2."""
 
     ours: int
     theirs: int
@@ -121,23 +124,34 @@ def print_rows(sources, rows):
     """Print a row a kernel."""
     for source, row in zip(sources, rows):
         mark = "*" if row.strictly > KERNEL_LIMIT else " "
-        print(f"{source.stem:18} {row.ours:10} {row.theirs:10} {row.ratio:6.3f}  {row.strictly:8.3f}{mark}{row.ours / row.bits:6.3f} "
-              f"{row.ours2:10} {row.theirs2:10} {row.ratio2:6.3f}")
+        print(
+            f"{source.stem:18} {row.ours:10} {row.theirs:10} {row.ratio:6.3f}  "
+            f"{row.strictly:8.3f}{mark}{row.ours / row.bits:6.3f} "
+            f"{row.ours2:10} {row.theirs2:10} {row.ratio2:6.3f}")
 
 
 def report_instructions(required, missing, rows):
     """Print the table; return whether it is good enough."""
-    print(f"{'executed instructions':18} {'trax':>7} {'rv32':>10} {'ratio':>6}  {'strictly':>8} {'zbb':>6} {'-O2 trax':>10} {'rv32':>10} {'ratio':>6}")
+    print(
+        f"{'executed instructions':18} {'trax':>7} {'rv32':>10} {'ratio':>6}  {'strictly':>8} {'zbb':>6} "
+        f"{'-O2 trax':>10} {'rv32':>10} {'ratio':>6}"
+    )
     good = True
     if required:
         print_rows(required, rows[:len(required)])
         mean, strict, bits, second = (geometric_mean([ratio(row) for row in rows[:len(required)]]) for ratio in (
             lambda row: row.ratio, lambda row: row.strictly, lambda row: row.ours / row.bits, lambda row: row.ratio2))
         worst = max(range(len(required)), key=lambda i: rows[i].strictly)
-        print(f"{'geometric mean':18} {'':10} {'':10} {mean:6.3f}  {strict:8.3f} {bits:6.3f} {'':10} {'':10} {second:6.3f}")
-        print(f"worst strictly: {required[worst].stem} {rows[worst].strictly:.3f}; required: means at most {GEOMETRIC_MEAN_LIMIT:.2f}, "
-              f"{ZBB_LIMIT:.2f} (zbb) and {SECOND_LIMIT:.2f} (-O2), none strictly above {KERNEL_LIMIT:.2f} (*)")
-        good = mean <= GEOMETRIC_MEAN_LIMIT and rows[worst].strictly <= KERNEL_LIMIT and bits <= ZBB_LIMIT and second <= SECOND_LIMIT
+        print(
+            f"{'geometric mean':18} {'':10} {'':10} {mean:6.3f}  {strict:8.3f} {bits:6.3f} {'':10} {'':10} "
+            f"{second:6.3f}"
+        )
+        print(
+            f"worst strictly: {required[worst].stem} {rows[worst].strictly:.3f}; required: means at most "
+            f"{GEOMETRIC_MEAN_LIMIT:.2f}, "
+            f"{ZBB_LIMIT:.2f} (zbb) and {SECOND_LIMIT:.2f} (-O2), none strictly above {KERNEL_LIMIT:.2f} (*)")
+        good = mean <= GEOMETRIC_MEAN_LIMIT and rows[
+            worst].strictly <= KERNEL_LIMIT and bits <= ZBB_LIMIT and second <= SECOND_LIMIT
     if missing:
         print("\nabout instructions that the TP has not got:")
         print_rows(missing, rows[len(required):])
@@ -157,7 +171,7 @@ def compare_instructions(options, work):
     return report_instructions(required, chosen[len(required):], counts)
 
 
-#--- compile time --------------------------------------------------------------
+# --- compile time --------------------------------------------------------------
 
 def processor_seconds(command):
     """Run a compiler; return how long processors worked for it, which other programs hardly change."""
@@ -172,14 +186,17 @@ def compare_compile_time(options, work):
     seconds = [[], []]
     for _ in range(options.runs):
         for times, machine in zip(seconds, (Trax(options.build, work), Riscv(options.build, work, library=False))):
-            times.append(processor_seconds([*machine.compiler, *COMMON, "-Wno-frame-larger-than", "-O3", "-c", RAY_TRACER, "-o", work / "time.o"]))
+            times.append(processor_seconds([*machine.compiler, *COMMON, "-Wno-frame-larger-than", "-O3", "-c",
+                                            RAY_TRACER, "-o", work / "time.o"]))
     ours, theirs = map(statistics.median, seconds)
-    print(f"{RAY_TRACER.relative_to(ROOT)} at -O3, median of {options.runs} runs: trax {ours:.3f} s, rv32 {theirs:.3f} s, "
-          f"ratio {ours / theirs:.2f}; required: at most {COMPILE_TIME_LIMIT:.2f}")
+    print(
+        f"{RAY_TRACER.relative_to(ROOT)} at -O3, median of {options.runs} runs: trax {ours:.3f} s, rv32 {theirs:.3f} "
+        f"s, "
+        f"ratio {ours / theirs:.2f}; required: at most {COMPILE_TIME_LIMIT:.2f}")
     return ours <= COMPILE_TIME_LIMIT * theirs
 
 
-#--- code size -----------------------------------------------------------------
+# --- code size -----------------------------------------------------------------
 
 SIZE_LEVELS = {"-O3": ["-O3"], "-O2": ["-O2"], "-Os": ["-Os"], "-Oz": ["-Oz"]}
 
@@ -210,14 +227,15 @@ def compare_code_size(options, work):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("kernels", nargs="*", metavar="KERNEL", help="measure these only (default: all)")
     parser.add_argument("--build", type=Path, required=True, help="the build folder")
     parser.add_argument("--compile-time", action="store_true", help="compare compile times instead")
     parser.add_argument("--code-size", action="store_true", help="compare code sizes instead")
     parser.add_argument("--runs", type=int, default=15, help="of each compiler, for --compile-time (default: 15)")
     parser.add_argument("--keep", type=Path, metavar="DIRECTORY", help="leave objects and programs there")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="kernels at a time (default: as many as processors)")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(),
+                        help="kernels at a time (default: as many as processors)")
     options = parser.parse_args()
     options.build = options.build.resolve()
     try:

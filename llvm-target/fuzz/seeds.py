@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Writes cases to begin with: usage seeds.py BUILD DIRECTORY
 
-BUILD is a finished build (its clang compiles) whose lit suite ld has run (its objects are taken). DIRECTORY gets trax-ld/ and
-trax-objdump/, one file a case, in the form that fuzz_case.h describes.
+BUILD is a finished build (its clang compiles) whose lit suite ld has run (its objects are taken). DIRECTORY gets
+trax-ld/ and trax-objdump/, one file a case, in the form that fuzz_case.h describes.
 """
 
 import glob
@@ -27,14 +27,15 @@ PROGRAMS = {
               void _start(void) { f(__start_extra[0]); }""",
     "b.c": """struct pair { int first; double second; }; long long table[4] = {1, 2}; static struct pair pairs[3];
               static inline int twice(int x) { return 2 * x; }
-              int g(int x, const char *s) { switch (x) { case 0: return 5; case 1: return twice(s[0]); case 2: return pairs[1].first;
-              case 3: return twice(x); case 4: return s[1]; case 5: return 77; } return x ? g(x - 1, s) : twice(twice(x)); }
+              int g(int x, const char *s) { switch (x) { case 0: return 5; case 1: return twice(s[0]);
+              case 2: return pairs[1].first; case 3: return twice(x); case 4: return s[1]; case 5: return 77; }
+              return x ? g(x - 1, s) : twice(twice(x)); }
               int unused(void) { return g(3, "ab"); }""",
     "c.cpp": """template <class T> struct box { T value; T get() const { return value; } virtual ~box() {} };
-                inline int shared(int x) { static int n; return n += x; } void operator delete(void *, unsigned) noexcept;
+                inline int shared(int x) { static int n; return n += x; }
+                void operator delete(void *, unsigned) noexcept;
                 extern "C" int f(int x) { box<int> b; b.value = x; return shared(b.get()); }
-                extern "C" void _start() { f(1); }""",
-}
+                extern "C" void _start() { f(1); }""", }
 
 
 def run(*command):
@@ -81,10 +82,12 @@ with tempfile.TemporaryDirectory() as work:
             with open(os.path.join(work, "b.o"), "wb") as file:
                 file.write(b)
             run("llvm-ar-19", "rc", "--format=" + kind, archive, os.path.join(work, "b.o"))
-            add("trax-ld", "a.o -L. -la --gc-sections --print-gc-sections -Map=-", ("a.o", a), ("liba.a", read(archive)))
+            add("trax-ld", "a.o -L. -la --gc-sections --print-gc-sections -Map=-", ("a.o", a),
+                ("liba.a", read(archive)))
             add("trax-ld", "a.o --whole-archive liba.a -S", ("a.o", a), ("liba.a", read(archive)))
         add("trax-ld", "a.o b.o", ("a.o", a), ("b.o", b))
-        add("trax-ld", "@response", ("a.o", a), ("b.o", b), ("response", b"a.o b.o '-u' \"unused\" --wrap=g\n--defsym=__wrap_g=g+4"))
+        add("trax-ld", "@response", ("a.o", a), ("b.o", b),
+            ("response", b"a.o b.o '-u' \"unused\" --wrap=g\n--defsym=__wrap_g=g+4"))
         add("trax-ld", "c.o --print-memory-usage --defsym=_ZdlPvj=f", ("c.o", c))
         add("trax-ld", "a.o b.o c.o", ("a.o", a), ("b.o", b), ("c.o", c))
         image = os.path.join(work, "image")

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Writes coefficients.h: the polynomials and tables of the mathematical functions, as fixed-point integers.
 
-Each polynomial interpolates its function at Chebyshev points of the interval where it is used, which is within a small factor of
-the best approximation of its degree; the comment beside it gives the greatest error found on a dense grid, against series summed
-to 60 digits. Run it again after changing a degree:  ./coefficients.py | clang-format-19 > coefficients.h
+Each polynomial interpolates its function at Chebyshev points of the interval where it is used, which is within a small
+factor of the best approximation of its degree; the comment beside it gives the greatest error found on a dense grid,
+against series summed to 60 digits. Run it again after changing a degree:  ./coefficients.py | clang-format-19 >
+coefficients.h
 """
 
 from decimal import Decimal, getcontext, localcontext
@@ -178,7 +179,10 @@ def emit_polynomial(name, what, function, low, high, degree, bits, weight, weigh
     error = greatest_error(function, coefficients, low, high, weight)
     values = [int((c * (-1) ** i if alternating else c) * D(2) ** bits + D("0.5")) for i, c in enumerate(coefficients)]
     assert all(0 <= v < 2**32 for v in values), name
-    print(f"/* {what}, times 2^{bits}{', signs alternating from +' if alternating else ''}; {weighted} {log2_text(error)}. */")
+    print(
+        f"/* {what}, times 2^{bits}{', signs alternating from +' if alternating else ''}; {weighted} "
+        f"{log2_text(error)}. */"
+    )
     print(f"static const uint32_t {name}[{degree + 1}] = {{")
     for i in range(0, len(values), 6):
         print("    " + ", ".join(f"0x{v:08X}" for v in values[i : i + 6]) + ",")
@@ -197,14 +201,18 @@ def emit_signed_polynomial(name, what, function, low, high, degree, bits, weight
 
 
 def emit_log2_table():
-    """For each i of 0 to 32, a number c near 32/(32 + i) with 9 bits, and -log2 c; m = 1 + i/32 + at most 1/64 gives |m*c - 1| < 2^-5.9."""
+    """For each i of 0 to 32, a number c near 32/(32 + i) with 9 bits, and -log2 c; m = 1 + i/32 + at most 1/64 gives
+    |m*c - 1| < 2^-5.9."""
     reciprocals = [round(512 * 32 / (32 + i)) for i in range(33)]
     worst = D(0)
     for i, c in enumerate(reciprocals):
         for m in (D(64 + 2 * i - 1) / 64, D(64 + 2 * i + 1) / 64):
             if 1 <= m <= 2:
                 worst = max(worst, abs(m * c / 512 - 1))
-    print("/* c[i] near 512 * 32 / (32 + i), and -log2(c[i] / 512) * 2^55: log2 m = -log2 c + log2(m c), and the product with the nearest")
+    print(
+        "/* c[i] near 512 * 32 / (32 + i), and -log2(c[i] / 512) * 2^55: log2 m = -log2 c + log2(m c), and the product "
+        "with the nearest"
+    )
     print(f"   c is 1 + r with |r| < {log2_text(worst)}. */")
     print("static const uint16_t log2_reciprocal[33] = {")
     for i in range(0, 33, 11):
@@ -226,7 +234,6 @@ def emit_constant(name, what, value, bits):
 def main():
     print("/* Written by coefficients.py, which says how; do not edit. */")
     print("#ifndef TRAX_RUNTIME_COEFFICIENTS_H\n#define TRAX_RUNTIME_COEFFICIENTS_H\n\n#include <stdint.h>\n")
-    one = lambda x: D(1)
     square_limit = (PI / 4) ** 2
     atan_limit = (D(2).sqrt() - 1) ** 2
     emit_polynomial("exp2_coefficients", "(2^x - 1) / x on [0, 1]", exp2_tail, 0, 1, 7, 32, lambda x: x, "error in 2^x")
@@ -234,22 +241,28 @@ def main():
                     lambda z: z, "relative error in sin", True)
     emit_polynomial("cos_coefficients", "(1 - cos r) / r^2 in r^2, |r| <= pi/4", cos_tail, 0, square_limit, 4, 32,
                     lambda z: z, "error in cos", True)
-    emit_polynomial("atan_coefficients", "(1 - atan(t)/t) / t^2 in t^2, |t| <= tan(pi/8)", atan_tail, 0, atan_limit, 6, 33,
+    emit_polynomial("atan_coefficients", "(1 - atan(t)/t) / t^2 in t^2, |t| <= tan(pi/8)", atan_tail, 0, atan_limit, 6,
+                    33,
                     lambda z: z, "relative error in atan", True)
     emit_polynomial("sinh_coefficients", "(sinh(r)/r - 1) / r^2 in r^2, |r| < 1", sinh_tail, 0, 1, 4, 34, lambda z: z,
                     "relative error in sinh")
-    emit_polynomial("cosh_coefficients", "(cosh r - 1) / r^2 in r^2, |r| < 1", cosh_tail, 0, 1, 4, 32, lambda z: z, "error in cosh")
-    emit_polynomial("tanh_coefficients", "(1 - tanh(r)/r) / r^2 in r^2, |r| < 1/2", tanh_tail, 0, D("0.25"), 5, 33, lambda z: z,
+    emit_polynomial("cosh_coefficients", "(cosh r - 1) / r^2 in r^2, |r| < 1", cosh_tail, 0, 1, 4, 32, lambda z: z,
+                    "error in cosh")
+    emit_polynomial("tanh_coefficients", "(1 - tanh(r)/r) / r^2 in r^2, |r| < 1/2", tanh_tail, 0, D("0.25"), 5, 33,
+                    lambda z: z,
                     "relative error in tanh", True)
-    emit_polynomial("asinh_coefficients", "(1 - asinh(s)/s) / s^2 in s^2, |s| < 1/2", asinh_tail, 0, D("0.25"), 6, 34, lambda z: z,
+    emit_polynomial("asinh_coefficients", "(1 - asinh(s)/s) / s^2 in s^2, |s| < 1/2", asinh_tail, 0, D("0.25"), 6, 34,
+                    lambda z: z,
                     "relative error in asinh", True)
-    emit_polynomial("atanh_coefficients", "(atanh(x)/x - 1) / x^2 in x^2, |x| < 1/2", atanh_tail, 0, D("0.25"), 7, 33, lambda z: z,
+    emit_polynomial("atanh_coefficients", "(atanh(x)/x - 1) / x^2 in x^2, |x| < 1/2", atanh_tail, 0, D("0.25"), 7, 33,
+                    lambda z: z,
                     "relative error in atanh")
     limit = D(2) ** D("-5.9")
     emit_polynomial("log2_coefficients", "-(log2(1 + r) - r/ln 2) / r^2, |r| < 2^-5.9", log2_tail, -limit, limit, 5, 31,
                     lambda r: r * r, "error in log2", True)
     emit_log2_table()
-    emit_signed_polynomial("gamma_inverse_coefficients", "1 / gamma(3/2 + t) in t, |t| <= 1/2", gamma_inverse, D("-0.5"), D("0.5"), 17, 62,
+    emit_signed_polynomial("gamma_inverse_coefficients", "1 / gamma(3/2 + t) in t, |t| <= 1/2", gamma_inverse,
+                           D("-0.5"), D("0.5"), 17, 62,
                            "error")
     bits = int(2 / PI * D(2) ** 224)
     print("/* 2/pi in words of 32 bits, the first of them zero. */")
@@ -267,7 +280,8 @@ def main():
     print("};\n")
     bits = int(PI / 4 * D(2) ** 96)
     print("/* pi/4 in words of 32 bits. */")
-    print("static const uint32_t pi_over_4[3] = {" + ", ".join(f"0x{bits >> shift & 0xFFFFFFFF:08X}" for shift in (64, 32, 0)) + "};\n")
+    print("static const uint32_t pi_over_4[3] = {" + ", ".join(f"0x{bits >> shift & 0xFFFFFFFF:08X}"
+                                                               for shift in (64, 32, 0)) + "};\n")
     emit_constant("PI_OVER_4", "pi/4", PI / 4, 32)
     emit_constant("PI_64", "pi", PI, 62)
     emit_constant("LOG2_E", "1/ln 2", 1 / LN2, 63)

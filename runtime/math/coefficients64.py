@@ -6,7 +6,8 @@ Made as coefficients.py, which has what both share:  ./coefficients64.py | clang
 
 from decimal import localcontext
 
-from coefficients import BERNOULLI, LN2, PI, D, atan_tail, atanh_tail, chebyshev, cos_tail, gamma_inverse, greatest_error, log2_text
+from coefficients import (BERNOULLI, LN2, PI, D, atan_tail, atanh_tail, chebyshev, cos_tail, gamma_inverse,
+                          greatest_error, log2_text)
 from coefficients import series, sin_tail, sinh_tail
 
 
@@ -48,11 +49,13 @@ def lgamma_tail(t):
 
 
 def stirling(y):
-    """x (lgamma(x) - (x - 1/2) ln x + x - ln(2 pi) / 2) for y = 1/x^2: the logarithm moved up by 60, where the series is exact"""
+    """x (lgamma(x) - (x - 1/2) ln x + x - ln(2 pi) / 2) for y = 1/x^2: the logarithm moved up by 60, where the series
+    is exact"""
     def direct(x):
         total = D(0)
         for k in range(1, 21):
-            total += D(BERNOULLI[2 * k].numerator) / BERNOULLI[2 * k].denominator / (2 * k * (2 * k - 1)) / x ** (2 * k - 2)
+            total += D(BERNOULLI[2 * k].numerator) / BERNOULLI[2 * k].denominator / (2 * k *
+                                                                                     (2 * k - 1)) / x**(2 * k - 2)
         return total
 
     with localcontext() as context:
@@ -76,13 +79,18 @@ def emit(name, what, function, low, high, degree, bits, weight, weighted, signs=
     """signs: unsigned, alternating (from +) or signed."""
     coefficients = chebyshev(function, low, high, degree)
     error = greatest_error(function, coefficients, low, high, weight)
-    values = [int(((c * (-1) ** i) if signs == "alternating" else c) * D(2) ** bits) for i, c in enumerate(coefficients)]
+    values = [int(((c * (-1) ** i) if signs == "alternating" else c) * D(2) ** bits) for i,
+              c in enumerate(coefficients)]
     assert signs == "signed" or all(0 <= v < 2**64 for v in values), name
     assert signs != "signed" or all(abs(v) < 2**63 for v in values), name
-    print(f"/* {what}, times 2^{bits}{', signs alternating from +' if signs == 'alternating' else ''}; {weighted} {log2_text(error)}. */")
+    print(
+        f"/* {what}, times 2^{bits}{', signs alternating from +' if signs == 'alternating' else ''}; {weighted} "
+        f"{log2_text(error)}. */"
+    )
     print(f"static const {'' if signs == 'signed' else 'u'}int64_t {name}[{degree + 1}] = {{")
     for i in range(0, len(values), 4):
-        print("    " + ", ".join(f"{'-' if v < 0 else ''}0x{abs(v):X}{'' if v >= 0 and signs != 'signed' else 'LL'}" for v in values[i : i + 4]) + ",")
+        print("    " + ", ".join(f"{'-' if v < 0 else ''}0x{abs(v):X}{'' if v >= 0 and signs != 'signed' else 'LL'}"
+                                 for v in values[i:i + 4]) + ",")
     print("};\n")
 
 
@@ -97,7 +105,8 @@ def emit_words(name, what, values):
 def emit_constant(name, what, value, bits, count):
     words = int(value * D(2) ** bits + D("0.5"))
     print(f"/* {what} * 2^{bits}, words of 32 bits, the greatest first. */")
-    print(f"static const uint32_t {name}[{count}] = {{" + ", ".join(f"0x{words >> (32 * (count - 1 - i)) & 0xFFFFFFFF:08X}" for i in range(count)) + "};\n")
+    print(f"static const uint32_t {name}[{count}] = {{" +
+          ", ".join(f"0x{words >> (32 * (count - 1 - i)) & 0xFFFFFFFF:08X}" for i in range(count)) + "};\n")
 
 
 def emit_number(name, what, value, bits):
@@ -108,29 +117,44 @@ def emit_number(name, what, value, bits):
 def main():
     print("/* Written by coefficients64.py, which says how; do not edit. */")
     print("#ifndef TRAX_RUNTIME_COEFFICIENTS64_H\n#define TRAX_RUNTIME_COEFFICIENTS64_H\n\n#include <stdint.h>\n")
-    one = lambda x: D(1)
-    identity = lambda x: x
+
+    def one(x):
+        return D(1)
+
+    def identity(x):
+        return x
+
     emit("exp_coefficients", "(2^(x/16) - 1) / x on [0, 1]", exp_tail, 0, 1, 6, 64, identity, "error in 2^x")
     emit_words("exp_table", "2^(i/16) * 2^63", [(LN2 * i / 16).exp() * D(2) ** 63 for i in range(16)])
     atanh_limit = (3 - 2 * D(2).sqrt()) ** 2
-    emit("atanh_coefficients64", "(atanh(s)/s - 1) / s^2 in s^2, |s| <= 3 - 2 sqrt 2", atanh_tail, 0, atanh_limit, 7, 64, identity,
+    emit("atanh_coefficients64", "(atanh(s)/s - 1) / s^2 in s^2, |s| <= 3 - 2 sqrt 2", atanh_tail, 0, atanh_limit, 7,
+         64, identity,
          "relative error in atanh")
-    emit("sinh_coefficients64", "(sinh(r)/r - 1) / r^2 in r^2, |r| < 1", sinh_tail, 0, 1, 7, 64, identity, "relative error in sinh")
+    emit("sinh_coefficients64", "(sinh(r)/r - 1) / r^2 in r^2, |r| < 1", sinh_tail, 0, 1, 7, 64, identity,
+         "relative error in sinh")
     square_limit = (PI / 4) ** 2
-    emit("sin_coefficients64", "(1 - sin(r)/r) / r^2 in r^2, |r| <= pi/4", sin_tail, 0, square_limit, 6, 64, identity, "relative error in sin",
+    emit("sin_coefficients64", "(1 - sin(r)/r) / r^2 in r^2, |r| <= pi/4", sin_tail, 0, square_limit, 6, 64, identity,
+         "relative error in sin",
          "alternating")
-    emit("cos_coefficients64", "(1 - cos r) / r^2 in r^2, |r| <= pi/4", cos_tail, 0, square_limit, 7, 64, identity, "error in cos", "alternating")
-    emit("atan_coefficients64", "(1 - atan(s)/s) / s^2 in s^2, |s| <= 1/8", atan_tail, 0, D(1) / 64, 6, 64, identity, "relative error in atan",
+    emit("cos_coefficients64", "(1 - cos r) / r^2 in r^2, |r| <= pi/4", cos_tail, 0, square_limit, 7, 64, identity,
+         "error in cos", "alternating")
+    emit("atan_coefficients64", "(1 - atan(s)/s) / s^2 in s^2, |s| <= 1/8", atan_tail, 0, D(1) / 64, 6, 64, identity,
+         "relative error in atan",
          "alternating")
     emit_words("atan_table", "atan(i/4) * 2^64", [int(atan_of(D(i) / 4) * D(2) ** 64) for i in range(5)])
-    emit("erf_coefficients", "(1 - erf(x) sqrt(pi) / 2x) / x^2 in x^2, |x| < 1", erf_tail, 0, 1, 12, 64, identity, "relative error in erf",
+    emit("erf_coefficients", "(1 - erf(x) sqrt(pi) / 2x) / x^2 in x^2, |x| < 1", erf_tail, 0, 1, 12, 64, identity,
+         "relative error in erf",
          "alternating")
-    emit("erfc_coefficients", "(x + 3) erfc(x) e^(x^2) in t = 9/16 - 4/(x + 3), 1 <= x <= 28", erfc_scaled, D("-0.4375"), D("0.4335"), 22, 62, one,
+    emit("erfc_coefficients", "(x + 3) erfc(x) e^(x^2) in t = 9/16 - 4/(x + 3), 1 <= x <= 28", erfc_scaled,
+         D("-0.4375"), D("0.4335"), 22, 62, one,
          "error", "signed")
-    emit("lgamma_coefficients", "lgamma(2 + t) / t in t, |t| <= 1/2", lgamma_tail, D("-0.5"), D("0.5"), 20, 63, one, "error", "signed")
-    emit("stirling_coefficients", "x (lgamma(x) - (x - 1/2) ln x + x - ln(2 pi)/2) in 1/x^2, x >= 8", stirling, 0, D(1) / 64, 7, 64, one, "error",
+    emit("lgamma_coefficients", "lgamma(2 + t) / t in t, |t| <= 1/2", lgamma_tail, D("-0.5"), D("0.5"), 20, 63, one,
+         "error", "signed")
+    emit("stirling_coefficients", "x (lgamma(x) - (x - 1/2) ln x + x - ln(2 pi)/2) in 1/x^2, x >= 8", stirling, 0,
+         D(1) / 64, 7, 64, one, "error",
          "alternating")
-    emit("sin_pi_coefficients", "sin(pi f)/f in f^2, |f| <= 1/2", sin_pi, 0, D("0.25"), 9, 61, one, "error", "alternating")
+    emit("sin_pi_coefficients", "sin(pi f)/f in f^2, |f| <= 1/2", sin_pi, 0, D("0.25"), 9, 61, one, "error",
+         "alternating")
     emit_constant("log2_e_less_1", "1/ln 2 - 1", 1 / LN2 - 1, 96, 3)
     emit_constant("ln2_long", "ln 2", LN2, 96, 3)
     emit_number("SQRT2_64", "sqrt 2", D(2).sqrt(), 63)

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """What programs say of themselves stands in the pages as they say it: help_test.py BIN SOURCE [--update]
 
-In a fenced block that begins with `$ PROGRAM OPTION...`, all that follows is what this command prints. --update puts it there
-(`ninja update-docs`)."""
+In a fenced block that begins with `$ PROGRAM OPTION...`, all that follows is what this command prints. --update puts it
+there (`ninja update-docs`)."""
 
 import difflib
 import pathlib
@@ -33,7 +33,8 @@ def main():
             page.write_text(expected)
             continue
         stale += 1
-        sys.stdout.writelines(difflib.unified_diff(text.splitlines(True), expected.splitlines(True), str(page), "what is printed"))
+        sys.stdout.writelines(difflib.unified_diff(text.splitlines(True), expected.splitlines(True), str(page),
+                                                   "what is printed"))
     if stale or found < LEAST:
         sys.exit(f"{stale} pages are not what programs print, run `ninja update-docs`; {found} blocks")
 

@@ -1,5 +1,5 @@
-"""Every program tells the project's version; a message begins with the name that it is about, even if that is empty; an option that
-is none and one that is not said far enough are told apart.
+"""Every program tells the project's version; a message begins with the name that it is about, even if that is empty; an
+option that is none and one that is not said far enough are told apart.
 
 Usage: messages_test.py BIN VERSION
 """
@@ -13,7 +13,8 @@ import tempfile
 
 from common import BIN, TEST_BIN, VERSION, accepted, end, fail, path_of, refused, run
 
-USERS = ["clang", "clang++", "trax-clang", "trax-clang++", "trax-compare", "trax-eval", "trax-ld", "trax-mc", "trax-objdump", "trax-render",
+USERS = ["clang", "clang++", "trax-clang", "trax-clang++", "trax-compare", "trax-eval", "trax-ld", "trax-mc",
+         "trax-objdump", "trax-render",
          "trax-scene", "trax-sim"]
 OTHERS = ["trax-llc", "trax-isa-gen", "trax-isa-model", "trax-isa-mutants", "trax-accuracy", "engine-bench"]
 
@@ -21,7 +22,9 @@ OTHERS = ["trax-llc", "trax-isa-gen", "trax-isa-model", "trax-isa-mutants", "tra
 def versions():
     if not set(os.listdir(BIN)) <= set(USERS):
         fail(f"build/bin has more than the user's programs: {set(os.listdir(BIN)) - set(USERS)}")
-    found = {name for name in os.listdir(TEST_BIN) if name.startswith("trax-") and not name.endswith(("-replay", "-fuzzer"))}
+    found = {
+        name
+        for name in os.listdir(TEST_BIN) if name.startswith("trax-") and not name.endswith(("-replay", "-fuzzer"))}
     if not found <= set(OTHERS):
         fail(f"programs that are not asked: {found - set(OTHERS)}")
     for name in USERS + OTHERS:
@@ -39,17 +42,24 @@ def empty_names():
     with open("a.obj", "w") as file:
         file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
     commands = [
-        ["trax-sim", ""], ["trax-sim", "--config", "", "x"], ["trax-sim", "--bind", "a=", "x"], ["trax-sim", "--resume=", "x"],
-        ["trax-render", "", "-o", "x.png"], ["trax-render", "a.obj", "-o", ""], ["trax-render", "a.obj", "-o", "x.png", "--view", ""],
+        ["trax-sim", ""], ["trax-sim", "--config", "", "x"], ["trax-sim", "--bind", "a=", "x"],
+        ["trax-sim", "--resume=", "x"],
+        ["trax-render", "", "-o", "x.png"], ["trax-render", "a.obj", "-o", ""],
+        ["trax-render", "a.obj", "-o", "x.png", "--view", ""],
         ["trax-render", "a.obj", "-o", "x.png", "--config", ""], ["trax-render", "a.obj", "-o", "x.png", "--program="],
         ["trax-render", "a.obj", "-o", "x.png", "--write-view="], ["trax-render", "a.obj", "-o", "x.png", "--keep="],
         ["trax-render", "a.obj", "-o", "x.png", "--set", ""], ["trax-render", "a.obj", "--prepare", ""],
         ["trax-render", "a.obj", "-o", "x.png", "--material", ""], ["trax-render", "a.obj", "-o", "x.png", "--cache="],
-        ["trax-scene", "", "-o", "x.trax"], ["trax-scene", "a.obj", "-o", ""], ["trax-scene", "a.obj", "-o", "x", "--stats-json", ""],
-        ["trax-scene", "--check", ""], ["trax-scene", "a.obj", "-o", "x", "--diffuse", ""], ["trax-compare", "", ""], ["trax-compare", "a.obj", ""],
-        ["trax-ld", ""], ["trax-ld", "a.obj", "-o", ""], ["trax-ld", "-l", "", "a.obj"], ["trax-ld", "@"], ["trax-ld", "-Map=", "a.obj"],
-        ["trax-mc", ""], ["trax-llc", ""], ["trax-objdump", ""], ["clang", "--target=trax", ""], ["clang", "--target=trax", "-c", "a.c", "-o", ""],
-        ["trax-isa-model", ""], ["trax-eval", ""], ["trax-eval", "table1", "", "-o", ""], ["trax-eval", "report", ""], ["trax-eval", "report", "x.json", "-o", ""],
+        ["trax-scene", "", "-o", "x.trax"], ["trax-scene", "a.obj", "-o", ""],
+        ["trax-scene", "a.obj", "-o", "x", "--stats-json", ""],
+        ["trax-scene", "--check", ""], ["trax-scene", "a.obj", "-o", "x", "--diffuse", ""], ["trax-compare", "", ""],
+        ["trax-compare", "a.obj", ""],
+        ["trax-ld", ""], ["trax-ld", "a.obj", "-o", ""], ["trax-ld", "-l", "", "a.obj"], ["trax-ld", "@"],
+        ["trax-ld", "-Map=", "a.obj"],
+        ["trax-mc", ""], ["trax-llc", ""], ["trax-objdump", ""], ["clang", "--target=trax", ""],
+        ["clang", "--target=trax", "-c", "a.c", "-o", ""],
+        ["trax-isa-model", ""], ["trax-eval", ""], ["trax-eval", "table1", "", "-o", ""], ["trax-eval", "report", ""],
+        ["trax-eval", "report", "x.json", "-o", ""],
         ["trax-eval", "table1", "--size", ""]]
     for program, *words in commands:
         ended = run(program, *words)
@@ -92,7 +102,8 @@ def options():
 def on_terminal(program, *words, **environment):
     """What a program prints on a terminal."""
     master, slave = pty.openpty()
-    process = subprocess.Popen([f"{BIN}/{program}", *words], stdin=subprocess.DEVNULL, stdout=slave, stderr=slave, env=os.environ | {"TERM": "xterm", "NO_COLOR": ""} | environment)
+    process = subprocess.Popen([f"{BIN}/{program}", *words], stdin=subprocess.DEVNULL, stdout=slave, stderr=slave,
+                               env=os.environ | {"TERM": "xterm", "NO_COLOR": ""} | environment)
     os.close(slave)
     text = b""
     while True:
@@ -110,8 +121,10 @@ def on_terminal(program, *words, **environment):
 
 def colours():
     """The word `error` is red on a terminal that has colours, unless the user wants none; in a file it never is."""
-    commands = [["trax-sim", "absent"], ["trax-render", "absent.obj", "-o", "x.png"], ["trax-scene", "absent.obj", "-o", "x.trax"], ["trax-compare", "absent", "absent"],
-                ["trax-ld", "absent"], ["trax-mc", "absent"], ["trax-objdump", "absent"], ["trax-eval", "absent"], ["trax-eval", "report", "absent"],
+    commands = [["trax-sim", "absent"], ["trax-render", "absent.obj", "-o", "x.png"],
+                ["trax-scene", "absent.obj", "-o", "x.trax"], ["trax-compare", "absent", "absent"],
+                ["trax-ld", "absent"], ["trax-mc", "absent"], ["trax-objdump", "absent"], ["trax-eval", "absent"],
+                ["trax-eval", "report", "absent"],
                 ["trax-clang", "absent.c"]]
     for program, *words in commands:
         shown = on_terminal(program, *words)
@@ -131,7 +144,8 @@ def notes():
         file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 2\n")
     words = ["thin.obj", "-o", "turn.png", "--frames", "3", "--size", "8x6"]
     shown = on_terminal("trax-render", *words, "--engine", "native")
-    if shown.count("1 of 2 triangles have no area") != 1 or not re.search(r"(^|\n|\033\[K)trax-render: \033\[1;36mnote: \033\[0m1 of 2", shown):
+    if shown.count("1 of 2 triangles have no area") != 1 or not re.search(
+            r"(^|\n|\033\[K)trax-render: \033\[1;36mnote: \033\[0m1 of 2", shown):
         fail(f"the note is not there once and by itself: {shown!r}")
     ended = accepted("trax-render", *words, "--engine", "native")
     if "note: 1 of 2" not in ended.stderr or "\033" in ended.stderr:

@@ -1,5 +1,6 @@
-"""One rule for the outputs of all programs (trax/output.h): devices, pipes and links stay what they are, no input is destroyed, a file is
-whole or as it was on a full disk and after a failure, and closed standard streams change nothing but what is printed.
+"""One rule for the outputs of all programs (trax/output.h): devices, pipes and links stay what they are, no input is
+destroyed, a file is whole or as it was on a full disk and after a failure, and closed standard streams change nothing
+but what is printed.
 
 Usage: outputs_test.py BIN VERSION
 """
@@ -58,17 +59,20 @@ def prepare():
 def outputs():
     """Each: a program with its arguments, the option of an output, and the ending that it needs."""
     for name in ("report", "stats", "explore", "profile", "heat", "trace", "post-mortem", "checkpoint"):
-        yield ["trax-sim", *(["--checkpoint-at", "5"] if name == "checkpoint" else []), "hello.elf"], lambda path, name=name: [f"--{name}={path}"], ""
+        yield ["trax-sim", *(["--checkpoint-at", "5"] if name == "checkpoint" else []),
+               "hello.elf"], lambda path, name=name: [f"--{name}={path}"], ""
     yield ["trax-scene", "-q", "a.obj"], lambda path: ["-o", path], ".trax"
     yield ["trax-scene", "-q", "a.obj", "-o", "new.trax"], lambda path: ["--stats-json", path], ""
     yield ["trax-render", "-q", "a.obj", "--size", "8x6", "--engine", "native"], lambda path: ["-o", path], ".png"
     for name, ending in (("write-view", ""), ("id-picture", ".png")):
-        yield ["trax-render", "-q", "a.obj", "--size", "8x6", "--engine", "native", "-o", "new.png"], lambda path, name=name: [f"--{name}", path], ending
+        yield ["trax-render", "-q", "a.obj", "--size", "8x6", "--engine", "native", "-o",
+               "new.png"], lambda path, name=name: [f"--{name}", path], ending
     yield ["trax-ld", "h.o", "-e", "main"], lambda path: ["-o", path], ""
     yield ["trax-ld", "h.o", "-e", "main", "-o", "new"], lambda path: ["-Map", path], ""
     yield ["trax-mc", "-filetype=obj", "a.s"], lambda path: ["-o", path], ""
     yield ["trax-mc", "a.s"], lambda path: ["-o", path], ""
-    for kind in (["-c", "long.c"], ["-S", "long.c"], ["-E", "long.c"], ["-c", "a.s"], ["-emit-llvm", "-c", "long.c"], ["h.c"]):
+    for kind in (["-c", "long.c"], ["-S", "long.c"], ["-E", "long.c"], ["-c", "a.s"], ["-emit-llvm", "-c", "long.c"],
+                 ["h.c"]):
         yield [*CLANG, *kind], lambda path: ["-o", path], ""
     for option in (["-MD", "-MF"], ["-MJ"], ["--serialize-diagnostics"]):
         yield [*CLANG, "-c", "h.c", "-o", "new.o"], lambda path, option=option: [*option, path], ""
@@ -125,12 +129,14 @@ def special(words, option, ending):
 
 
 def full(words, option, ending):
-    """A disk that is full after some bytes: status 1, the file as it was, nothing beside it, and no words of a crash."""
+    """A disk that is full after some bytes: status 1, the file as it was, nothing beside it, and no words of a
+    crash."""
     os.makedirs("disk", exist_ok=True)
     shutil.rmtree("disk")
     os.makedirs("disk")
     write(f"disk/old{ending}", "old")
-    ended = subprocess.run([path_of(words[0]), *words[1:], *option(f"disk/old{ending}")], capture_output=True, text=True, timeout=60, stdin=subprocess.DEVNULL,
+    ended = subprocess.run([path_of(words[0]), *words[1:], *option(f"disk/old{ending}")], capture_output=True,
+                           text=True, timeout=60, stdin=subprocess.DEVNULL,
                            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (16, 16)))
     if ended.returncode != 1 or "PLEASE" in ended.stderr or "Traceback" in ended.stderr:
         fail(f"{words} {option('X')} on a full disk: {ended.returncode}: {ended.stderr[:500]}")
@@ -142,8 +148,10 @@ def full(words, option, ending):
 def failures():
     """A run that fails leaves the earlier output."""
     write("old.out", "old")
-    for words in ([*CLANG, "-c", "bad.c", "-o"], [*CLANG, "bad.c", "-o"], [*CLANG, "-c", "bad.s", "-o"], [*CLANG, "h.c", "-Wl,--bad", "-o"],
-                  [*CLANG, "h.o", "-lno-such", "-o"], ["trax-mc", "bad.s", "-o"], ["trax-ld", "h.o", "-e", "nothing", "-lno-such", "-o"],
+    for words in ([*CLANG, "-c", "bad.c", "-o"], [*CLANG, "bad.c", "-o"], [*CLANG, "-c", "bad.s", "-o"],
+                  [*CLANG, "h.c", "-Wl,--bad", "-o"],
+                  [*CLANG, "h.o", "-lno-such", "-o"], ["trax-mc", "bad.s", "-o"],
+                  ["trax-ld", "h.o", "-e", "nothing", "-lno-such", "-o"],
                   ["trax-scene", "-q", "bad.c", "-o"], ["trax-eval", "report", "bad.c", "-o"]):
         refused("error: ", *words, "old.out")
     os.symlink("old.out", "to-old")
@@ -156,14 +164,23 @@ def inputs():
     refused(INPUT, *CLANG, "h.o", "-L.", "-l:libz.a", "-o", "libz.a")
     kept = {name: contents(name) for name in ("h.c", "inc.h", "response", "profile", "a.s", "part.s", "bytes")}
     compile_h = [*CLANG, "-c", "h.c", "-O2", "-o", "new.o"]
-    for words in ([*CLANG, "-c", "h.c", "-o", "inc.h"], [*CLANG, "h.c", "-o", "inc.h"], [*CLANG, "-E", "h.c", "-o", "inc.h"], [*CLANG, "@response", "-o", "response"],
-                  [*compile_h, "-fprofile-sample-use=profile", "-MD", "-MF", "profile"], [*CLANG, "-c", "h.c", "-fprofile-sample-use=profile", "-o", "profile"],
-                  *([*compile_h, *option, path] for path in ("h.c", "inc.h") for option in (["-MD", "-MF"], ["-MJ"], ["--serialize-diagnostics"])),
-                  *([*compile_h, f"-{option}={path}"] for path in ("h.c", "inc.h") for option in ("foptimization-record-file", "ftime-trace", "fproc-stat-report")),
-                  *([*CLANG, "h.c", "-o", "new", f"-Wl,-Map={path}"] for path in ("h.c", "inc.h")), *([*CLANG, "h.c", f"-Wl,-o,{path}"] for path in ("h.c", "inc.h")),
-                  *([*CLANG, "-c", "a.s", "-o", path] for path in ("part.s", "bytes")), *(["trax-mc", "a.s", "-o", path] for path in ("part.s", "bytes")),
-                  [*CLANG, "-c", "h.c", "-o", "./inc.h"]):
-        ended = subprocess.run([path_of(words[0]), *words[1:]], capture_output=True, text=True, stdin=subprocess.DEVNULL, timeout=60)
+    for words in ([*CLANG, "-c", "h.c", "-o", "inc.h"], [*CLANG, "h.c", "-o",
+                                                         "inc.h"], [*CLANG, "-E", "h.c", "-o",
+                                                                    "inc.h"], [*CLANG, "@response", "-o", "response"],
+                  [*compile_h, "-fprofile-sample-use=profile", "-MD", "-MF",
+                   "profile"], [*CLANG, "-c", "h.c", "-fprofile-sample-use=profile", "-o",
+                                "profile"], *([*compile_h, *option, path] for path in ("h.c", "inc.h")
+                                              for option in (["-MD", "-MF"], ["-MJ"], ["--serialize-diagnostics"])),
+                  *([*compile_h, f"-{option}={path}"] for path in ("h.c", "inc.h")
+                    for option in ("foptimization-record-file", "ftime-trace", "fproc-stat-report")),
+                  *([*CLANG, "h.c", "-o", "new", f"-Wl,-Map={path}"]
+                    for path in ("h.c", "inc.h")), *([*CLANG, "h.c", f"-Wl,-o,{path}"]
+                                                     for path in ("h.c", "inc.h")), *([*CLANG, "-c", "a.s", "-o", path]
+                                                                                      for path in ("part.s", "bytes")),
+                  *(["trax-mc", "a.s", "-o", path]
+                    for path in ("part.s", "bytes")), [*CLANG, "-c", "h.c", "-o", "./inc.h"]):
+        ended = subprocess.run([path_of(words[0]), *words[1:]], capture_output=True, text=True,
+                               stdin=subprocess.DEVNULL, timeout=60)
         if ended.returncode != 1 or INPUT not in ended.stderr:
             fail(f"{words}: {ended.returncode}: {ended.stderr}")
         for name, before in kept.items():
@@ -180,10 +197,14 @@ def inputs():
 
 def closed():
     """Any of the standard streams closed: the same status and files."""
-    commands = [(["trax-sim", "hello.elf", "--stats", "out"], "out"), (["trax-scene", "a.obj", "-o", "out.trax"], "out.trax"),
-                (["trax-render", "a.obj", "--size", "8x6", "--engine", "native", "-o", "out.png"], "out.png"), (["trax-compare", "p.png", "p.png"], None),
-                (["trax-ld", "-t", "h.o", "-e", "main", "-o", "out"], "out"), (["trax-mc", "-filetype=obj", "a.s", "-o", "out"], "out"), (["trax-objdump", "-d", "h.o"], None),
-                ([*CLANG, "-v", "-c", "h.c", "-o", "out"], "out"), (["clang++", "--target=trax", "-v", "-x", "c++", "h.c", "-o", "out"], "out"),
+    commands = [(["trax-sim", "hello.elf", "--stats", "out"], "out"),
+                (["trax-scene", "a.obj", "-o", "out.trax"], "out.trax"),
+                (["trax-render", "a.obj", "--size", "8x6", "--engine", "native", "-o", "out.png"], "out.png"),
+                (["trax-compare", "p.png", "p.png"], None),
+                (["trax-ld", "-t", "h.o", "-e", "main", "-o", "out"], "out"),
+                (["trax-mc", "-filetype=obj", "a.s", "-o", "out"], "out"), (["trax-objdump", "-d", "h.o"], None),
+                ([*CLANG, "-v", "-c", "h.c", "-o", "out"], "out"),
+                (["clang++", "--target=trax", "-v", "-x", "c++", "h.c", "-o", "out"], "out"),
                 (["trax-eval", "report", "results.json", "-o", "out"], "out")]
     for words, output in commands:
         texts = set()
@@ -191,7 +212,8 @@ def closed():
             for streams in itertools.combinations(("<&-", ">&-", "2>&-"), count):
                 if output and os.path.exists(output):
                     os.remove(output)
-                ended = subprocess.run(["sh", "-c", f'"$@" {" ".join(streams)}', "sh", path_of(words[0]), *words[1:]], capture_output=True, timeout=60)
+                ended = subprocess.run(["sh", "-c", f'"$@" {" ".join(streams)}', "sh", path_of(words[0]), *words[1:]],
+                                       capture_output=True, timeout=60)
                 if ended.returncode != 0:
                     fail(f"{words} {streams}: status {ended.returncode}: {ended.stderr[:300]}")
                 elif output:

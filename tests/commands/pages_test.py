@@ -31,7 +31,8 @@ def printed(command, option):
 def table(command):
     """Names of the options, and of those that are gone."""
     text = (SOURCE / TABLES[command]).read_text()
-    rows = re.findall(r'^ *(?:static const trax_option rows\[\] = \{)?\{"([a-z-]+)",(.*?)(?=^ *(?:\{|TRAX_OPTION))', text, re.MULTILINE | re.DOTALL)
+    rows = re.findall(r'^ *(?:static const trax_option rows\[\] = \{)?\{"([a-z-]+)",(.*?)(?=^ *(?:\{|TRAX_OPTION))',
+                      text, re.MULTILINE | re.DOTALL)
     rows = [(name, rest) for name, rest in rows if ".meaning" in rest or ".instead" in rest]
     names = {name for name, rest in rows if ".instead" not in rest} | {"help", "version"}
     if "TRAX_EXPLAIN_FILES" in text:
@@ -42,8 +43,10 @@ def table(command):
 def completed(command, *words):
     """What bash offers for the last word, as in a shell that finds the programs."""
     script = BIN.parent / "share/bash-completion/completions" / command
-    run = subprocess.run(["bash", "--norc", "-c", 'source "$1"; shift; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); "_${1//-/_}"; printf "%s\\n" "${COMPREPLY[@]}"',
-                          "bash", script, command, *words], capture_output=True, text=True, timeout=60, cwd=SOURCE / "docs",
+    run = subprocess.run([
+        "bash", "--norc", "-c",
+        'source "$1"; shift; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); "_${1//-/_}"; printf "%s\\n" "${COMPREPLY[@]}"',
+        "bash", script, command, *words], capture_output=True, text=True, timeout=60, cwd=SOURCE / "docs",
                          env=os.environ | {"PATH": f"{BIN}:{os.environ['PATH']}"})
     check(run.returncode == 0 and not run.stderr, command, *words, run.stderr)
     return set(run.stdout.split())
@@ -58,20 +61,23 @@ def main():
         for text, place in ((manual, f"man/man1/{command}.1"), (script, f"bash-completion/completions/{command}")):
             check((BIN.parent / "share" / place).read_text() == text, f"share/{place} is not what {command} prints")
         in_help = set(re.findall(r"^ +(?:-\w, )?--([a-z-]+)", printed(command, "--help"), re.MULTILINE))
-        in_page = {name.replace("\\-", "-") for name in re.findall(r"^(?:\\fB\\-\w\\fR, )?\\fB\\-\\-([a-z\\-]+?)\\fR", manual, re.MULTILINE)}
+        in_page = {name.replace("\\-", "-") for name in re.findall(r"^(?:\\fB\\-\w\\fR, )?\\fB\\-\\-([a-z\\-]+?)\\fR",
+                                                                   manual, re.MULTILINE)}
         in_script = {word[2:] for word in completed(command, "--")}
         for found, where in ((in_help, "--help"), (in_page, "the man page"), (in_script, "the completion")):
             check(found == names, command, where, "has", sorted(found - names), "and lacks", sorted(names - found))
         for name in gone:
             check(completed(command, f"--{name}") <= names and f"\\-\\-{name}" not in manual, command, name, "is gone")
-        check(subprocess.run(["groff", "-man", "-Tascii", "-ww", "-z"], input=manual, capture_output=True, text=True).stderr == "" if have("groff") else True,
+        check(subprocess.run(["groff", "-man", "-Tascii", "-ww", "-z"], input=manual, capture_output=True,
+                             text=True).stderr == "" if have("groff") else True,
               command, "groff warns of the page")
     check(completed("trax-render", "--engine", "") == {"fast", "reference", "native", "embree", "exact"}, "choices")
     check(completed("trax-render", "--engine", "re") == {"reference"}, "a choice that is begun")
     check(completed("trax-render", "--engine", "=", "na") == {"native"}, "a choice behind '='")
     check(completed("trax-render", "--size", "1") == set(), "what only the user knows")
     check(completed("trax-sim", "--stats", "manif") == completed("trax-sim", "manif") == {"manifest.md"}, "files")
-    check("SS View" in printed("trax-render", "--help-man") and "\nView:\n" in printed("trax-render", "--help"), "headings")
+    check("SS View" in printed("trax-render", "--help-man") and "\nView:\n" in printed("trax-render", "--help"),
+          "headings")
     evaluation_completion()
     help_pages()
     return checking.failures != 0
@@ -84,18 +90,25 @@ def stems(folder):
 def evaluation_completion():
     """trax-eval: the options of its help, their values, and experiments."""
     script = printed("trax-eval", "--help-completion")
-    check((BIN.parent / "share/bash-completion/completions/trax-eval").read_text() == script, "the installed completion is not what trax-eval prints")
+    check((BIN.parent / "share/bash-completion/completions/trax-eval").read_text() == script,
+          "the installed completion is not what trax-eval prints")
     options = set(re.findall(r"^ +(?:-\w, )?--([a-z-]+)", printed("trax-eval", "--help"), re.MULTILINE))
-    check({word[2:] for word in completed("trax-eval", "--")} == options and len(options) >= 18, "options of trax-eval:", completed("trax-eval", "--"))
+    check({word[2:] for word in completed("trax-eval", "--")} == options and len(options) >= 18,
+          "options of trax-eval:", completed("trax-eval", "--"))
     experiments = stems("sweeps")
     for words in ([""], ["--quick", ""]):
         found = completed("trax-eval", *words)
-        check(experiments | {"report", "docs", "index.md"} <= found and len(experiments) >= 30, "experiments:", sorted(experiments - found))
+        check(experiments | {"report", "docs", "index.md"} <= found and len(experiments) >= 30, "experiments:",
+              sorted(experiments - found))
     check(completed("trax-eval", "table2", "table") == {"table1", "table2", "table3"}, "an experiment that is begun")
-    for words, expected in ((["--mode", ""], {"exact", "quick"}), (["--runner", "p"], {"parallel"}), (["--runner", "=", "s"], {"slurm"}), (["--size", "1"], set()),
-                            (["--jobs", ""], set()), (["--chip", "4x32,8x4"], {"4x32,8x48"}), (["--program", "pap"], {"paper"}),
-                            (["--scene", "sibenik,cryt"], {"sibenik,crytek-sponza"}), (["--scene", "ind"], set()), (["--chip", "ind"], {"index.md"}), (["-o", "resu"], {"results"}), (["-o", "inde"], set()),
-                            (["docs", "--"], {"--anew", "--check", "--help"}), (["report", "--o"], {"--output"}), (["report", "inde"], {"index.md"})):
+    for words, expected in ((["--mode", ""], {"exact", "quick"}), (["--runner", "p"], {"parallel"}),
+                            (["--runner", "=", "s"], {"slurm"}), (["--size", "1"], set()),
+                            (["--jobs", ""], set()), (["--chip", "4x32,8x4"], {"4x32,8x48"}),
+                            (["--program", "pap"], {"paper"}),
+                            (["--scene", "sibenik,cryt"], {"sibenik,crytek-sponza"}), (["--scene", "ind"], set()),
+                            (["--chip", "ind"], {"index.md"}), (["-o", "resu"], {"results"}), (["-o", "inde"], set()),
+                            (["docs", "--"], {"--anew", "--check", "--help"}), (["report", "--o"], {"--output"}),
+                            (["report", "inde"], {"index.md"})):
         check(completed("trax-eval", *words) == expected, *words, completed("trax-eval", *words))
     check(stems("programs") <= completed("trax-eval", "--program", ""), "programs of trax-eval")
     check(stems("scenes") <= completed("trax-eval", "--scene", ""), "scenes of trax-eval")
@@ -113,7 +126,10 @@ def help_pages():
     """The page has every option of the help, and headings where the help has them."""
     for command, least in HELPED.items():
         shown = printed(command, "--help")
-        options = {name for line in shown.splitlines() for name in names_in((re.match(r"  +(-.*?)(?:  | - |$)", line) or ["", ""])[1])}
+        options = {
+            name
+            for line in shown.splitlines()
+            for name in names_in((re.match(r"  +(-.*?)(?:  | - |$)", line) or ["", ""])[1])}
         check(len(options) >= least, f"{len(options)} options of {command} are too few to prove anything")
         check(len(re.findall(r"^\S[^:]*:$", shown, re.MULTILINE)) >= 2, command, "--help has no groups")
         manual = page(command)
@@ -121,23 +137,28 @@ def help_pages():
         check(options <= there, f"the page of {command} lacks", sorted(options - there))
         check(manual.count("\n.SS ") >= 2, f"the page of {command} has no groups")
         there = completed(command, "-")
-        check({name for name in options if name.startswith("-")} == there or command == "trax-eval", f"the completion of {command}:", sorted(options ^ there))
+        check({name for name in options if name.startswith("-")} == there or command == "trax-eval",
+              f"the completion of {command}:", sorted(options ^ there))
         check(completed(command, "inde") == {"index.md"}, f"files behind {command}")
     check("aarch64" not in printed("trax-mc", "--help"), "trax-mc --help lists the options of other targets")
     clang = page("trax-clang").replace("\\-", "-").replace("\\fI", "").replace("\\fR", "")
-    own = re.findall(r"^  (-[\w-]+=?)\S* .*$\n?(?=.*)", "\n".join(line for line in printed("trax-clang", "--help").splitlines() if "trax: " in line), re.MULTILINE)
+    own = re.findall(r"^  (-[\w-]+=?)\S* .*$\n?(?=.*)",
+                     "\n".join(line for line in printed("trax-clang", "--help").splitlines() if "trax: " in line),
+                     re.MULTILINE)
     check(len(own) == 3, "clang's own options:", own)
     for name in own:
         check(f"\\fB{name}" in clang, "the page of trax-clang lacks", name)
     check("trax-clang.1" in page("trax-clang++"), "trax-clang++ has the page of trax-clang")
-    for words, expected in ((["-mstack-s"], {"-mstack-size="}), (["-mstack", "="], {"either", "global", "local"}), (["-O2", "-mstack", "=", "gl"], {"global"}), (["-c", "inde"], {"index.md"})):
+    for words, expected in ((["-mstack-s"], {"-mstack-size="}), (["-mstack", "="], {"either", "global", "local"}),
+                            (["-O2", "-mstack", "=", "gl"], {"global"}), (["-c", "inde"], {"index.md"})):
         check(completed("trax-clang", *words) == expected, "trax-clang", *words, completed("trax-clang", *words))
 
 
 def page(command):
     text = (BIN.parent / f"share/man/man1/{command}.1").read_text()
     if have("groff") and not text.startswith(".so"):
-        warnings = subprocess.run(["groff", "-man", "-Tascii", "-ww", "-z"], input=text, capture_output=True, text=True).stderr
+        warnings = subprocess.run(["groff", "-man", "-Tascii", "-ww", "-z"], input=text, capture_output=True,
+                                  text=True).stderr
         check(warnings == "", command, "groff warns of the page:", warnings)
     return text
 

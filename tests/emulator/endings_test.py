@@ -35,7 +35,8 @@ def tearDownModule():
 def build(where, level, *options):
     name = f"chains{where}{level}{''.join(options)}.elf"
     if not os.path.exists(name):
-        subprocess.run([f"{BIN}/clang", "--target=trax", level, f"-DWHERE={where}", *options, "-o", name, SOURCE], check=True)
+        subprocess.run([f"{BIN}/clang", "--target=trax", level, f"-DWHERE={where}", *options, "-o", name, SOURCE],
+                       check=True)
     return name
 
 
@@ -91,7 +92,8 @@ class Backtraces(unittest.TestCase):
         self.assertIn("stack overflow", err)
         self.assertEqual(names[-2:], ["main", "_start"])
         self.assertGreater(len(names), 20)
-        status, err, names, callers = self.chain(1, "-O1", "functional", "-g", "-mstack=global", "-Wl,-z,stack-size=65536")
+        status, err, names, callers = self.chain(1, "-O1", "functional", "-g", "-mstack=global",
+                                                 "-Wl,-z,stack-size=65536")
         self.assertIn("stack overflow", err)
         self.assertEqual(len(names), 28, err)
         self.assertRegex(err, r"\n  \.\.\. +\d{4} frames\n")
@@ -129,7 +131,8 @@ class PostMortem(unittest.TestCase):
     def test_groups(self):
         for engine in ("fast", "functional"):
             limit = "20000" if engine == "functional" else "3000"
-            status, text = self.groups("--config", "4x32", "--engine", engine, "--max-cycles", limit, build(2, "-O1", "-g"))
+            status, text = self.groups("--config", "4x32", "--engine", engine, "--max-cycles", limit,
+                                       build(2, "-O1", "-g"))
             self.assertEqual(status, 124)
             blocks = re.split(r"\n(?=\d)", text.rstrip("\n"))
             self.assertEqual(blocks[0], "128 threads, 1 ended")
@@ -161,7 +164,8 @@ class PostMortem(unittest.TestCase):
 
     def test_every_engine_with_time(self):
         for words in (("--max-cycles", "3000"), ("--watchdog", "500")):
-            texts = [self.groups("--config", "2x32", "--engine", engine, *words, build(2, "-O1", "-g")) for engine in ("fast", "reference")]
+            texts = [self.groups("--config", "2x32", "--engine", engine, *words,
+                                 build(2, "-O1", "-g")) for engine in ("fast", "reference")]
             self.assertEqual(*texts)
             self.assertEqual(texts[0][0], 124)
 
@@ -197,7 +201,9 @@ class Signals(unittest.TestCase):
         return stats["status"], stats["partial"], stats["identity"]["holds"]
 
     def litter(self, *kept):
-        return [name for name in os.listdir(".") if not re.fullmatch(r".*\.elf|out|pm\.txt|[ab]\.json|" + "|".join(kept), name)]
+        return [
+            name for name in os.listdir(".")
+            if not re.fullmatch(r".*\.elf|out|pm\.txt|[ab]\.json|" + "|".join(kept), name)]
 
     def test_every_signal(self):
         """Statistics are written and say that they are partial; buffers are not; nothing half-written is left."""
@@ -209,7 +215,8 @@ class Signals(unittest.TestCase):
                 process.send_signal(number)
                 status, err = self.end(process)
                 self.assertEqual(status, -number, f"{engine} {number}")
-                self.assertRegex(err, "interrupted in instruction [1-9]" if engine == "functional" else "interrupted in cycle [1-9]")
+                self.assertRegex(
+                    err, "interrupted in instruction [1-9]" if engine == "functional" else "interrupted in cycle [1-9]")
                 self.assertEqual(self.partial("s.json"), ("interrupted", True, True))
                 with open("r.txt") as file:
                     self.assertIn("run      interrupted (partial)\n", file.read())
@@ -221,12 +228,14 @@ class Signals(unittest.TestCase):
         """What an earlier run left stays."""
         with open("d.bin", "w") as file:
             file.write("of before")
-        status, out, err = run("--alloc", "input=64000000", "--alloc", "output=64000000", "--dump", "output=d.bin", "--max-cycles",
+        status, out, err = run("--alloc", "input=64000000", "--alloc", "output=64000000", "--dump", "output=d.bin",
+                               "--max-cycles",
                                "1000", "copy.elf")
         self.assertEqual(status, 124)
         run("--report", "r.txt", "--max-cycles", "1000", "print.elf")
         with open("r.txt") as file:
-            self.assertIn("run      stopped at its limit (--max-cycles), before the program ended (partial)\n", file.read())
+            self.assertIn("run      stopped at its limit (--max-cycles), before the program ended (partial)\n",
+                          file.read())
         os.remove("r.txt")
         with open("d.bin") as file:
             self.assertEqual(file.read(), "of before")
@@ -236,7 +245,8 @@ class Signals(unittest.TestCase):
         """A file beyond the limit is an error of writing, and nothing of it is left."""
         done = subprocess.run([SIM, "--trace", "trace.txt", "mix.elf"], capture_output=True, text=True, timeout=60,
                               preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096)))
-        self.assertEqual((done.returncode, done.stderr), (1, "trax-sim: error: trace.txt: cannot be written: File too large\n"))
+        self.assertEqual((done.returncode, done.stderr),
+                         (1, "trax-sim: error: trace.txt: cannot be written: File too large\n"))
         self.assertEqual(self.litter(), [])
 
     def test_host_threads(self):
@@ -281,7 +291,8 @@ class Signals(unittest.TestCase):
         return done.returncode, done.stderr.decode()
 
     def test_reader_gone(self):
-        """What follows the report is written; a program that writes to nobody is ended; a failure is told all the same."""
+        """What follows the report is written; a program that writes to nobody is ended; a failure is told all the
+        same."""
         buffers = ("--alloc", "input=64", "--alloc", "output=64", "--dump", "output=d.bin", "copy.elf")
         for where in ("--report", "--stats", "--profile"):
             self.assertEqual(self.piped(where, "-", *buffers), (141, ""), where)
@@ -308,11 +319,14 @@ class Progress(unittest.TestCase):
         if (i % 64 == 0)
           trax_count_items(1);
     }"""
-    LINE = (r"trax-sim: running, ([\d.]+) million cycles, ([\d.]+) million instructions/s, (\d+) of 100000000 items, ([\d.]+) %"
-            r"(?:, (?:(\d+):)?(\d+):(\d\d) left)?")
+    LINE = (
+        r"trax-sim: running, ([\d.]+) million cycles, ([\d.]+) million instructions/s, (\d+) of 100000000 items, "
+        r"([\d.]+) %"
+        r"(?:, (?:(\d+):)?(\d+):(\d\d) left)?")
 
     def on_a_terminal(self, *words, seconds=0.7):
-        """What is written to a terminal on standard error until the run is interrupted, after so many seconds and some lines."""
+        """What is written to a terminal on standard error until the run is interrupted, after so many seconds and some
+        lines."""
         master, slave = pty.openpty()
         process = subprocess.Popen([SIM, *words], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=slave)
         os.close(slave)
@@ -359,7 +373,8 @@ class Progress(unittest.TestCase):
             self.assertIsNotNone(figures[-1][6])
             if engine != "functional":
                 self.assertGreater(float(figures[-1][1]), 0)
-        self.assertNotIn("million", self.on_a_terminal("--quiet", "--progress-total", "100000000", "forever.elf", seconds=0.5))
+        self.assertNotIn("million",
+                         self.on_a_terminal("--quiet", "--progress-total", "100000000", "forever.elf", seconds=0.5))
         os.remove("items.c")
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""explain_test.py TRAX_SIM CALLS DEEP EMULATOR_PROGRAMS: what explains a run, on both engines: the same bytes, formats that their readers
-accept, and sums that equal the run's statistics."""
+"""explain_test.py TRAX_SIM CALLS DEEP EMULATOR_PROGRAMS: what explains a run, on both engines: the same bytes, formats
+that their readers accept, and sums that equal the run's statistics."""
 import base64
 import collections
 import csv
@@ -17,7 +17,8 @@ import checking  # noqa: E402
 from checking import check, equal  # noqa: E402
 
 SIM, PROGRAM, DEEP, WRITE_PROGRAMS = (str(pathlib.Path(p).resolve()) for p in sys.argv[1:5])
-FILES = ["explore", "profile", "profile-folded", "heat", "heat-lines", "items", "lockstep", "series", "trace", "perfetto"]
+FILES = ["explore", "profile", "profile-folded", "heat", "heat-lines", "items", "lockstep", "series", "trace",
+         "perfetto"]
 RESULTS = 400  # words
 
 
@@ -40,7 +41,8 @@ def read(directory, name):
 
 def page_data(directory):
     """Of --explore; tests/report/explore_test.py has the rest of it."""
-    return json.loads(zlib.decompress(base64.b64decode(re.search(r'id="data">([^<]*)<', read(directory, "explore"))[1])))
+    return json.loads(zlib.decompress(base64.b64decode(re.search(r'id="data">([^<]*)<',
+                                                                 read(directory, "explore"))[1])))
 
 
 def rows(directory, name):
@@ -78,7 +80,8 @@ def check_energy(stats):
     data cache of 16 kB with one bank, instruction caches of 4 kB with 16, and a second-level cache of 64 kB with 8."""
     count = stats["instructions_by_operation"]
     registers = {"r": 3, "r1": 2, "cmov": 4, "store": 2, "u": 1, "none": 0}
-    kinds = {"cmov": ["cmovnz", "cmovz"], "store": ["sb", "sh", "sw", "swnt", "beq", "bne", "blt", "bge", "bltu", "bgeu"],
+    kinds = {"cmov": ["cmovnz", "cmovz"],
+             "store": ["sb", "sh", "sw", "swnt", "beq", "bne", "blt", "bge", "bltu", "bgeu"],
              "u": ["lui", "jal", "rdsr", "trap"], "none": ["halt"],
              "r": ["add", "sub", "and", "or", "xor", "sll", "srl", "sra", "slt", "sltu", "min", "max", "minu",
                    "maxu", "mul", "mulh", "mulhu", "fadd", "fsub", "fmin", "fmax", "feq", "flt", "fle", "fmul", "fdiv"]}
@@ -88,8 +91,8 @@ def check_energy(stats):
     expected = {
         "fp_add": 0.0074 * (count["fadd"] + count["fsub"]),
         "fp_mul": 0.0142 * count["fmul"],
-        "fp_other": 0.000536 * sum(count[name] for name in ("fmin", "fmax", "feq", "flt", "fle")) +
-                    0.001 * sum(count[name] for name in count if name.startswith("fcvt")),
+        "fp_other": 0.000536 * sum(count[name] for name in ("fmin", "fmax", "feq", "flt", "fle")) + 0.001 *
+        sum(count[name] for name in count if name.startswith("fcvt")),
         "int_mul": 0.0177 * stats["instructions_by_unit"]["int_mul"],
         "special": 0.1563 * stats["instructions_by_unit"]["special"],
         "ray": 0.136568 * count["fbox"] + 0.67738 * count["ftri"],
@@ -170,15 +173,20 @@ def check_trace_and_page(directory, stats):
         if value:
             state[int(value[1])] = int(value[2], 16)
     equal(instructions, stats["instructions"], "lines of the trace")
-    # On the page each instruction has what the trace has of it. The bubble, of one cycle here, belongs to the branch that was taken.
+    # On the page each instruction has what the trace has of it. The bubble, of one cycle here, belongs to the branch
+    # that was taken.
     causes, page = list(stats["causes"]), [one for one in page_data(directory)["instructions"] if one]
     counts = {f"{one[0]:08x}" if one[0] is not None else "": dict(zip(causes, one[5])) for one in page}
     equal({pc: count["issued"] for pc, count in counts.items() if count["issued"]}, dict(issued), "instructions by pc")
     jumped = collections.Counter(re.match(r" *\d+ +\d+ +\S+ +(\w+) ", line)[1]
                                  for line in read(directory, "trace").splitlines() if re.search(r"  to \w{8}$", line))
-    equal({pc: count["branch_bubble"] for pc, count in counts.items() if count["branch_bubble"]}, dict(jumped), "bubbles by pc")
-    check(any(one[5][causes.index("wait_memory")] for one in page if one[1].split(" ")[0] not in ("lui", "jal", "halt")), "nobody waits for memory")
-    equal({cause: sum(count[cause] for count in counts.values()) for cause in causes}, stats["causes"], "causes on the page")
+    equal({pc: count["branch_bubble"] for pc, count in counts.items() if count["branch_bubble"]}, dict(jumped),
+          "bubbles by pc")
+    check(
+        any(one[5][causes.index("wait_memory")] for one in page if one[1].split(" ")[0] not in ("lui", "jal", "halt")),
+        "nobody waits for memory")
+    equal({cause: sum(count[cause] for count in counts.values()) for cause in causes}, stats["causes"],
+          "causes on the page")
 
 
 def check_heat(directory, stats):
@@ -192,7 +200,8 @@ def check_heat(directory, stats):
     equal([total["hits"], total["misses"], total["merged"], total["atomics"], total["combined"]],
           [figure(stats, name) for name in
            ("dcache.hits", "dcache.misses", "dcache.merged", "atomics", "stores.combined")], "heat")
-    equal([local["loads"], local["stores"]], [figure(stats, "local.loads"), figure(stats, "local.stores")], "local heat")
+    equal([local["loads"], local["stores"]], [figure(stats, "local.loads"), figure(stats, "local.stores")],
+          "local heat")
     equal(total["loads"], total["hits"] + total["misses"] + total["merged"] + figure(stats, "nontemporal.loads"))
     equal(total["stores"], figure(stats, "dcache.store_hits") + figure(stats, "dcache.store_misses") +
           figure(stats, "nontemporal.stores"))
@@ -266,8 +275,10 @@ def check_lockstep(directory):
                     if stream and stream[-1] == lowest:
                         stream.pop()
         executed = sum(map(len, ordered))
-        equal([int(row["warps"]), int(row["instructions"]), int(row["slots"])], [-(-RESULTS // width), executed, slots], "warps of", width)
-        equal([row["utilisation"], row["longest"]], [f"{executed / (width * slots):.6f}", f"{executed / (width * longest):.6f}"], "shares, warps of", width)
+        equal([int(row["warps"]), int(row["instructions"]), int(row["slots"])], [-(-RESULTS // width), executed, slots],
+              "warps of", width)
+        equal([row["utilisation"], row["longest"]],
+              [f"{executed / (width * slots):.6f}", f"{executed / (width * longest):.6f}"], "shares, warps of", width)
     equal([row["width"] for row in rows(directory, "lockstep")], ["1", "2", "4", "8", "16", "32", "64"])
 
 
@@ -343,10 +354,12 @@ def main():
     check_energy(stats)
     equal(stats["energy"]["l2"], 0, "energy of no second-level cache")
     for engine in "reference", "fast":
-        run(directory / f"l2-{engine}", engine, *machine, *whole, "--set", "l2.bytes=65536", "--set", "memory.channels=2",
+        run(directory / f"l2-{engine}", engine, *machine, *whole, "--set", "l2.bytes=65536", "--set",
+            "memory.channels=2",
             "--window", f"0:{far}")
     for name in FILES:
-        equal(read(directory / "l2-fast", name), read(directory / "l2-reference", name), "engines, second-level cache:", name)
+        equal(read(directory / "l2-fast", name), read(directory / "l2-reference", name), "engines, second-level cache:",
+              name)
     with_l2 = json.loads(read(directory / "l2-fast", "stats.json"))
     check(with_l2["energy"]["l2"] > 0, "energy of the second-level cache")
     check_energy(with_l2)
@@ -394,7 +407,8 @@ def main():
             run(directory / f"{name}-{engine}", engine, "--config", "1x32", "--window", f"0:{far}", expected=status,
                 program=str(directory / "programs" / f"{name}.elf"))
         for file in FILES:
-            equal(read(directory / f"{name}-fast", file), read(directory / f"{name}-reference", file), "engines:", name, file)
+            equal(read(directory / f"{name}-fast", file), read(directory / f"{name}-reference", file), "engines:", name,
+                  file)
         ended = json.loads(read(directory / f"{name}-fast", "stats.json"))
         equal(dict(check_perfetto(directory / f"{name}-fast", 0, ended["cycles"], 1)),
               {k: v for k, v in ended["causes"].items() if v}, "causes on the time line of", name)
@@ -412,10 +426,12 @@ def main():
     objects = {row["object"]: int(row["stores"]) for row in rows(directory / "deep", "heat")}
     check(objects["(stacks)"] > 1500 * 2, "stores to the stacks", objects)
 
-    # The report says which slow paths the fast engine took, and why; those of loads and of long programs, which the tests of the command line lack.
+    # The report says which slow paths the fast engine took, and why; those of loads and of long programs, which the
+    # tests of the command line lack.
     def slow(row, reason, *options, program=None):
         """The share of it."""
-        run(directory / "slow", "fast", *machine, *options, files=["report"], **({"program": program} if program else {}))
+        run(directory / "slow", "fast", *machine, *options, files=["report"],
+            **({"program": program} if program else {}))
         report = read(directory / "slow", "report")
         found = re.search(f"^  {row} .* ([0-9.]+) % of the .*: .*{reason}", report, re.MULTILINE)
         check(found, f"no '{row}' because of '{reason}' with {options}:", report[report.find("\nSlow paths"):])
@@ -424,9 +440,11 @@ def main():
     slow("lines looked up", "a line of the burst was not resident")
     # Of up to 1023 lines the engine knows which are resident, and looks up few; of more it does not.
     longest, icache = str(directory / "programs" / "long.elf"), ("--set", "icache.bytes=8192", "--set")
-    share = slow("lines looked up", "a line of the burst was not resident", *icache, "icache.line_bytes=8", program=longest)
+    share = slow("lines looked up", "a line of the burst was not resident", *icache, "icache.line_bytes=8",
+                 program=longest)
     check(share < 5, share, "% of the fetches look up one of 753 lines")
-    share = slow("lines looked up", "the program has more than 1023 lines of instructions", *icache, "icache.line_bytes=4", program=longest)
+    share = slow("lines looked up", "the program has more than 1023 lines of instructions", *icache,
+                 "icache.line_bytes=4", program=longest)
     check(20 < share < 100, share, "% of the fetches look up one of 1505 lines")
     slow("hits one by one", "another way than the first", "--set", "dcache.bytes=256", "--set", "dcache.ways=4")
     slow("hits one by one", "dcache.hit_latency_cycles", "--set", "dcache.hit_latency_cycles=2")
@@ -451,16 +469,19 @@ def main():
     refuse("--item-buffer without --items or --explore", "--item-buffer", "results")
     refuse("no buffer nothing is bound, to which items store", "--item-buffer", "nothing", files=["items"])
     refuse("--resume: a run cannot be explained without its cycles", "--resume", "x", "--trace", "t")
-    refuse("a run is explained by the engine fast or reference, not functional", "--engine", "functional", "--profile", "x")
+    refuse("a run is explained by the engine fast or reference, not functional", "--engine", "functional", "--profile",
+           "x")
     for name in FILES:
         (directory / "full").mkdir(exist_ok=True)
         other = "heat" if name != "heat" else "profile"
-        said = run(directory / "full", "fast", *machine, f"--{name}=/dev/full", "--window", "0:5000", "--item-buffer=results",
+        said = run(directory / "full", "fast", *machine, f"--{name}=/dev/full", "--window", "0:5000",
+                   "--item-buffer=results",
                    *(["--items=i"] if name != "items" else []), *(["--trace=t"] if name != "trace" else []),
                    files=[other], expected=1)
         check("/dev/full: cannot be written: No space left on device" in said, f"--{name}=/dev/full:", said)
         equal(read(directory / "full", other), read(here, other), f"what else is written when --{name} fails")
-        refuse("none/x: cannot be written", f"--{name}", "none/x", "--window", "0:9", "--trace=t" if name != "trace" else
+        refuse("none/x: cannot be written", f"--{name}", "none/x", "--window", "0:9",
+               "--trace=t" if name != "trace" else
                "--profile=t")
         refuse(f"--{name} is given twice", f"--{name}=a", f"--{name}=b")
     print(f"{checking.failures} failures" if checking.failures else "all hold")

@@ -1,5 +1,5 @@
-"""The program of docs/library.md, built as the page says against an installation, does what it says: a run in parts, looked
-at on the way, has the cycles and instructions of trax-sim's.
+"""The program of docs/library.md, built as the page says against an installation, does what it says: a run in parts,
+looked at on the way, has the cycles and instructions of trax-sim's.
 
   library_test.py CMAKE BUILD SOURCE"""
 
@@ -52,17 +52,21 @@ def main():
 
         machine = ("--config", "2x32", "--set", "memory.bandwidth_gbps=16")
         run(f"{prefix}/bin/trax-sim", *machine, "--stats", "whole.json", "program.elf")
-        subprocess.run([f"{prefix}/bin/trax-sim", *machine, "--stats", "part.json", "--max-cycles", "1000", "program.elf"], check=False,
+        subprocess.run([f"{prefix}/bin/trax-sim", *machine, "--stats", "part.json", "--max-cycles", "1000",
+                        "program.elf"], check=False,
                        capture_output=True)
         with open("whole.json", encoding="utf-8") as whole, open("part.json", encoding="utf-8") as part:
             whole, part = json.load(whole), json.load(part)
-        expected = [rf"cycle 1000: {part['instructions']} instructions; thread 33 is at 0x0000\w{{4}}, its return address is 0x0000\w{{4}}",
-                    rf"{whole['cycles']} cycles, {whole['instructions']} instructions, exit status 0"]
+        expected = [
+            rf"cycle 1000: {part['instructions']} instructions; thread 33 is at 0x0000\w{{4}}, its return address is "
+            rf"0x0000\w{{4}}",
+            rf"{whole['cycles']} cycles, {whole['instructions']} instructions, exit status 0"]
         looks = [tuple(map(int, re.fullmatch(r"cycle (\d+): counter (\d+)", line).groups())) for line in lines[1:-1]]
         counters = [counter for _, counter in looks]
         if not re.fullmatch(expected[0], lines[0]) or not re.fullmatch(expected[1], lines[-1]):
             sys.exit(f"{lines} is not {expected}")
-        if [cycle for cycle, _ in looks] != [1500 + 500 * i for i in range(len(looks))] or counters != sorted(counters) or \
+        if [cycle for cycle,
+            _ in looks] != [1500 + 500 * i for i in range(len(looks))] or counters != sorted(counters) or \
                 not looks or counters[-1] < 40 or any(counter >= 40 for counter in counters[:-1]):
             sys.exit(f"the looks {looks} are not every 500 cycles from 1500 on, up to a counter of 40")
 

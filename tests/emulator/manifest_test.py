@@ -29,7 +29,8 @@ def run(*command):
 
 
 def prepare(folder, *options):
-    result = run("trax-render", BOX, "--size", "16x9", "--config", "2x32", "--set", "memory.latency_cycles=90", "--prepare", folder, "-q", *options)
+    result = run("trax-render", BOX, "--size", "16x9", "--config", "2x32", "--set", "memory.latency_cycles=90",
+                 "--prepare", folder, "-q", *options)
     check(result.returncode == 0, "--prepare", *options, result.stderr)
     return json.loads((folder / "manifest.json").read_text())
 
@@ -40,7 +41,8 @@ def runs(scratch):
         folder = scratch / f"good-{number}"
         manifest = prepare(folder, *options)
         picture, stats = folder / "own.png", folder / "own.json"
-        run("trax-render", BOX, "--size", "16x9", "--config", "2x32", "--set", "memory.latency_cycles=90", "-q", "--stats", stats, "-o", picture, *options)
+        run("trax-render", BOX, "--size", "16x9", "--config", "2x32", "--set", "memory.latency_cycles=90", "-q",
+            "--stats", stats, "-o", picture, *options)
         result = run("trax-sim", folder / "manifest.json", "--quiet", "--stats", folder / "run.json")
         check(result.returncode == 0, "a run of it", *options, result.stderr)
         own, again = (json.loads((folder / name).read_text()) for name in ("own.json", "run.json"))
@@ -54,8 +56,10 @@ def runs(scratch):
         check((layout["width"], layout["height"], len(image)) == (16, 9, 144 * size), "the picture", layout, len(image))
         # On another machine, to another place: not a byte of the folder changes.
         (folder / "image.raw").unlink()
-        result = run("trax-sim", folder / "manifest.json", "--quiet", "--config", "1x48", "--dump", f"image={scratch / 'other.raw'}")
-        check(result.returncode == 0 and not (folder / "image.raw").exists(), "--dump and --config", *options, result.stderr)
+        result = run("trax-sim", folder / "manifest.json", "--quiet", "--config", "1x48", "--dump",
+                     f"image={scratch / 'other.raw'}")
+        check(result.returncode == 0 and not (folder / "image.raw").exists(), "--dump and --config", *options,
+              result.stderr)
         check((scratch / "other.raw").read_bytes() == image, "another picture on another machine", *options)
     check(manifest["features"] and manifest["view"]["fov"] > 0, "what is for others")
     result = run("trax-sim", folder / "manifest.json", "--set", "chip.tms=1", "--print-config")
@@ -129,8 +133,10 @@ REFUSED = [
     (["configuration", "dram", "mapping"], "row:rank:bank:column:channel0".ljust(79, "0") + "x", "mapping: is longer"),
     (["configuration", "chip", "tms"], "2".rjust(79, "0") + "x", "configuration.chip.tms: is longer than any value"),
 ]
-TEXTS = [("", "manifest.json:1: "), ("[]", "must be an object"), ("{", "manifest.json:1: "), ('{\n"trax_manifest": 1,\n]', "manifest.json:3: "),
-         ('{"trax_manifest": 1, "trax_manifest": 1}', "manifest.json:1: duplicate"), ("\0", "manifest.json:1: "), ("[" * 100000, "manifest.json:1: "),
+TEXTS = [("", "manifest.json:1: "), ("[]", "must be an object"), ("{", "manifest.json:1: "),
+         ('{\n"trax_manifest": 1,\n]', "manifest.json:3: "),
+         ('{"trax_manifest": 1, "trax_manifest": 1}', "manifest.json:1: duplicate"), ("\0", "manifest.json:1: "),
+         ("[" * 100000, "manifest.json:1: "),
          (" " * (1 << 20) + "{}", "more than 1048576 bytes")]
 
 
@@ -138,8 +144,10 @@ def expect_refusal(folder, text, expected):
     path = folder / "manifest.json"
     path.write_text(text)
     result = run("trax-sim", path, "--quiet")
-    check(result.returncode == 1 and result.stderr.startswith("trax-sim: error: ") and any(one in result.stderr for one in expected.split("|")) and
-          result.stderr.count("\n") == 1 and not result.stdout, expected, result.returncode, result.stderr)
+    check(
+        result.returncode == 1 and result.stderr.startswith("trax-sim: error: ") and
+        any(one in result.stderr for one in expected.split("|")) and result.stderr.count("\n") == 1 and
+        not result.stdout, expected, result.returncode, result.stderr)
     check(not (folder / "image.raw").exists(), "a picture in spite of", expected)
 
 
@@ -188,18 +196,22 @@ def links(scratch):
     os.mkfifo(folder / "pipe")
     place = ["buffers", len(good["buffers"]) - 1, "output"]
     index = next(i for i, one in enumerate(good["buffers"]) if one.get("file") == "scene.trax")
-    for output in ("kept", "absolute", "new", "inner", "null", "pipe", "sub", "away/kept", "away/new", "up/outside/kept", "near/../../outside/kept",
+    for output in ("kept", "absolute", "new", "inner", "null", "pipe", "sub", "away/kept", "away/new",
+                   "up/outside/kept", "near/../../outside/kept",
                    "program.elf/x"):
         (folder / "image.raw").unlink(missing_ok=True)
-        expect_refusal(folder, json.dumps(change(good, place, output)), f"{output}: cannot be written: |output: must be a path within")
+        expect_refusal(folder, json.dumps(change(good, place, output)),
+                       f"{output}: cannot be written: |output: must be a path within")
     for path, name in ((["program", "file"], "program.elf"), (["buffers", index, "file"], "scene.trax")):
         for way in ("away", "up/outside"):
             expect_refusal(folder, json.dumps(change(good, path, f"{way}/{name}")), f"{way}/{name}: cannot be read: ")
-    check(sorted(os.listdir(outside)) == ["kept", "program.elf", "scene.trax"] and (outside / "kept").read_text() == "kept", "outside")
+    check(sorted(os.listdir(outside)) == ["kept", "program.elf",
+                                          "scene.trax"] and (outside / "kept").read_text() == "kept", "outside")
     near = change(change(good, ["program", "file"], "near/program.elf"), ["buffers", index, "file"], "near/scene.trax")
     (folder / "manifest.json").write_text(json.dumps(change(near, place, "near/picture.raw")))
     result = run("trax-sim", folder / "manifest.json", "--quiet")
-    check(result.returncode == 0 and (folder / "sub/picture.raw").stat().st_size == 576, "links within the folder", result.stderr)
+    check(result.returncode == 0 and (folder / "sub/picture.raw").stat().st_size == 576, "links within the folder",
+          result.stderr)
     # A link that appears during the run, where the output or its folder was.
     for target in (folder / "image.raw", folder / "sub"):
         output = "image.raw" if target.suffix else "sub/picture.raw"
@@ -216,7 +228,8 @@ def links(scratch):
                 target.symlink_to(outside / "kept" if target.suffix else outside)
                 reader.read()
             process.communicate()
-        check((outside / "kept").read_text() == "kept" and not (outside / "picture.raw").exists(), "a link that appears", output)
+        check((outside / "kept").read_text() == "kept" and not (outside / "picture.raw").exists(),
+              "a link that appears", output)
 
 
 def one_reading(scratch):
@@ -251,7 +264,8 @@ def mutations(scratch):
     good = prepare(folder)
     chance = random.Random(19)
     paths = list(values_of(good))
-    strange = [None, 0, -1, 1, 2**31, 2**32, 2**63 - 1, 1e300, 0.5, "", "x", "../x", "%s%n", "\u0001", [], {}, True, False, [[]], {"file": "x"}, "program.elf"]
+    strange = [None, 0, -1, 1, 2**31, 2**32, 2**63 - 1, 1e300, 0.5, "", "x", "../x", "%s%n", "\u0001", [], {}, True,
+               False, [[]], {"file": "x"}, "program.elf"]
     endings = {}
     for number in range(500):
         if number % 2:
@@ -260,11 +274,14 @@ def mutations(scratch):
             text = bytearray(json.dumps(good).encode())
             for _ in range(chance.randint(1, 4)):
                 place = chance.randrange(len(text))
-                text[place : place + chance.choice((0, 1, 1, 1, 9))] = bytes(chance.choices(b'0129{}[]",:.-e\\\0\xff tf', k=chance.choice((0, 1, 1, 5))))
+                text[place:place + chance.choice((0, 1, 1, 1, 9))] = bytes(
+                    chance.choices(b'0129{}[]",:.-e\\\0\xff tf', k=chance.choice((0, 1, 1, 5))))
         (folder / "manifest.json").write_bytes(text.encode() if isinstance(text, str) else bytes(text))
-        result = subprocess.run([BIN / "trax-sim", folder / "manifest.json", "--quiet", "--max-cycles", "2000"], capture_output=True, timeout=60)
+        result = subprocess.run([BIN / "trax-sim", folder / "manifest.json", "--quiet", "--max-cycles", "2000"],
+                                capture_output=True, timeout=60)
         said = result.stderr.decode(errors="replace")
-        whole = result.returncode in (0, 124) or result.returncode == 1 and said.startswith("trax-sim: ") and len(said) > 20
+        whole = result.returncode in (
+            0, 124) or result.returncode == 1 and said.startswith("trax-sim: ") and len(said) > 20
         check(whole, "mutant", number, result.returncode, said)
         endings[result.returncode] = endings.get(result.returncode, 0) + 1
     check(endings.get(1, 0) > 300 and endings.get(124, 0) > 10, "the mutants do not reach far enough", endings)

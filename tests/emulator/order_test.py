@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """order_test.py BUILD_BIN SOURCE: trax-sim --check-order, on both engines that can observe.
 
-Programs that order what they share are not reported. The same ones with relaxed orders, or without one of them, are: at the
-line that loads, with the line that stored. A program's lines are known by the comments in it.
+Programs that order what they share are not reported. The same ones with relaxed orders, or without one of them, are: at
+the line that loads, with the line that stored. A program's lines are known by the comments in it.
 """
 
 import pathlib
@@ -26,7 +26,8 @@ def check(condition, *message):
 def build(scratch, source, *flags):
     program = scratch / "program.elf"
     clang = BIN / ("clang++" if source.suffix == ".cpp" else "clang")
-    subprocess.run([clang, "--target=trax", "-O2", "-g", "-Wall", "-Wno-atomic-alignment", *flags, source, "-o", program], check=True)
+    subprocess.run([clang, "--target=trax", "-O2", "-g", "-Wall", "-Wno-atomic-alignment", *flags, source, "-o",
+                    program], check=True)
     return program
 
 
@@ -50,13 +51,17 @@ def expect_report(what, result, source, missing, loads="loads", stores="loads", 
     places = re.findall(rf"{re.escape(source.name)}:(\d+)", error)
     check(result.returncode == 1, what, f"status {result.returncode}", error)
     check(error.startswith("trax-sim: order: a load may return an old value\n"), what, error)
-    check([int(place) for place in places[:2]] == [line_of(source, loads), line_of(source, stores)], what, "lines", places, error)
+    check([int(place) for place in places[:2]] == [line_of(source, loads), line_of(source, stores)], what, "lines",
+          places, error)
     check(f"({object}" in error and re.search(missing, error), what, error)
-    check(error.endswith("trax-sim: error: the program relies on more order than the machine promises (--check-order)\n"), what, error)
+    check(
+        error.endswith("trax-sim: error: the program relies on more order than the machine promises (--check-order)\n"),
+        what, error)
 
 
 NO_RELEASE = r"missing +a `fence w` of thread 0 after its store\n"
-NO_ACQUIRE = r"missing +a `fence r` of thread \d+ since thread 0's `fence w` in cycle \d+; TM 1 may hold the line since cycle \d+\n"
+NO_ACQUIRE = (r"missing +a `fence r` of thread \d+ since thread 0's `fence w` in cycle \d+; TM 1 may hold the line "
+              r"since cycle \d+\n")
 
 
 def orders(release="release", acquire="acquire"):
@@ -70,16 +75,19 @@ def messages(scratch):
         right = build(scratch, source, *orders())
         for tms, tps in ((2, 1), (1, 2), (3, 4)):
             expect_nothing(f"message on {tms}x{tps}, {engine}", run(right, tms, tps, *options))
-        for release, acquire, missing in (("relaxed", "acquire", NO_RELEASE), ("release", "relaxed", NO_ACQUIRE), ("relaxed", "relaxed", NO_RELEASE)):
+        for release, acquire, missing in (("relaxed", "acquire", NO_RELEASE), ("release", "relaxed", NO_ACQUIRE),
+                                          ("relaxed", "relaxed", NO_RELEASE)):
             program = build(scratch, source, *orders(release, acquire))
             what = f"message, {release}, {acquire}, {engine}"
             expect_report(what, run(program, 2, 1, *options), source, missing, stores="stores", object="data+0x4")
-            if release == "relaxed": # the store may wait in the writer's buffer
-                expect_report(what + ", one TM", run(program, 1, 2, *options), source, missing, stores="stores", object="data+0x4")
-            else: # the TM's threads share its cache
+            if release == "relaxed":  # the store may wait in the writer's buffer
+                expect_report(what + ", one TM", run(program, 1, 2, *options), source, missing, stores="stores",
+                              object="data+0x4")
+            else:  # the TM's threads share its cache
                 expect_nothing(what + ", one TM", run(program, 1, 2, *options))
         waits = build(scratch, source, *orders(), "-DPLAIN")
-        expect_report(f"plain flag, {engine}", run(waits, 2, 1, *options), source, NO_RELEASE, loads="waits", stores="says so", object="flag")
+        expect_report(f"plain flag, {engine}", run(waits, 2, 1, *options), source, NO_RELEASE, loads="waits",
+                      stores="says so", object="flag")
     first, second = (run(program, 2, 1, "--engine", engine).stderr for engine in ("fast", "reference"))
     check(first == second, "engines differ", first, second)
 
@@ -89,7 +97,8 @@ def others(scratch):
     source = OWN / "lock.c"
     expect_nothing("lock", run(build(scratch, source, *orders()), 2, 3))
     for kinds in (("relaxed", "acquire"), ("release", "relaxed"), ("relaxed", "relaxed")):
-        expect_report(f"lock, {kinds}", run(build(scratch, source, *orders(*kinds)), 2, 3), source, "missing", object="count")
+        expect_report(f"lock, {kinds}", run(build(scratch, source, *orders(*kinds)), 2, 3), source, "missing",
+                      object="count")
 
 
 def litmus(scratch):
@@ -103,8 +112,10 @@ def litmus(scratch):
 
 
 def programs(scratch):
-    """Of tests/c, those whose threads share something. Not atomic_operations.c: clang guesses a wide word by a plain load before it compares and exchanges it."""
-    for name in ("heap_threads.c", "barrier.c", "threads.c", "atomic_announce.c", "atomic_lock.c", "atomic_mixed.c", "atexit.c",
+    """Of tests/c, those whose threads share something. Not atomic_operations.c: clang guesses a wide word by a plain
+    load before it compares and exchanges it."""
+    for name in ("heap_threads.c", "barrier.c", "threads.c", "atomic_announce.c", "atomic_lock.c", "atomic_mixed.c",
+                 "atexit.c",
                  "thread_local_values.c", "cxx_threads.cpp", "cxx_mutex.cpp"):
         flags = ["-mstack=global", "-std=c++20"] if name.endswith(".cpp") else []
         expect_nothing(name, run(build(scratch, SOURCE / "tests/c" / name, *flags), 2, 16))
@@ -112,16 +123,19 @@ def programs(scratch):
 
 def picture(scratch):
     """The ray tracer on two TMs."""
-    subprocess.run([BIN / "trax-render", SOURCE / "tests/render/box.obj", "--size", "40x24", "--config", "2x32", "--quiet", "--prepare",
+    subprocess.run([BIN / "trax-render", SOURCE / "tests/render/box.obj", "--size", "40x24", "--config", "2x32",
+                    "--quiet", "--prepare",
                     scratch], check=True)
-    expect_nothing("ray tracer", subprocess.run([BIN / "trax-sim", "--quiet", "--check-order", scratch / "manifest.json"],
+    expect_nothing("ray tracer", subprocess.run([BIN / "trax-sim", "--quiet", "--check-order",
+                                                 scratch / "manifest.json"],
                                                 capture_output=True, text=True, timeout=600))
 
 
 def refused(scratch):
     program = build(scratch, OWN / "neighbours.c")
     result = run(program, 1, 1, "--engine", "functional")
-    check(result.returncode == 1 and "a run is explained by the engine fast or reference" in result.stderr, "functional", result.stderr)
+    check(result.returncode == 1 and "a run is explained by the engine fast or reference" in result.stderr,
+          "functional", result.stderr)
 
 
 def main():

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""rays_test.py TRAX_SIM RAYS: --ray-kinds and --lockstep-rays against the run's trace and statistics, from both engines and on machines with and
-without a second-level cache."""
+"""rays_test.py TRAX_SIM RAYS: --ray-kinds and --lockstep-rays against the run's trace and statistics, from both engines
+and on machines with and without a second-level cache."""
 import collections
 import csv
 import json
@@ -21,7 +21,8 @@ ITEMS = 300
 
 def run(directory, engine, *options):
     directory.mkdir(exist_ok=True)
-    result = subprocess.run([SIM, "--quiet", "--engine", engine, "--stats", "stats.json", "--alloc", f"results={4 * ITEMS}", *options, PROGRAM],
+    result = subprocess.run([SIM, "--quiet", "--engine", engine, "--stats", "stats.json", "--alloc",
+                             f"results={4 * ITEMS}", *options, PROGRAM],
                             cwd=directory, capture_output=True, text=True, timeout=120)
     equal((result.returncode, result.stderr), (0, ""), directory, options)
     return json.loads((directory / "stats.json").read_text())
@@ -45,9 +46,11 @@ class Ray:
 
 
 def read_trace(path):
-    """({kind: {what: how many}}, rays), from the lines of the trace alone. A cycle belongs to the instruction that a thread issues in it or waits for."""
+    """({kind: {what: how many}}, rays), from the lines of the trace alone. A cycle belongs to the instruction that a
+    thread issues in it or waits for."""
     counts = collections.defaultdict(collections.Counter)
-    kind, until, number, ray, generations, rays = {}, collections.Counter(), {}, {}, collections.defaultdict(collections.Counter), []
+    kind, until, number, ray, generations, rays = {}, collections.Counter(), {}, {}, collections.defaultdict(
+        collections.Counter), []
     for line in path.read_text().splitlines()[1:]:
         match = re.match(r" *(\d+) +(\d+) +\S+ +(\w+) ", line)
         cycle, thread, pc = int(match[1]), match[2], match[3]
@@ -67,7 +70,8 @@ def read_trace(path):
         now = kind[thread] = new or before
         counts[now]["thread_cycles"] += 1
         counts[now]["issued"] += 1
-        for name, pattern in (("flops", r"  f(add|sub|mul) "), ("dcache.misses", r" miss\b"), ("dcache.hits", r"  lw .* hit\b"), ("fp_mul.operations", r"  fmul ")):
+        for name, pattern in (("flops", r"  f(add|sub|mul) "), ("dcache.misses", r" miss\b"),
+                              ("dcache.hits", r"  lw .* hit\b"), ("fp_mul.operations", r"  fmul ")):
             counts[now][name] += re.search(pattern, line) is not None
         if thread in ray:
             ray[thread].stream.append(int(pc, 16))
@@ -102,7 +106,8 @@ def check_kinds(directory, stats, counts, line_bytes):
             equal(float(value), 0, "the rest of", what)
     everything = table["all"]
     equal([int(everything["rays"]), int(everything["thread_cycles"])], [stats["rays"], stats["thread_cycles"]], "all")
-    check(abs(float(everything["mrps"]) - stats["mrps"]) < 1e-5 * stats["mrps"], "mrps", everything["mrps"], stats["mrps"])
+    check(abs(float(everything["mrps"]) - stats["mrps"]) < 1e-5 * stats["mrps"], "mrps", everything["mrps"],
+          stats["mrps"])
     check(abs(float(everything["energy"]) - stats["energy"]["total"]) < 1e-8 * stats["energy"]["total"], "energy")
     diffuse = table["diffuse"]
     seconds = stats["seconds"] * int(diffuse["thread_cycles"]) / stats["thread_cycles"]
@@ -113,7 +118,8 @@ def check_kinds(directory, stats, counts, line_bytes):
 def check_lockstep(directory, made):
     table = rows(directory / "lockstep")
     present = [kind for kind in KINDS if any(ray.kind == kind for ray in made)]
-    equal([(row["kind"], int(row["width"])) for row in table], [(kind, 1 << i) for kind in present for i in range(7)], "rows")
+    equal([(row["kind"], int(row["width"])) for row in table], [(kind, 1 << i) for kind in present for i in range(7)],
+          "rows")
     for row in table:
         kind, width = row["kind"], int(row["width"])
         ordered = sorted((ray for ray in made if ray.kind == kind), key=lambda ray: (ray.generation, ray.number))
@@ -130,7 +136,8 @@ def check_lockstep(directory, made):
                         if stream and stream[-1] == lowest:
                             stream.pop()
         executed = sum(len(ray.stream) for ray in ordered)
-        equal([int(row[name]) for name in ("rays", "warps", "instructions", "slots")], [len(ordered), warps, executed, slots], kind, width)
+        equal([int(row[name]) for name in ("rays", "warps", "instructions", "slots")],
+              [len(ordered), warps, executed, slots], kind, width)
         equal(row["utilisation"], f"{executed / (width * slots):.6f}", kind, width)
 
 
@@ -139,15 +146,18 @@ def main(directory):
     chip = ["--set", "chip.tms=2", "--set", "chip.tps_per_tm=8"]
     machines = {"plain": (chip, 64), "l2": ([*chip, "--set", "l2.bytes=65536", "--set", "dcache.line_bytes=32"], 32)}
     for name, (machine, line_bytes) in machines.items():
-        both = {engine: run(directory / f"{name}-{engine}", engine, *machine, *files) for engine in ("fast", "reference")}
+        both = {engine: run(directory / f"{name}-{engine}", engine, *machine,
+                            *files) for engine in ("fast", "reference")}
         for file in ("kinds", "lockstep"):
-            equal((directory / f"{name}-fast" / file).read_text(), (directory / f"{name}-reference" / file).read_text(), "engines:", file)
+            equal((directory / f"{name}-fast" / file).read_text(), (directory / f"{name}-reference" / file).read_text(),
+                  "engines:", file)
         stats = both["fast"]
         for engine in ("reference", "functional"):
             other = both.get(engine) or run(directory / f"{name}-{engine}", engine, *machine)
             equal((stats["rays_by_kind"], stats["rays"]), (other["rays_by_kind"], other["rays"]), engine)
         sixths = [slot % 4 for slot in range(ITEMS)]
-        expected = {"primary": ITEMS, "shadow": sum(sixths), "diffuse": 2 * sum(sixths), "occlusion": 15 * ITEMS, "other": 9 * ITEMS + 3 * (ITEMS // 5)}
+        expected = {"primary": ITEMS, "shadow": sum(sixths), "diffuse": 2 * sum(sixths), "occlusion": 15 * ITEMS,
+                    "other": 9 * ITEMS + 3 * (ITEMS // 5)}
         equal(stats["rays_by_kind"], {kind: expected.get(kind, 0) for kind in KINDS}, "counters")
         equal(stats["rays"], sum(expected.values()), "rays")
         counts, made = read_trace(directory / f"{name}-fast" / "trace")

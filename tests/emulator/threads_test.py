@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""threads_test.py BIN: trax-sim takes as many threads of the host as it may have processors, and as many as it is told."""
+"""threads_test.py BIN: trax-sim takes as many threads of the host as it may have processors, and as many as it is
+told."""
 import os
 import pathlib
 import subprocess
@@ -11,7 +12,8 @@ BIN = pathlib.Path(sys.argv[1]).resolve()
 
 
 def threads_of(command, folder, processors=None):
-    """Start the command on these processors and return how many threads it has, at most, in its first second of processor time."""
+    """Start the command on these processors and return how many threads it has, at most, in its first second of
+    processor time."""
     prefix = ["taskset", "-c", ",".join(map(str, processors))] if processors else []
     with subprocess.Popen([*prefix, *command], cwd=folder, stdout=subprocess.DEVNULL) as process:
         most = ticks = 0

@@ -20,8 +20,9 @@ SIDE, ROOFS = 24, 5
 WIDTH, HEIGHT = 96, 64
 BUNNY = "/usr/share/glmark2/models/bunny.obj"
 CACHE, STACK = 4096, 512  # bytes
-OTHER_TESTS = {"triangles-moller-trumbore", "triangles-edges", "triangles-fast-math", "triangles-moller-trumbore-fast-math",
-               "triangles-transform"}  # of triangles: some pixels may be others
+# Other tests of triangles: some pixels may differ.
+OTHER_TESTS = {"triangles-moller-trumbore", "triangles-edges", "triangles-fast-math",
+               "triangles-moller-trumbore-fast-math", "triangles-transform"}
 SMALL = ("order", "triangles", "era")  # whose programs fit in the instruction cache
 failures = 0
 
@@ -54,7 +55,7 @@ def write_scene(path):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("--bin", type=pathlib.Path, required=True)
     parser.add_argument("--bunny", action="store_true")
     options = parser.parse_args()

@@ -14,7 +14,7 @@ import subprocess
 import sys
 import time
 
-from scripts import check, main
+from scripts import Inside, check, main
 from png_files import png_of
 
 QUAD = ("mtllib quad.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl a\n"
@@ -34,8 +34,8 @@ def grey(path, value):
 
 class Folder:
     """A sweep of one quad with a texture, and its results."""
-    def __init__(self, programs, scratch):
-        self.programs, self.path, self.out = programs, scratch, scratch / "out"
+    def __init__(self, inside, scratch):
+        self.inside, self.programs, self.path, self.out = inside, inside.folder, scratch, scratch / "out"
         for name in ("textures", "asked"):  # nothing changes beside the mesh
             (scratch / name).mkdir(parents=True)
         (scratch / "quad.obj").write_text(QUAD)
@@ -48,8 +48,7 @@ class Folder:
         return [str(self.programs / "trax-eval"), "asked/sweep.json", ".", "-o", str(self.out), "--jobs", "2", *words]
 
     def __call__(self, sweep=SWEEP, *words):
-        command = self.command(sweep, "-q", *words)
-        run = subprocess.run(command, cwd=self.path, capture_output=True, text=True, timeout=300)
+        run = self.inside(*self.command(sweep, "-q", *words)[1:], cwd=self.path)
         check(run.returncode == 0, f"exit status {run.returncode}: {run.stderr}")
         return run
 
@@ -236,7 +235,8 @@ def descendants(pid, name):
 
 
 def tests(options, scratch):
-    return {test.__name__: lambda test=test: test(Folder(options.bin, scratch / test.__name__))
+    inside = Inside(options.bin)
+    return {test.__name__: lambda test=test: test(Folder(inside, scratch / test.__name__))
             for test in (test_read, test_own_tree, test_scene_file, test_damage, test_shared_inputs, test_killed)}
 
 

@@ -3,11 +3,12 @@
 
     tests/fuzz/abi.py --seeds 1-200
 
-A program is three files. The callee checks each argument member by member, spoils its copies and returns a value; the caller checks
-the value, that its own objects are unchanged and that its registers are; between them are functions that pass their arguments
-on, as tail calls where the compiler can. Arguments are scalars of all types, complex numbers, structs and unions by value (nested, with
-arrays, bit-fields, packed, over-aligned, empty), named and variadic, and functions to call back. The host runs each program too: that
-proves the test, not the ABI. Exit status: 0 if all agree, 1 otherwise.
+A program is three files. The callee checks each argument member by member, spoils its copies and returns a value; the
+caller checks the value, that its own objects are unchanged and that its registers are; between them are functions that
+pass their arguments on, as tail calls where the compiler can. Arguments are scalars of all types, complex numbers,
+structs and unions by value (nested, with arrays, bit-fields, packed, over-aligned, empty), named and variadic, and
+functions to call back. The host runs each program too: that proves the test, not the ABI. Exit status: 0 if all agree,
+1 otherwise.
 """
 
 import random
@@ -134,14 +135,17 @@ class Aggregate:
 
 
 def scalars():
-    types = [Scalar("_Bool", lambda rng: rng.choice("01"), "int"), Scalar("float", lambda rng: floating(rng, False), "double"),
-             Scalar("double", lambda rng: floating(rng, True)), Scalar("void *", lambda rng: f"(void *){rng.getrandbits(31)}"),
+    types = [Scalar("_Bool", lambda rng: rng.choice("01"), "int"),
+             Scalar("float", lambda rng: floating(rng, False), "double"),
+             Scalar("double", lambda rng: floating(rng, True)),
+             Scalar("void *", lambda rng: f"(void *){rng.getrandbits(31)}"),
              Scalar("enum colour", lambda rng: rng.choice(["RED", "BLUE"])),
              Complex("float _Complex", False), Complex("double _Complex", True)]
     for name, bits in (("char", 8), ("short", 16), ("int", 32), ("long", 32), ("long long", 64)):
         for sign in ("signed", "unsigned"):
-            literal = lambda rng, bits=bits, sign=sign: integer(rng, bits, sign == "signed")
-            types.append(Scalar(f"{sign} {name}", literal, "int" if bits < 32 else None))
+            types.append(
+                Scalar(f"{sign} {name}", lambda rng, bits=bits, sign=sign: integer(rng, bits, sign == "signed"),
+                       "int" if bits < 32 else None))
     return types
 
 
@@ -190,7 +194,8 @@ class Function:
     def prototype(self, name, extra=()):
         parameters = [f"{kind.name} p{i}" for i, kind in enumerate(self.parameters)]
         if self.called_back:
-            parameters.append(f"{self.result_name()} (*back)(int, {self.result_name() if self.result else 'int'}, double)")
+            parameters.append(
+                f"{self.result_name()} (*back)(int, {self.result_name() if self.result else 'int'}, double)")
         parameters = [*extra, *parameters] or ["void"]
         return f"{self.result_name()} {name}({', '.join(parameters)}{', ...' if self.variadic else ''})"
 
@@ -204,7 +209,9 @@ class Function:
             for name in ("list", "again"):
                 for i, kind in enumerate(self.variadic):
                     lines += ["  {", f"    {kind.promoted} v = va_arg({name}, {kind.promoted});", "    (void)&v;"]
-                    lines += [f"    CHECK({text});" for text in kind.checks("v", self.values[len(self.parameters) + i])] + ["  }"]
+                    lines += [
+                        f"    CHECK({text});"
+                        for text in kind.checks("v", self.values[len(self.parameters) + i])] + ["  }"]
             lines += ["  va_end(again);", "  va_end(list);"]
         for i, kind in enumerate(self.parameters):
             lines.append(f"  __builtin_memset(&p{i}, 0xa5, sizeof p{i});")
@@ -247,12 +254,14 @@ class Function:
                 lines += [f"    CHECK({text});" for text in self.result.checks("r", self.returned)] + ["  }"]
             else:
                 lines.append(f"  {call};")
-            lines += [f"  CHECK({text});" for i, kind in enumerate(kinds) for text in kind.checks(f"a{i}", self.values[i])]
+            lines += [f"  CHECK({text});" for i,
+                      kind in enumerate(kinds) for text in kind.checks(f"a{i}", self.values[i])]
             lines.append("  CHECK(" + " && ".join(f"k{i} == {i * 1234567}" for i in range(10)) + ");")
         back = ""
         if self.called_back:
             kind = self.result_name() if self.result else "int"
-            back = f"static {self.result_name()} back_{self.name}(int one, {kind} two, double three) {{\n  CHECK(one == 7 && three == 0.5);\n"
+            back = (f"static {self.result_name()} back_{self.name}(int one, {kind} two, double three) {{\n  CHECK(one "
+                    f"== 7 && three == 0.5);\n")
             back += "  return two;\n}\n" if self.result else "  CHECK(two == 3);\n}\n"
         return back + "\n".join(lines) + "\n}\n"
 
@@ -268,7 +277,8 @@ def generate(rng):
     header += "".join(function.prototype(function.name + "_on", ["long long first"]) + ";\n" for function in plain)
     include = '#include "calls.h"\n'
     live = "volatile int live[10] = {" + ", ".join(str(i * 1234567) for i in range(10)) + "};\n"
-    main = "int main(void) {\n" + "".join(f"  call_{function.name}();\n" for function in functions) + '  puts("ok");\n  return 0;\n}\n'
+    main = "int main(void) {\n" + "".join(f"  call_{function.name}();\n"
+                                          for function in functions) + '  puts("ok");\n  return 0;\n}\n'
     return {
         "calls.h": header,
         "callee.c": include + "".join(function.callee() for function in functions),
@@ -303,4 +313,4 @@ def check(target, seed, directory, options):
 
 
 if __name__ == "__main__":
-    sys.exit(runner.main("abi", __doc__.splitlines()[0], check, default="1-200"))
+    sys.exit(runner.main("abi", __doc__.split("\n\n")[0], check, default="1-200"))

@@ -1,7 +1,7 @@
 """What a sample of Csmith's programs is checked for beside its output at each level.
 
-Each check gets the target, the program, a directory and a limit of cycles; it raises Failure, and may return a run whose
-output must be the program's.
+Each check gets the target, the program, a directory and a limit of cycles; it raises Failure, and may return a run
+whose output must be the program's.
 """
 
 import json
@@ -24,7 +24,8 @@ def smallest(target, program, directory, max_cycles):
 
 def sanitized(target, program, directory, max_cycles):
     """Code that traps on undefined behaviour does not trap."""
-    return build_and_run(target, program, directory, "sanitized", ["-O1", "-fsanitize=undefined", "-fsanitize-trap=undefined"], max_cycles)
+    return build_and_run(target, program, directory, "sanitized",
+                         ["-O1", "-fsanitize=undefined", "-fsanitize-trap=undefined"], max_cycles)
 
 
 def few_sections(target, program, directory, max_cycles):

@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 """Csmith's programs on the TP against the host: what they print must be equal at every optimisation level.
 
-    tests/fuzz/csmith.py --seeds 1-500                          as many programs as there are seeds, in BUILD/fuzz/csmith
+    tests/fuzz/csmith.py --seeds 1-500                          as many programs as there are seeds, in
+    BUILD/fuzz/csmith
     tests/fuzz/csmith.py --seeds 77-77 --levels=-O2 --again     one program once more
 
-A program that runs for too long, or that the host's sanitizer finds undefined when it fails here, is replaced by that of a
-further seed. Every --sample-th seed is also checked otherwise (see checks.py): -Oz, -g, sanitizers, assembler, engines.
-A second run with the same toolchain goes on where the first stopped. Exit status: 0 if as many programs were equal as asked for,
-1 if any differs (each with the command to reproduce it; its files are in failures/seed-N) or something is missing.
+A program that runs for too long, or that the host's sanitizer finds undefined when it fails here, is replaced by that
+of a further seed. Every --sample-th seed is also checked otherwise (see checks.py): -Oz, -g, sanitizers, assembler,
+engines. A second run with the same toolchain goes on where the first stopped. Exit status: 0 if as many programs were
+equal as asked for, 1 if any differs (each with the command to reproduce it; its files are in failures/seed-N) or
+something is missing.
 """
 
 import collections
@@ -27,7 +29,8 @@ import runner
 from toolchain import Failure, Progress, SetupError
 
 LEVELS = "-O0,-O1,-O2,-O3,-Os"
-LONG_RUN = 40  # times --max-cycles: how long a program may run that the host runs in no time, before it counts as hanging
+# Times --max-cycles: how long a program may run that the host runs in no time, before it counts as hanging.
+LONG_RUN = 40
 
 
 def parse_arguments():
@@ -151,7 +154,8 @@ def run_all(target, options, results):
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         while True:
             # Never more under way than still needed, so that the seeds compared do not depend on the number of jobs.
-            while counts["equal"] + counts["failed"] + len(running) < wanted and len(running) < 2 * options.jobs and next_seed < give_up:
+            while counts["equal"] + counts["failed"] + len(running) < wanted and len(
+                    running) < 2 * options.jobs and next_seed < give_up:
                 seed, next_seed = next_seed, next_seed + 1
                 earlier = results.seeds.get(seed)
                 if earlier:
@@ -175,7 +179,8 @@ def run_all(target, options, results):
                     skipped[record["reason"]] += 1
                 else:
                     counts.update({f"{stack} stack": times for stack, times in record["stacks"].items()})
-            progress.show(counts["equal"] + counts["failed"], f"compared, {counts['failed']} failed, {counts['skipped']} skipped")
+            progress.show(counts["equal"] + counts["failed"],
+                          f"compared, {counts['failed']} failed, {counts['skipped']} skipped")
     progress.clear()
     return counts, skipped, next_seed - 1
 
@@ -183,7 +188,8 @@ def run_all(target, options, results):
 def main():
     options = parse_arguments()
     try:
-        target = runner.prepare(options, "csmith", {"csmith": "csmith", programs.INCLUDE + "/csmith.h": "libcsmith-dev"})
+        target = runner.prepare(options, "csmith",
+                                {"csmith": "csmith", programs.INCLUDE + "/csmith.h": "libcsmith-dev"})
     except SetupError as error:
         print(f"csmith.py: error: {error}", file=sys.stderr)
         return 1
@@ -195,8 +201,10 @@ def main():
 
     wanted = len(options.seeds)
     compared = counts["equal"] + counts["failed"]
-    print(f"seeds {options.seeds.start}-{last} at {' '.join(options.levels)}: {compared} programs compared, {counts['failed']} failed; "
-          f"stack in local memory {counts['local stack']} times, in global memory {counts['global stack']} times")
+    print(
+        f"seeds {options.seeds.start}-{last} at {' '.join(options.levels)}: {compared} programs compared, "
+        f"{counts['failed']} failed; "
+        f"stack in local memory {counts['local stack']} times, in global memory {counts['global stack']} times")
     if skipped:
         print("skipped: " + ", ".join(f"{count} {reason}" for reason, count in skipped.most_common()))
     if compared < wanted:

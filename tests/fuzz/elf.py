@@ -8,8 +8,8 @@ SHF_ALLOC = 2
 
 def read(path):
     """{section name: (flags, alignment, bytes or size of zeros, relocations)} of the allocated sections of a 32-bit
-    little-endian object. Relocations are (offset, type, what it refers to, addend); a section symbol refers to its section.
-    Sections of one name, as COMDAT groups have them, are told apart by their order."""
+    little-endian object. Relocations are (offset, type, what it refers to, addend); a section symbol refers to its
+    section. Sections of one name, as COMDAT groups have them, are told apart by their order."""
     with open(path, "rb") as file:
         data = file.read()
     if data[:6] != b"\x7fELF\x01\x01":
@@ -33,7 +33,8 @@ def read(path):
         if header[1] != SHT_RELA:
             continue
         entries = struct.iter_unpack("<IIi", data[header[4]:header[4] + header[5]])
-        relocations[header[7]] = [(offset, info & 255, symbol(header[6], info >> 8), addend) for offset, info, addend in entries]
+        relocations[header[7]] = [(offset, info & 255, symbol(header[6], info >> 8), addend) for offset, info,
+                                  addend in entries]
     sections = {}
     for index, (name, kind, flags, _, offset, length, _, _, alignment, _) in enumerate(headers):
         if not flags & SHF_ALLOC:

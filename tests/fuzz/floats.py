@@ -3,11 +3,11 @@
 
     tests/fuzz/floats.py --seeds 1-200
 
-Every expression of a program is there twice: of constants, which the compiler may fold, and of volatile objects of the same values,
-which it may not. Operands are binary32, binary64 and integers of 32 and 64 bits, special values among them; operations are the
-arithmetic ones, square root, comparisons, conversions and those of C's functions that are exact. The program prints the bits of
-both, and all of what it prints must be what the host prints at -O0. Any NaN prints as "nan". Exit status: 0 if all agree, 1
-otherwise.
+Every expression of a program is there twice: of constants, which the compiler may fold, and of volatile objects of the
+same values, which it may not. Operands are binary32, binary64 and integers of 32 and 64 bits, special values among
+them; operations are the arithmetic ones, square root, comparisons, conversions and those of C's functions that are
+exact. The program prints the bits of both, and all of what it prints must be what the host prints at -O0. Any NaN
+prints as "nan". Exit status: 0 if all agree, 1 otherwise.
 """
 
 import random
@@ -66,10 +66,13 @@ def float_literal(rng, kind):
     if pick < 0.16:
         return f"({sign}0.0{suffix})"
     if pick < 0.3:
-        return f"({sign}{rng.choice([1, 2, 3, 5, 7, 10, 16777217, 2147483648, 4294967295, 9223372036854775808])}.0{suffix})"
-    fraction = rng.choice([rng.getrandbits(fraction_bits), rng.getrandbits(4), (1 << fraction_bits) - 1 - rng.getrandbits(3),
+        whole = rng.choice([1, 2, 3, 5, 7, 10, 16777217, 2147483648, 4294967295, 9223372036854775808])
+        return f"({sign}{whole}.0{suffix})"
+    fraction = rng.choice([rng.getrandbits(fraction_bits), rng.getrandbits(4),
+                           (1 << fraction_bits) - 1 - rng.getrandbits(3),
                            rng.getrandbits(8) << (fraction_bits - 8)])
-    exponent = rng.choice([rng.randint(-4, 34), rng.randint(-40, 70), rng.randint(1 - bias, bias), rng.randint(1 - bias - fraction_bits, 1 - bias)])
+    exponent = rng.choice([rng.randint(-4, 34), rng.randint(-40, 70), rng.randint(1 - bias, bias),
+                           rng.randint(1 - bias - fraction_bits, 1 - bias)])
     if exponent < 1 - bias:  # subnormal
         fraction = (1 << fraction_bits | fraction) >> (1 - bias - exponent)
         return f"({sign}{fraction:#x}p{1 - bias - fraction_bits}{suffix})"
@@ -78,7 +81,8 @@ def float_literal(rng, kind):
 
 def integer_literal(rng, kind):
     bits = 32 if kind in "iu" else 64
-    value = rng.choice([rng.getrandbits(bits), rng.getrandbits(bits), rng.getrandbits(8), (1 << rng.randint(0, bits - 1)) - rng.getrandbits(1),
+    value = rng.choice([rng.getrandbits(bits), rng.getrandbits(bits), rng.getrandbits(8),
+                        (1 << rng.randint(0, bits - 1)) - rng.getrandbits(1),
                         (1 << bits) - 1 - rng.getrandbits(6)])
     if kind in "il":
         value = value - (1 << bits) if value >> (bits - 1) else value
@@ -108,11 +112,13 @@ class Generator:
         if pick < 0.5:
             return f"({self.real(kind, depth - 1)} {rng.choice('+-*/')} {self.real(kind, depth - 1)})"
         if pick < 0.58:
-            return f"{rng.choice(['fabs', 'sqrt', 'floor', 'ceil', 'trunc', 'rint', 'round'])}{s}({self.real(kind, depth - 1)})"
+            name = rng.choice(["fabs", "sqrt", "floor", "ceil", "trunc", "rint", "round"])
+            return f"{name}{s}({self.real(kind, depth - 1)})"
         if pick < 0.62:
             return f"copysign{s}({self.real(kind, depth - 1)}, {self.real(kind, depth - 1)})"
         if pick < 0.66:  # adding 0 hides the sign of a zero, which fmin and fmax may choose
-            return f"({rng.choice(['fmin', 'fmax'])}{s}({self.real(kind, depth - 1)}, {self.real(kind, depth - 1)}) + 0.0{s})"
+            return (f"({rng.choice(['fmin', 'fmax'])}{s}({self.real(kind, depth - 1)}, {self.real(kind, depth - 1)}) + "
+                    f"0.0{s})")
         if pick < 0.69:
             return f"fma{s}({self.real(kind, depth - 1)}, {self.real(kind, depth - 1)}, {self.real(kind, depth - 1)})"
         if pick < 0.74:
@@ -127,7 +133,8 @@ class Generator:
         left, right = self.real(kind, depth), self.real(kind, depth)
         pick = self.rng.random()
         if pick < 0.2:
-            return f"{self.rng.choice(['!', ''])}{self.rng.choice(['isunordered', 'islessgreater', 'isless'])}({left}, {right})"
+            negation = self.rng.choice(["!", ""])
+            return f"{negation}{self.rng.choice(['isunordered', 'islessgreater', 'isless'])}({left}, {right})"
         return f"{left} {self.rng.choice(['<', '<=', '>', '>=', '==', '!='])} {right}"
 
     def any(self, kind, depth):
@@ -170,4 +177,4 @@ def check(target, seed, directory, options):
 
 
 if __name__ == "__main__":
-    sys.exit(runner.main("floats", __doc__.splitlines()[0], check, default="1-200"))
+    sys.exit(runner.main("floats", __doc__.split("\n\n")[0], check, default="1-200"))

@@ -1,7 +1,7 @@
 """Csmith's programs: what options a seed has, and what the host says that its program prints.
 
-Csmith: X. Yang, Y. Chen, E. Eide, J. Regehr, Finding and Understanding Bugs in C Compilers, PLDI 2011. Its programs print a
-checksum of their global variables and have, with few exceptions, no undefined behaviour.
+Csmith: X. Yang, Y. Chen, E. Eide, J. Regehr, Finding and Understanding Bugs in C Compilers, PLDI 2011. Its programs
+print a checksum of their global variables and have, with few exceptions, no undefined behaviour.
 """
 
 import dataclasses
@@ -18,8 +18,8 @@ INCLUDE = "/usr/include/csmith"
 # Processor time: nearly all programs take milliseconds to be made and to run, or for ever.
 CSMITH_SECONDS, HOST_SECONDS = 2, 1
 
-# A seed's profile is PROFILES[seed % len(PROFILES)]: options of Csmith, flags of the compilers, language. Arithmetic that is
-# defined for all operands goes through functions unless USE_MATH_MACROS makes it macros.
+# A seed's profile is PROFILES[seed % len(PROFILES)]: options of Csmith, flags of the compilers, language. Arithmetic
+# that is defined for all operands goes through functions unless USE_MATH_MACROS makes it macros.
 PROFILES = [
     ("default", "", "", "c"),
     ("float", "--float", "", "c"),
@@ -59,7 +59,8 @@ def describe(seed, directory):
 def generate(seed, directory):
     """Writes the seed's program into a directory."""
     program = describe(seed, directory)
-    csmith = ["prlimit", f"--cpu={CSMITH_SECONDS}", "csmith", "--seed", seed, "--output", program.source, *program.options]
+    csmith = ["prlimit", f"--cpu={CSMITH_SECONDS}", "csmith", "--seed", seed, "--output", program.source,
+              *program.options]
     result = run(csmith, cwd=directory)
     if result.status in (None, -signal.SIGXCPU, -signal.SIGKILL):
         raise Skip("csmith takes too long")
@@ -92,8 +93,8 @@ def expected(program, directory):
 
 
 def obtain(seed, cache, directory):
-    """Puts the seed's program into a directory; returns (program, what it prints, processor time on the host). Programs and
-    output are kept in the directory `cache`, since they take as long as compiling for the TP."""
+    """Puts the seed's program into a directory; returns (program, what it prints, processor time on the host). Programs
+    and output are kept in the directory `cache`, since they take as long as compiling for the TP."""
     settings = hashlib.sha256(repr((PROFILES, CSMITH_SECONDS, HOST_SECONDS, HOST_COMPILER)).encode()).hexdigest()[:8]
     kept = cache / f"{settings}-{seed}.json"
     if not kept.exists():
@@ -117,8 +118,8 @@ def obtain(seed, cache, directory):
 
 
 def undefined_behaviour(program, directory):
-    """Whether a sanitizer of the host finds undefined behaviour in the program: gcc's or clang's, which look for different
-    things."""
+    """Whether a sanitizer of the host finds undefined behaviour in the program: gcc's or clang's, which look for
+    different things."""
     traps = {"gcc": ["-fsanitize-undefined-trap-on-error"], "clang-19": ["-fsanitize-trap=undefined"]}
     for compiler, trap in traps.items():
         binary = directory / f"host-{compiler}"

@@ -44,8 +44,10 @@ def natural(text):
 def add_options(parser, name, seeds):
     """--seeds, --build, --work, --jobs and --cflags, which all of them have."""
     top = pathlib.Path(__file__).resolve().parents[2]
-    parser.add_argument("--seeds", type=seed_range, default=seed_range(seeds), metavar="FIRST-LAST", help=f"default: {seeds}")
-    parser.add_argument("--build", type=pathlib.Path, default=top / "build", help="build directory of the toolchain (default: build)")
+    parser.add_argument("--seeds", type=seed_range, default=seed_range(seeds), metavar="FIRST-LAST",
+                        help=f"default: {seeds}")
+    parser.add_argument("--build", type=pathlib.Path, default=top / "build",
+                        help="build directory of the toolchain (default: build)")
     parser.add_argument("--work", type=pathlib.Path, help=f"directory of what fails (default: BUILD/fuzz/{name})")
     parser.add_argument("--jobs", type=natural, default=os.cpu_count(), help="default: all processors")
     parser.add_argument("--cflags", default="", help="further flags of the compiler; write --cflags=-...")
@@ -64,11 +66,13 @@ def prepare(options, name, packages=None):
 
 def host(sources, directory, flags):
     """What a program of C sources in a directory prints on the host."""
-    command = [*HOST_COMPILER, *flags, "-std=gnu17", *(directory / source for source in sources), "-o", directory / "host", "-lm"]
+    command = [*HOST_COMPILER, *flags, "-std=gnu17", *(directory / source for source in sources), "-o",
+               directory / "host", "-lm"]
     for step in (command, [directory / "host"]):
         result = run(step)
         if result.status != 0:
-            raise Failure(f"on the host: {result.reason()} {result.output[:200].decode(errors='replace')}", result.command)
+            raise Failure(f"on the host: {result.reason()} {result.output[:200].decode(errors='replace')}",
+                          result.command)
     return result.output
 
 
@@ -95,7 +99,8 @@ def main(name, description, check, default):
     """Runs check(target, seed, directory, options), which raises Failure, for every seed. Returns the exit status."""
     parser = Parser(description=description)
     add_options(parser, name, default)
-    parser.add_argument("--rounds", type=natural, default=6, help="how many choices of levels for each seed (default: 6)")
+    parser.add_argument("--rounds", type=natural, default=6,
+                        help="how many choices of levels for each seed (default: 6)")
     options = parser.parse_args()
     try:
         target = prepare(options, name)

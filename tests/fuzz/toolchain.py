@@ -14,8 +14,8 @@ import sys
 
 SECONDS = 1800  # for a step that has no limit of its own: a compiler that takes a minute is no failure on a busy host
 
-# i386 has the TP's data model: 32-bit int, long and pointers, 8-byte scalars aligned to 4, signed char, bit-fields alike.
-# SSE computes binary32 and binary64 as such, x87 would not.
+# i386 has the TP's data model: 32-bit int, long and pointers, 8-byte scalars aligned to 4, signed char, bit-fields
+# alike. SSE computes binary32 and binary64 as such, x87 would not.
 HOST_COMPILER = ["gcc", "-m32", "-msse2", "-mfpmath=sse", "-ffp-contract=off", "-fwrapv", "-w"]
 
 
@@ -58,7 +58,8 @@ def run(command, seconds=SECONDS, cwd=None):
     command = [str(word) for word in command]
     text = shlex.join(command)
     try:
-        done = subprocess.run(command, capture_output=True, timeout=seconds, stdin=subprocess.DEVNULL, check=False, cwd=cwd)
+        done = subprocess.run(command, capture_output=True, timeout=seconds, stdin=subprocess.DEVNULL, check=False,
+                              cwd=cwd)
     except subprocess.TimeoutExpired as expired:
         return Result(text, None, expired.stdout or b"", (expired.stderr or b"").decode(errors="replace"))
     return Result(text, done.returncode, done.stdout, done.stderr.decode(errors="replace"))

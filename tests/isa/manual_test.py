@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """The tables of docs/isa.md against the oracle and the assembler: manual_test.py ISA_MD ISA_ORACLE TRAX_MC
 
-The generator computes the tables of arithmetic with the emulator's functions, over a few operands of each class. Here the oracle
-answers, over many: every entry must hold for all of them, and none may say less than it could. Shorthands must assemble to what
-they stand for, and be printed or not as the table says."""
+The generator computes the tables of arithmetic with the emulator's functions, over a few operands of each class. Here
+the oracle answers, over many: every entry must hold for all of them, and none may say less than it could. Shorthands
+must assemble to what they stand for, and be printed or not as the table says."""
 
 import random
 import re
@@ -33,8 +33,8 @@ def members(name, numbers):
 def rows_of(text, heading):
     """Tables, as lists of cells, of the section with this heading."""
     section = re.split(r"\n#", text.split(f"# {heading}\n", 1)[1], maxsplit=1)[0]
-    return [[[cell.strip() for cell in line.strip("|").split("|")] for line in table.splitlines() if not line.startswith("| ---")]
-            for table in re.findall(r"(?:^\|.*\n)+", section + "\n", re.M)]
+    return [[[cell.strip() for cell in line.strip("|").split("|")] for line in table.splitlines()
+             if not line.startswith("| ---")] for table in re.findall(r"(?:^\|.*\n)+", section + "\n", re.M)]
 
 
 class Oracle:
@@ -48,7 +48,8 @@ class Oracle:
         self.checks.append(check)
 
     def answer(self):
-        done = subprocess.run([self.program], input="\n".join(self.questions) + "\n", capture_output=True, text=True, check=True)
+        done = subprocess.run([self.program], input="\n".join(self.questions) + "\n", capture_output=True, text=True,
+                              check=True)
         answers = [int(line, 16) for line in done.stdout.split()]
         assert len(answers) == len(self.questions)
         for check, value in zip(self.checks, answers):
@@ -69,7 +70,8 @@ class Entry:
             holds = all(values[self.text](*case) for case in self.cases)
         else:  # r and c: nothing simpler is true
             results = {result for _, _, result in self.cases}
-            holds = self.text in ("r", "c") and len(results) > 1 and not any(all(value(*case) for case in self.cases) for value in values.values())
+            holds = self.text in ("r", "c") and len(results) > 1 and not any(
+                all(value(*case) for case in self.cases) for value in values.values())
         return None if holds else f"{self.name}: '{self.text}' does not hold"
 
 
@@ -103,7 +105,9 @@ def ask_examples(text, oracle, wrong):
     def ask(question, wanted):
         nonlocal count
         count += 1
-        oracle.ask(question, lambda result: result == int(wanted, 16) or wrong.append(f"{question}: {wanted} in the table, 0x{result:08X}"))
+        oracle.ask(
+            question, lambda result: result == int(wanted, 16) or wrong.append(
+                f"{question}: {wanted} in the table, 0x{result:08X}"))
 
     for table in rows_of(text, "Rounding"):
         for operation, a, b, result, *_ in table[1:]:
@@ -145,7 +149,9 @@ def print_assembly(mc, source, *options):
         done = subprocess.run([mc, *options, file.name], capture_output=True, text=True)
     if done.returncode:
         return done.stderr
-    return [" ".join(line.split()) for line in done.stdout.splitlines() if line.startswith("\t") and not line.startswith("\t.")]
+    return [
+        " ".join(line.split()) for line in done.stdout.splitlines()
+        if line.startswith("\t") and not line.startswith("\t.")]
 
 
 def check_shorthands(text, mc, wrong):
@@ -155,6 +161,7 @@ def check_shorthands(text, mc, wrong):
         is_large = expansion.startswith("if imm does not fit")
         operands = {"rd": "r5", "ra": "r6", "rb": "r7", "offset": "here",
                     "imm": "0x12348765" if is_large else "here" if shorthand.startswith("la") else "-7"}
+
         def fill(line):
             return re.sub(r"\b(rd|ra|rb|imm|offset)\b", lambda match: operands[match[0]], line)
         whole = "here:\n" + "\n".join(fill(line) for line in re.findall(r"`([a-z]\S* ?[^`]*)`", expansion)) + "\n"
@@ -182,7 +189,10 @@ def main():
     shorthands = check_shorthands(text, mc, wrong)
     for line in wrong:
         print(line)
-    print(f"{len(entries)} entries over {len(oracle.questions)} operands, {examples} examples, {shorthands} shorthands, {len(wrong)} wrong")
+    print(
+        f"{len(entries)} entries over {len(oracle.questions)} operands, {examples} examples, {shorthands} shorthands, "
+        f"{len(wrong)} wrong"
+    )
     # Nine tables of 9 x 9, and a row of 9: a section that is not found is no proof.
     return 1 if wrong or len(entries) != 9 * 81 + 9 or examples < 100 or shorthands < 30 else 0
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The threaded programs of tests/c on memory as weak as docs/isa.md allows: on each machine they must print, and end with, what they do
-on the model without caches and delays.
+"""The threaded programs of tests/c on memory as weak as docs/isa.md allows: on each machine they must print, and end
+with, what they do on the model without caches and delays.
 
   c_programs.py --build build [--machines 2x1,2x16,4x32] [--seeds 0,1,2] [--level -O2] [--only REGEX] [--jobs N]
 """
@@ -28,7 +28,8 @@ OF_ONE_THREAD = {"atomic_single.c", "cxx_library.cpp", "machine_operations.c"}
 
 
 def threaded():
-    """{name: the compiler's flags, of each way in which it is compiled} of the programs that are made for several threads and end well."""
+    """{name: the compiler's flags, of each way in which it is compiled} of the programs that are made for several
+    threads and end well."""
     found = {}
     for name in sorted(os.listdir(SOURCES)):
         if not name.endswith((".c", ".cpp")):
@@ -49,7 +50,8 @@ def threaded():
 def result(options, model, machine, binary, seed=None):
     tms, tps = machine.split("x")
     environment = os.environ | ({} if seed is None else {"TRAX_SEED": seed})
-    done = subprocess.run([os.path.join(options.build, "tests", "bin", model), "--tms", tms, "--tps", tps, "--memory-mib", "64", "--limit", str(LIMIT), binary],
+    done = subprocess.run([os.path.join(options.build, "tests", "bin", model), "--tms", tms, "--tps", tps,
+                           "--memory-mib", "64", "--limit", str(LIMIT), binary],
                           env=environment, capture_output=True, check=False)
     return done.returncode, done.stdout, done.stderr.decode(errors="replace").replace("trax-isa-model", "")
 
@@ -60,7 +62,8 @@ def check(options, name, flags, directory):
     good, problems = 0, []
     for way, cflags in enumerate(flags):
         binary = os.path.join(directory, f"{name}.{way}")
-        subprocess.run([os.path.join(options.build, "bin", compiler), "--target=trax", options.level, *shlex.split(cflags),
+        subprocess.run([os.path.join(options.build, "bin", compiler), "--target=trax", options.level,
+                        *shlex.split(cflags),
                         os.path.join(SOURCES, name), "-o", binary], check=True)
         for machine in options.machines.split(","):
             what = f"{name} {cflags} {machine}".replace("  ", " ")
@@ -73,8 +76,9 @@ def check(options, name, flags, directory):
                 if found[:2] == expected[:2]:
                     good += 1
                 else:
-                    problems.append(f"{what}, seed {seed}: exit status {found[0]}, not {expected[0]}; {found[1][-200:]!r}, "
-                                    f"not {expected[1][-200:]!r} {found[2].strip()}")
+                    problems.append(
+                        f"{what}, seed {seed}: exit status {found[0]}, not {expected[0]}; {found[1][-200:]!r}, "
+                        f"not {expected[1][-200:]!r} {found[2].strip()}")
     return good, problems
 
 
@@ -97,7 +101,9 @@ def main():
     programs = {name: flags for name, flags in threaded().items() if re.search(options.only, name)}
     good, problems = 0, []
     with tempfile.TemporaryDirectory() as directory, concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        for name, (well, wrong) in zip(programs, pool.map(lambda name: check(options, name, programs[name], directory), programs)):
+        for name, (well, wrong) in zip(programs,
+                                       pool.map(lambda name: check(options, name, programs[name], directory),
+                                                programs)):
             good += well
             problems += wrong
             if options.verbose:

@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
-"""The litmus tests of this folder, C11 atomics compiled for the TP, on the model with memory as weak as docs/isa.md allows.
+"""The litmus tests of this folder, C11 atomics compiled for the TP, on the model with memory as weak as docs/isa.md
+allows.
 
-  litmus.py --build build [--runs 100000] [--seeds 0,1,2] [--machines 2x1,2x16,4x32] [--levels -O2] [--only REGEX] [--jobs N]
+  litmus.py --build build [--runs 100000] [--seeds 0,1,2] [--machines 2x1,2x16,4x32] [--levels -O2] [--only REGEX]
+  [--jobs N]
 
-Each test runs on each machine three times: as it is, when no forbidden outcome may come; with relaxed orders and no fences, and on a
-machine that ignores fences, when the forbidden outcome must come, or the test could not fail. Where too few runs show it, more are made."""
+Each test runs on each machine three times: as it is, when no forbidden outcome may come; with relaxed orders and no
+fences, and on a machine that ignores fences, when the forbidden outcome must come, or the test could not fail. Where
+too few runs show it, more are made."""
 
 import argparse
 import concurrent.futures
@@ -27,7 +30,8 @@ def compiled(options, name, level, runs, relaxed, directory):
     binary = os.path.join(directory, f"{name}{level}-{runs}{'-relaxed' if relaxed else ''}")
     if not os.path.exists(binary):
         part = f"{binary}.{threading.get_ident()}"
-        subprocess.run([os.path.join(options.build, "bin", "clang"), "--target=trax", level, "-Wall", "-Wextra", "-Werror", f"-DRUNS={runs}",
+        subprocess.run([os.path.join(options.build, "bin", "clang"), "--target=trax", level, "-Wall", "-Wextra",
+                        "-Werror", f"-DRUNS={runs}",
                         *(["-DRELAXED"] if relaxed else []), os.path.join(HERE, name + ".c"), "-o", part], check=True)
         os.rename(part, binary)
     return binary
@@ -36,8 +40,10 @@ def compiled(options, name, level, runs, relaxed, directory):
 def outcomes(options, binary, machine, seed, broken="none"):
     """(runs, weak, broken), or what went wrong."""
     tms, tps = machine.split("x")
-    done = subprocess.run([os.path.join(options.build, "tests", "bin", "isa-weak-model"), "--tms", tms, "--tps", tps, "--limit", "2000000000", binary],
-                          env=os.environ | {"TRAX_SEED": str(seed), "TRAX_BREAK": broken}, capture_output=True, text=True, timeout=SECONDS,
+    done = subprocess.run([os.path.join(options.build, "tests", "bin", "isa-weak-model"), "--tms", tms, "--tps", tps,
+                           "--limit", "2000000000", binary],
+                          env=os.environ | {"TRAX_SEED": str(seed), "TRAX_BREAK": broken}, capture_output=True,
+                          text=True, timeout=SECONDS,
                           check=False)
     counts = re.fullmatch(r"(\d+) runs: (\d+) weak, (\d+) broken\n", done.stdout)
     if done.returncode or not counts:
@@ -46,7 +52,8 @@ def outcomes(options, binary, machine, seed, broken="none"):
 
 
 def strong(options, name, level, machine, seed, directory):
-    runs, weak, broken = outcomes(options, compiled(options, name, level, options.runs, False, directory), machine, seed)
+    runs, weak, broken = outcomes(options, compiled(options, name, level, options.runs, False, directory), machine,
+                                  seed)
     if runs != options.runs or weak or broken:
         return f"{weak} of {runs} outcomes are forbidden, {broken} are impossible"
     return None
@@ -82,8 +89,9 @@ def check(options, name, machine, directory):
             else:
                 found.append(f"{result[0]:,} of {result[1]:,} {'relaxed' if relaxed else 'without fences'}")
     total = options.runs * len(options.seeds.split(",")) * len(options.levels.split(","))
-    line = f"{name:20} {machine:5} 0 of {total:,} forbidden; weak: {', '.join(found)}" if not problems else f"{name} {machine}: " + "; ".join(problems)
-    return line, not problems
+    if problems:
+        return f"{name} {machine}: {'; '.join(problems)}", False
+    return f"{name:20} {machine:5} 0 of {total:,} forbidden; weak: {', '.join(found)}", True
 
 
 def main():
@@ -97,14 +105,16 @@ def main():
     parser.add_argument("--jobs", type=int, default=1)
     # Values such as -O2 begin with a dash.
     arguments = [f"--levels={value}" if word == "--levels" else word
-                 for word, value, before in zip(sys.argv[1:], sys.argv[2:] + [""], sys.argv[:-1]) if before != "--levels"]
+                 for word, value,
+                 before in zip(sys.argv[1:], sys.argv[2:] + [""], sys.argv[:-1]) if before != "--levels"]
     options = parser.parse_args(arguments)
     interrupts.end_by_signals()
     names = sorted(name[:-2] for name in os.listdir(HERE) if name.endswith(".c") and re.search(options.only, name))
     good = bool(names)
     with tempfile.TemporaryDirectory() as directory, concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         for name in names:
-            for line, well in pool.map(lambda machine, name=name: check(options, name, machine, directory), options.machines.split(",")):
+            for line, well in pool.map(lambda machine, name=name: check(options, name, machine, directory),
+                                       options.machines.split(",")):
                 print(line, flush=True)
                 good &= well
     return not good

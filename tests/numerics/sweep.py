@@ -2,12 +2,14 @@
 """Compare arithmetic on the TP, and its sources compiled for the host, with the host's hardware, operand by operand.
 
     sweep.py --count 10000000 --group doubles      one group; --first splits the work between processes
-    sweep.py                                       20,000 operands for all routines of the groups doubles and integers, and 500 for
+    sweep.py                                       20,000 operands for all routines of the groups doubles and integers,
+                                                   and 500 for
                                                    those of functions
 
-Each routine gets the same operands everywhere (sweep.h), and only hashes of the results are compared; where one differs, the search
-for the first such operands follows, and they are printed. The groups doubles and integers are compared with the hardware, functions
-(sin, pow, complex numbers, ...) with the runtime's sources compiled for the host. Exit status: 0 if nothing differs, else 1.
+Each routine gets the same operands everywhere (sweep.h), and only hashes of the results are compared; where one
+differs, the search for the first such operands follows, and they are printed. The groups doubles and integers are
+compared with the hardware, functions (sin, pow, complex numbers, ...) with the runtime's sources compiled for the host.
+Exit status: 0 if nothing differs, else 1.
 """
 
 import argparse
@@ -63,12 +65,13 @@ def find(program, reference, group, first, count):
 def main():
     here = os.path.dirname(os.path.abspath(__file__))
     build = os.path.join(here, "..", "..", "build")
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("--count", type=int, help="operands for each routine (default: 20000, of functions 500)")
     parser.add_argument("--first", type=int, default=0, help="the number of the first (default: 0)")
     parser.add_argument("--group", choices=list(GROUPS), help="one group only")
     parser.add_argument("--host-only", action="store_true", help="not on the TP")
-    parser.add_argument("--bin", default=os.path.join(build, "bin"), help="the folder of trax-sim, beside tests/bin of the compiled sweeps")
+    parser.add_argument("--bin", default=os.path.join(build, "bin"),
+                        help="the folder of trax-sim, beside tests/bin of the compiled sweeps")
     parser.add_argument("--machine", default="1x32", help="trax-sim's --config")
     options = parser.parse_args()
 
@@ -77,7 +80,9 @@ def main():
 
     hardware = Program("hardware", [program("sweep-hardware")])
     sources = Program("runtime on the host", [program("sweep-runtime")])
-    tp = Program("TP", [program("trax-sim"), "--engine", "functional", "--quiet", "--config", options.machine, program("sweep.elf")], True)
+    tp = Program("TP",
+                 [program("trax-sim"), "--engine", "functional", "--quiet", "--config", options.machine,
+                  program("sweep.elf")], True)
     failed = False
     for group in [options.group] if options.group else list(GROUPS):
         count = options.count or (500 if group == "functions" else 20000)
@@ -92,7 +97,8 @@ def main():
                 routines = len(theirs)
                 wrong = differing(ours, theirs)
                 if count > PIECE:
-                    print(f"{group}, {candidate.name}: {done + size} operands, {time.monotonic() - start:.0f} s", flush=True)
+                    print(f"{group}, {candidate.name}: {done + size} operands, {time.monotonic() - start:.0f} s",
+                          flush=True)
                 if wrong:
                     failed = True
                     print(f"{group}, {candidate.name}: differs in {', '.join(wrong)}")

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Arguments, standard input and files of programs: as the host has them, in every engine alike, below the allowed folders only, and
-whole or not at all.
+"""Arguments, standard input and files of programs: as the host has them, in every engine alike, below the allowed
+folders only, and whole or not at all.
 
   calls_test.py BIN SOURCE"""
 
@@ -29,7 +29,8 @@ class Place:
     def __init__(self, root):
         self.root = pathlib.Path(root)
         self.data = self.root / "data"
-        subprocess.run([BIN / "clang", "--target=trax", "-mstack=global", "-O2", "-g", SOURCE / "files.c", "-o", self.root / "files"], check=True)
+        subprocess.run([BIN / "clang", "--target=trax", "-mstack=global", "-O2", "-g", SOURCE / "files.c", "-o",
+                        self.root / "files"], check=True)
         subprocess.run(["cc", "-O1", "-w", SOURCE / "files.c", "-o", self.root / "host"], check=True)
         self.fresh()
 
@@ -39,24 +40,31 @@ class Place:
         (self.data / "old.txt").write_text("one\ntwo\n")
 
     def files(self):
-        return {str(path.relative_to(self.data)): path.read_bytes() for path in sorted(self.data.rglob("*")) if path.is_file()}
+        return {
+            str(path.relative_to(self.data)): path.read_bytes()
+            for path in sorted(self.data.rglob("*")) if path.is_file()}
 
     def run(self, *words, options=(), stdin=b"", folder=("--dir", "data"), prefix=()):
-        return subprocess.run([*prefix, SIM, "--quiet", *folder, *options, "files", *words], cwd=self.root, input=stdin, capture_output=True,
+        return subprocess.run([*prefix, SIM, "--quiet", *folder, *options, "files", *words], cwd=self.root, input=stdin,
+                              capture_output=True,
                               check=False, timeout=300)
 
     def host(self, *words, stdin=b""):
-        return subprocess.run([self.root / "host", *words], cwd=self.root, input=stdin, capture_output=True, check=False, timeout=60)
+        return subprocess.run([self.root / "host", *words], cwd=self.root, input=stdin, capture_output=True,
+                              check=False, timeout=60)
 
 
 # Done by the host and by every engine from the same beginning.
 SAME = {
     "read": (["read", "data/old.txt", "read", "./data//old.txt", "read", "data/none"], b""),
-    "write": (["write", "data/new.txt", "append", "data/old.txt", "read", "data/new.txt", "append", "data/new.txt", "exclusive", "data/new.txt",
+    "write": (["write", "data/new.txt", "append", "data/old.txt", "read", "data/new.txt", "append", "data/new.txt",
+               "exclusive", "data/new.txt",
                "exclusive", "data/other.txt", "write", "data/none/x"], b""),
     "update": (["update", "data/update.txt", "descriptors", "data/raw.bin"], b""),
-    "names": (["rename", "data/old.txt", "data/moved.txt", "remove", "data/none", "folder", "data/sub", "folder", "data/sub", "write", "data/sub/x",
-               "rename", "data/sub/x", "data/moved.txt", "remove", "data/sub", "remove", "data/moved.txt", "read", "data/moved.txt"], b""),
+    "names": (["rename", "data/old.txt", "data/moved.txt", "remove", "data/none", "folder", "data/sub", "folder",
+               "data/sub", "write", "data/sub/x",
+               "rename", "data/sub/x", "data/moved.txt", "remove", "data/sub", "remove", "data/moved.txt", "read",
+               "data/moved.txt"], b""),
     "input": (["input"], b"".join(b"line %d\n" % i * (i % 3) for i in range(200)) + bytes(range(256)) + b"no end"),
     "copy": (["copy", "data/copy.txt", "read", "data/copy.txt"], b"alpha\nbeta\ngamma"),
     "left open": (["open", "data/left.txt", "write", "data/new.txt"], b""),
@@ -74,8 +82,11 @@ def same(place):
                 place.fresh()
                 done = place.run(*words, stdin=stdin, options=("--engine", engine, "--stats", "stats.json", *chip))
                 label = f"{name}, {engine} {' '.join(chip)}"
-                check(done.stdout == host.stdout and done.returncode == host.returncode, label,
-                      f"{done.stdout.decode(errors='replace')}\nnot\n{host.stdout.decode(errors='replace')}\n{done.stderr.decode(errors='replace')}")
+                check(
+                    done.stdout == host.stdout and done.returncode == host.returncode, label,
+                    f"{done.stdout.decode(errors='replace')}\nnot\n{host.stdout.decode(errors='replace')}\n"
+                    f"{done.stderr.decode(errors='replace')}"
+                )
                 check(place.files() == files, label + ": files", f"{place.files()} instead of {files}")
                 statistics = json.loads((place.root / "stats.json").read_text())
                 if engine != "functional":
@@ -87,12 +98,14 @@ def same(place):
 def arguments(place):
     done = place.run("arguments", "two words", "--report", "-", "")
     check((done.returncode, done.stdout) == (6, b"[files][arguments][two words][--report][-][] 1\n"), "arguments", done)
-    subprocess.run([BIN / "clang", "--target=trax", "-O2", "-x", "c", "-", "-o", place.root / "none"], input=b"int main(void) { return 0; }", check=True)
+    subprocess.run([BIN / "clang", "--target=trax", "-O2", "-x", "c", "-", "-o", place.root / "none"],
+                   input=b"int main(void) { return 0; }", check=True)
     done = subprocess.run([SIM, "none", "word"], cwd=place.root, capture_output=True, text=True, check=False)
     check(done.returncode == 1 and "main has no parameters" in done.stderr, "no parameters", done)
     done = subprocess.run([SIM, "none", "--report", "-"], cwd=place.root, capture_output=True, text=True, check=False)
     check(done.returncode == 0 and "cycles" in done.stdout, "options behind", done)
-    subprocess.run([BIN / "clang", "--target=trax", "-mstack=global", "-O2", "-s", SOURCE / "files.c", "-o", place.root / "stripped"], check=True)
+    subprocess.run([BIN / "clang", "--target=trax", "-mstack=global", "-O2", "-s", SOURCE / "files.c", "-o",
+                    place.root / "stripped"], check=True)
     done = subprocess.run([SIM, "stripped", "arguments"], cwd=place.root, capture_output=True, text=True, check=False)
     check(done.returncode == 2 and done.stdout == "[stripped][arguments] 1\n", "stripped", done)
 
@@ -108,25 +121,31 @@ def folders(place):
     os.symlink("loop", place.data / "loop")
     os.mkfifo(place.data / "pipe")
     words = []
-    for path in ("data/../secret.txt", "data/out", "data/absolute", "data/up/secret.txt", "data/inside", "data/loop", "secret.txt", "/etc/passwd",
+    for path in ("data/../secret.txt", "data/out", "data/absolute", "data/up/secret.txt", "data/inside", "data/loop",
+                 "secret.txt", "/etc/passwd",
                  "../x", "data/old.txt/x", "data/pipe", "", "data/" + "n" * 300, "data"):
         words += ["read", path]
     done = place.run(*words).stdout.decode()
     answers = re.findall(r"^read .*: (.*)$", done, re.M)
-    check(answers == ["Operation not permitted", "Operation not permitted", "Operation not permitted", "Operation not permitted", "good",
+    check(answers == ["Operation not permitted", "Operation not permitted", "Operation not permitted",
+                      "Operation not permitted", "good",
                       "Too many levels of symbolic links", "No such file or directory", "No such file or directory",
-                      "No such file or directory", "Not a directory", "Operation not permitted", "No such file or directory",
+                      "No such file or directory", "Not a directory", "Operation not permitted",
+                      "No such file or directory",
                       "File name too long", "Is a directory"], "folders", done)
-    done = place.run("write", "data/out", "write", "data/up/new", "remove", "data/../secret.txt", "rename", "data/old.txt", "data/up/y").stdout.decode()
+    done = place.run("write", "data/out", "write", "data/up/new", "remove", "data/../secret.txt", "rename",
+                     "data/old.txt", "data/up/y").stdout.decode()
     check(done.count("Operation not permitted") == 4 and (place.root / "secret.txt").read_text() == "secret\n" and
           not (place.root / "new").exists() and not (place.root / "y").exists(), "no way out", done)
     done = place.run("read", "data/old.txt", folder=()).stdout.decode()
     check(done == "read data/old.txt: No such file or directory\n", "no folder", done)
-    done = place.run("read", "/guest/name/old.txt", "read", "old.txt", "read", "/guest/names", folder=("--dir", "data::/guest/name")).stdout.decode()
+    done = place.run("read", "/guest/name/old.txt", "read", "old.txt", "read", "/guest/names",
+                     folder=("--dir", "data::/guest/name")).stdout.decode()
     check(re.findall(": (.*)", done) == ["good"] + 2 * ["No such file or directory"], "name", done)
     done = place.run("read", "old.txt", "read", "./old.txt", folder=("--dir", "data::.")).stdout.decode()
     check(re.findall(": (.*)", done) == 2 * ["good"], "here", done)
-    for folder, message in (("missing", "missing: No such file or directory"), ("files", "files: Not a directory"), ("data::", "is not of the form")):
+    for folder, message in (("missing", "missing: No such file or directory"), ("files", "files: Not a directory"),
+                            ("data::", "is not of the form")):
         done = place.run("input", folder=("--dir", folder))
         check(done.returncode == 1 and message in done.stderr.decode() and not done.stdout, f"--dir {folder}", done)
 
@@ -141,32 +160,40 @@ def read_only(place):
     if os.getuid() == 0:
         os.chmod(place.root, 0o755)
         prefix = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"]
-    done = place.run("write", "data/new.txt", "append", "data/fixed.txt", "read", "data/fixed.txt", "remove", "data/old.txt", prefix=prefix)
-    check(re.findall(": (.*)", done.stdout.decode()) == ["Permission denied", "Permission denied", "good", "Permission denied"], "read-only", done)
+    done = place.run("write", "data/new.txt", "append", "data/fixed.txt", "read", "data/fixed.txt", "remove",
+                     "data/old.txt", prefix=prefix)
+    check(re.findall(": (.*)", done.stdout.decode()) == ["Permission denied", "Permission denied", "good",
+                                                         "Permission denied"], "read-only", done)
     os.chmod(place.data, 0o755)
 
 
 def whole(place):
     """A fault, a limit or Ctrl-C leaves what was closed, and nothing of what was not."""
-    for name, words, options, status in (("fault", ["fault"], (), 1), ("limit", ["spin"], ("--max-cycles", "200000"), 124)):
+    for name, words, options, status in (("fault", ["fault"], (), 1),
+                                         ("limit", ["spin"], ("--max-cycles", "200000"), 124)):
         place.fresh()
-        done = place.run("write", "data/closed.txt", "open", "data/left.txt", "open", "data/old.txt", *words, options=options)
-        check(done.returncode == status and place.files() == {"closed.txt": b"first\n", "old.txt": b"one\ntwo\n"}, name, (done, place.files()))
+        done = place.run("write", "data/closed.txt", "open", "data/left.txt", "open", "data/old.txt", *words,
+                         options=options)
+        check(done.returncode == status and place.files() == {"closed.txt": b"first\n", "old.txt": b"one\ntwo\n"}, name,
+              (done, place.files()))
     place.fresh()
-    with subprocess.Popen([SIM, "--quiet", "--dir", "data", "files", "write", "data/closed.txt", "open", "data/old.txt", "input"], cwd=place.root,
+    with subprocess.Popen([SIM, "--quiet", "--dir", "data", "files", "write", "data/closed.txt", "open", "data/old.txt",
+                           "input"], cwd=place.root,
                           stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
         output = b""
-        while b"old.txt: good" not in output: # it waits for input now, or soon
+        while b"old.txt: good" not in output:  # it waits for input now, or soon
             output += process.stdout.read1(100)
         process.send_signal(signal.SIGINT)
         _, message = process.communicate(timeout=60)
     check(process.returncode == -signal.SIGINT and b"interrupted" in message and
-          place.files() == {"closed.txt": b"first\n", "old.txt": b"one\ntwo\n"}, "Ctrl-C", (process.returncode, message, place.files()))
+          place.files() == {"closed.txt": b"first\n", "old.txt": b"one\ntwo\n"}, "Ctrl-C",
+          (process.returncode, message, place.files()))
 
 
 def checkpoints(place):
     """A run that goes on from a checkpoint reads, prints and leaves the same, wherever the checkpoint was."""
-    words = ["append", "data/old.txt", "copy", "data/copy.txt", "read", "data/copy.txt", "append", "data/old.txt", "read", "data/old.txt",
+    words = ["append", "data/old.txt", "copy", "data/copy.txt", "read", "data/copy.txt", "append", "data/old.txt",
+             "read", "data/old.txt",
              "rename", "data/copy.txt", "data/moved.txt"]
     stdin = b"".join(b"line %d\n" % i for i in range(12))
     for begin, chip in ((1, ()), (2, ("--set", "chip.tms=2", "--set", "chip.tps_per_tm=4"))):
@@ -180,8 +207,11 @@ def checkpoints(place):
             second = place.run(*words, stdin=stdin, options=("--resume", "state", "--stats", "stats.json", *chip))
             again = json.loads((place.root / "stats.json").read_text())
             label = f"checkpoint at {part} of 10 {chip}"
-            check(first.returncode == 124 and second.returncode == 0 and first.stdout + second.stdout == whole_run.stdout and
-                  place.files() == files and again["cycles"] == statistics["cycles"], label, (first, second, place.files(), again["cycles"], statistics["cycles"]))
+            check(
+                first.returncode == 124 and second.returncode == 0 and
+                first.stdout + second.stdout == whole_run.stdout and place.files() == files and
+                again["cycles"] == statistics["cycles"], label,
+                (first, second, place.files(), again["cycles"], statistics["cycles"]))
     place.fresh()
     place.run(*words, stdin=stdin, options=(*limit, *chip))
     done = place.run(*words, stdin=b"other\n" * 20, options=("--resume", "state", *chip))
@@ -191,13 +221,17 @@ def checkpoints(place):
 
 
 def main_on(place):
-    source = b'#include <stdio.h>\n#include <stdlib.h>\nvoid f(void) { puts("end"); }\nint main(void) { puts("main"); atexit(f); return 3; }\n'
-    subprocess.run([BIN / "clang", "--target=trax", "-O2", "-x", "c", "-", "-o", place.root / "plain"], input=source, check=True)
+    source = (b'#include <stdio.h>\n#include <stdlib.h>\nvoid f(void) { puts("end"); }\nint main(void) { puts("main"); '
+              b'atexit(f); return 3; }\n')
+    subprocess.run([BIN / "clang", "--target=trax", "-O2", "-x", "c", "-", "-o", place.root / "plain"], input=source,
+                   check=True)
     for engine in ENGINES:
         for options, lines in ((["--main-on", "0"], 1), (["--main-on", "all"], 8), ([], 8)):
-            done = subprocess.run([SIM, "--quiet", "--engine", engine, "--set", "chip.tms=2", "--set", "chip.tps_per_tm=4", *options, "plain"], cwd=place.root,
+            done = subprocess.run([SIM, "--quiet", "--engine", engine, "--set", "chip.tms=2", "--set",
+                                   "chip.tps_per_tm=4", *options, "plain"], cwd=place.root,
                                   capture_output=True, check=False)
-            check(done.stdout == b"main\n" * lines + b"end\n" * lines and done.returncode == 3, f"main on {options} {engine}", done)
+            check(done.stdout == b"main\n" * lines + b"end\n" * lines and done.returncode == 3,
+                  f"main on {options} {engine}", done)
     done = subprocess.run([SIM, "--main-on", "1", "plain"], cwd=place.root, capture_output=True, check=False)
     check(done.returncode == 1 and b"is neither 0 nor all" in done.stderr, "main on 1", done)
 
@@ -206,14 +240,18 @@ def picture(place):
     """A path tracer by the book: the host's picture. Its binary64 is software here, so it is a small one."""
     place.fresh()
     source = SOURCE / "pathtracer.c"
-    subprocess.run([BIN / "clang", "--target=trax", "-mstack=global", "-O2", source, "-o", place.root / "trax"], check=True)
+    subprocess.run([BIN / "clang", "--target=trax", "-mstack=global", "-O2", source, "-o", place.root / "trax"],
+                   check=True)
     subprocess.run(["cc", "-O1", "-ffp-contract=off", source, "-o", place.root / "native", "-lm"], check=True)
     for engine, samples, width in (("functional", "4", "8"), ("fast", "2", "4")):
-        subprocess.run([place.root / "native", samples, width, "data/host.ppm"], cwd=place.root, capture_output=True, check=True)
-        done = subprocess.run([SIM, "--quiet", "--engine", engine, "--dir", "data", "trax", samples, width, "data/trax.ppm"], cwd=place.root,
+        subprocess.run([place.root / "native", samples, width, "data/host.ppm"], cwd=place.root, capture_output=True,
+                       check=True)
+        done = subprocess.run([SIM, "--quiet", "--engine", engine, "--dir", "data", "trax", samples, width,
+                               "data/trax.ppm"], cwd=place.root,
                               capture_output=True, check=False, timeout=300)
         check(done.returncode == 0 and done.stderr.endswith(b"100.00%") and
-              (place.data / "trax.ppm").read_bytes() == (place.data / "host.ppm").read_bytes(), f"picture, {engine}", done)
+              (place.data / "trax.ppm").read_bytes() == (place.data / "host.ppm").read_bytes(), f"picture, {engine}",
+              done)
 
 
 def errors(place):

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Programs of others, from the sources of Debian's packages, run on trax-sim as on the host: the same standard output, exit status
-and files.
+"""Programs of others, from the sources of Debian's packages, run on trax-sim as on the host: the same standard output,
+exit status and files.
 
   outside.py --build build --work DIR [--only NAME,...] [--engine fast]
 
-Run on request: it fetches some 10 MB with apt-get, which it gives a list of sources of its own. DIR keeps what was fetched and
-built. The sources are unchanged: each program is built as its authors say, but with another CC, or with the toolchain file for
-CMake. Exit status: 0 if all programs agree."""
+Run on request: it fetches some 10 MB with apt-get, which it gives a list of sources of its own. DIR keeps what was
+fetched and built. The sources are unchanged: each program is built as its authors say, but with another CC, or with the
+toolchain file for CMake. Exit status: 0 if all programs agree."""
 
 import argparse
 import glob
@@ -24,12 +24,13 @@ CC = "CC={cc}"
 
 
 class Program:
-    """source: Debian's package. build: commands in the source's folder, or None for CMake. binary: what they make. cases: arguments;
-    files: made in the folder of each run before it, by name (bytes), or copied from the source ("name": path). noise: what depends on
-    the time in standard output."""
+    """source: Debian's package. build: commands in the source's folder, or None for CMake. binary: what they make.
+    cases: arguments; files: made in the folder of each run before it, by name (bytes), or copied from the source
+    ("name": path). noise: what depends on the time in standard output."""
 
     def __init__(self, name, source, binary, cases, build=None, cmake=(), files=None, noise=rb"(?!)", target="all"):
-        self.name, self.source, self.binary, self.cases, self.build, self.cmake = name, source, binary, cases, build, cmake
+        self.name, self.source, self.binary, self.cases = name, source, binary, cases
+        self.build, self.cmake = build, cmake
         self.files, self.noise, self.target = files or {}, noise, target
 
 
@@ -48,13 +49,17 @@ print(arg[0], #arg, arg[1], fib(15))
 for line in io.lines("data.txt") do if line:find("99") then io.write(line:upper(), "\\n") end end
 local f = assert(io.open("out.txt", "w")); f:write(string.format("%5.2f|%q|%x\\n", math.pi, "a\\nb", 255)); f:close()
 print(io.open("out.txt"):read("a"), select(2, io.open("missing.txt")))
-local words = {} for w in io.read("a"):gmatch("%a+") do words[#words + 1] = w end table.sort(words) print(table.concat(words, ","))
+local words = {} for w in io.read("a"):gmatch("%a+") do words[#words + 1] = w end
+table.sort(words) print(table.concat(words, ","))
 print(pcall(error, {1}), os.time{year=2024, month=2, day=29, hour=12}, string.rep("x", 3, "-"))
 os.rename("out.txt", "renamed.txt") os.exit(7)
 """
-JAVASCRIPT = b"""function sieve(n) { var p = [], c = []; for (var i = 2; i < n; i++) { if (!c[i]) { p.push(i); for (var j = i * i; j < n; j += i) c[j] = 1 } } return p }
-print(sieve(60).join(' '), JSON.stringify({a: [1, 2, {b: 0.1 + 0.2}], s: "\\u00e9"}), (1e21).toString(), Math.sqrt(2), parseFloat("1.5e-7"));
-print("a-b-c".replace(/-(.)/g, function (m, x) { return x.toUpperCase() }), [3, 1, 2].sort(), scriptArgs.length, new Date(0).toISOString());
+JAVASCRIPT = b"""function sieve(n) { var p = [], c = []; for (var i = 2; i < n; i++) {
+  if (!c[i]) { p.push(i); for (var j = i * i; j < n; j += i) c[j] = 1 } } return p }
+print(sieve(60).join(' '), JSON.stringify({a: [1, 2, {b: 0.1 + 0.2}], s: "\\u00e9"}),
+  (1e21).toString(), Math.sqrt(2), parseFloat("1.5e-7"));
+print("a-b-c".replace(/-(.)/g, function (m, x) { return x.toUpperCase() }), [3, 1, 2].sort(),
+  scriptArgs.length, new Date(0).toISOString());
 try { null.x } catch (e) { print(e) }
 """
 MARKDOWN = b"""# Title
@@ -109,54 +114,87 @@ END_SCENE
 DATA = {"data.txt": text(300), "small.txt": b"hello, world\n"}
 
 PROGRAMS = [
-    Program("bzip2", "bzip2", "bzip2", [Case(["-k", "data.txt"]), Case(["-c"], text(50)), Case(["-tv", "data.txt"]), Case(["missing"])],
-            [["make", CC, "bzip2"]], files=DATA),
-    Program("lua", "lua5.4", "src/lua", [Case(["script.lua", "one", "two"], b"the quick brown fox"), Case(["-e", "print(2^53, 7 // 2, 1 / 3)"]),
-                                         Case(["-"], b"print(#arg, ...)"), Case(["missing.lua"])],
-            [["make", "-C", "src", CC + " -std=gnu99", "lua"]], files={**DATA, "script.lua": LUA}),
-    Program("minigzip", "zlib", "minigzip", [Case(["data.txt"]), Case([], text(80)), Case(["-c", "small.txt"])],
+    Program("bzip2", "bzip2", "bzip2",
+            [Case(["-k", "data.txt"]),
+             Case(["-c"], text(50)),
+             Case(["-tv", "data.txt"]),
+             Case(["missing"])], [["make", CC, "bzip2"]], files=DATA),
+    Program("lua", "lua5.4", "src/lua", [
+        Case(["script.lua", "one", "two"], b"the quick brown fox"),
+        Case(["-e", "print(2^53, 7 // 2, 1 / 3)"]),
+        Case(["-"], b"print(#arg, ...)"),
+        Case(["missing.lua"])], [["make", "-C", "src", CC + " -std=gnu99", "lua"]], files={**DATA, "script.lua": LUA}),
+    Program("minigzip", "zlib", "minigzip",
+            [Case(["data.txt"]), Case([], text(80)), Case(["-c", "small.txt"])],
             [["./configure", "--static"], ["make", CC, "minigzip"]], files=DATA),
-    Program("xxhsum", "xxhash", "xxhsum", [Case(["data.txt", "small.txt"]), Case(["-H0"], b"abc"), Case(["-H2", "data.txt"]), Case(["missing"])],
-            [["make", CC, "xxhsum"]], files=DATA),
-    Program("mujs", "mujs", "build/release/mujs", [Case(["script.js", "one"]), Case(["-s", "missing.js"])],
+    Program("xxhsum", "xxhash", "xxhsum",
+            [Case(["data.txt", "small.txt"]),
+             Case(["-H0"], b"abc"),
+             Case(["-H2", "data.txt"]),
+             Case(["missing"])], [["make", CC, "xxhsum"]], files=DATA),
+    Program("mujs", "mujs", "build/release/mujs",
+            [Case(["script.js", "one"]), Case(["-s", "missing.js"])],
             [["make", CC, "build/release/mujs", "HAVE_READLINE=no"]], files={"script.js": JAVASCRIPT}),
-    Program("bc", "bc", "bc/bc", [Case(["-l", "sums.bc"]), Case([], b"1 + 2\n3 * 4 ^ 5\nquit\n")],
-            [["./configure", "--host=trax", "--build=x86_64-linux-gnu", CC], ["make", "-C", "lib"],
-             # What the build makes by running the program itself is the host's.
-             ["sh", "-c", "if [ {kind} = host ]; then make -C bc bc; else cp {host}/bc/libmath.h bc && make -C bc -o libmath.h bc; fi"]],
-            files={"sums.bc": BC + b"quit\n"}),
-    Program("json_process", "jansson", "bin/json_process", [Case(["--env", "."], JSON)], cmake=["-DJANSSON_BUILD_DOCS=OFF"], target="json_process"),
-    Program("cmark", "cmark", "src/cmark", [Case(["text.md"]), Case(["-t", "xml"], MARKDOWN), Case(["-t", "latex", "text.md", "text.md"])],
-            cmake=["-DCMARK_TESTS=OFF", "-DCMARK_SHARED=OFF"], files={"text.md": MARKDOWN}),
-    Program("md2html", "md4c", "md2html/md2html", [Case(["--github", "text.md"]), Case(["--output=out.html", "text.md"])],
-            cmake=["-DBUILD_SHARED_LIBS=OFF"], files={"text.md": MARKDOWN}),
-    Program("pbmtojbg", "jbigkit", "pbmtools/pbmtojbg", [Case(["picture.pbm", "picture.jbg"]), Case([], b"P1\n4 2\n0 1 0 1\n1 1 0 0\n")],
+    Program("bc", "bc", "bc/bc", [
+        Case(["-l", "sums.bc"]), Case([], b"1 + 2\n3 * 4 ^ 5\nquit\n")
+    ], [["./configure", "--host=trax", "--build=x86_64-linux-gnu", CC], ["make", "-C", "lib"],
+        # What the build makes by running the program itself is the host's.
+        [
+            "sh", "-c",
+            "if [ {kind} = host ]; then make -C bc bc; else cp {host}/bc/libmath.h bc && make -C bc -o libmath.h bc; fi"
+        ]], files={"sums.bc": BC + b"quit\n"}),
+    Program("json_process", "jansson", "bin/json_process", [Case(["--env", "."], JSON)],
+            cmake=["-DJANSSON_BUILD_DOCS=OFF"], target="json_process"),
+    Program("cmark", "cmark", "src/cmark",
+            [Case(["text.md"]),
+             Case(["-t", "xml"], MARKDOWN),
+             Case(["-t", "latex", "text.md", "text.md"])], cmake=["-DCMARK_TESTS=OFF",
+                                                                  "-DCMARK_SHARED=OFF"], files={"text.md": MARKDOWN}),
+    Program("md2html", "md4c", "md2html/md2html",
+            [Case(["--github", "text.md"]), Case(["--output=out.html", "text.md"])], cmake=["-DBUILD_SHARED_LIBS=OFF"],
+            files={"text.md": MARKDOWN}),
+    Program("pbmtojbg", "jbigkit", "pbmtools/pbmtojbg",
+            [Case(["picture.pbm", "picture.jbg"]),
+             Case([], b"P1\n4 2\n0 1 0 1\n1 1 0 0\n")],
             [["make", CC, "-C", "libjbig"], ["make", CC, "-C", "pbmtools", "pbmtojbg"]],
             files={"picture.pbm": b"P1\n16 8\n" + b"0 1 1 0 " * 32}),
-    Program("brotli", "brotli", "brotli", [Case(["-k", "data.txt"]), Case(["-c", "-q", "5"], text(60)), Case(["-d", "missing"])], cmake=[],
-            target="brotli", files=DATA),
+    Program("brotli", "brotli", "brotli", [
+        Case(["-k", "data.txt"]), Case(["-c", "-q", "5"], text(60)),
+        Case(["-d", "missing"])], cmake=[], target="brotli", files=DATA),
     # --- renderers ---
-    Program("tachyon", "tachyon", "compile/linux/tachyon", [Case(["scene.dat", "-format", "PPM", "-o", "out.ppm"]),
-                                                           Case(["scene.dat", "-format", "TARGA", "-o", "out.tga", "-res", "32", "24"])],
-            [["make", "-C", "unix", "all", "ARCH=linux", CC, "CFLAGS=-O2 -DBsd", "LIBS=-L. -ltachyon -lm", "AR=ar", "ARFLAGS=r", "STRIP=true", "RANLIB=ranlib"]], files={"scene.dat": SCENE}, noise=rb"\s*Rendering Progress:.*?complete *\r?|[0-9.]+ seconds"),
-    Program("potrace", "potrace", "src/potrace", [Case(["-s", "picture.pbm", "-o", "out.svg"]), Case(["-b", "pgm", "picture.pbm", "-o", "out.pgm"])],
-            [["./configure", "--host=riscv32-unknown-elf", "--build=x86_64-linux-gnu", CC, "--disable-zlib"], ["make", "-C", "src", "potrace"]],
-            files={"picture.pbm": b"P1\n24 24\n" + b"".join(b"1 " if (x - 12) ** 2 + (y - 12) ** 2 < 100 else b"0 " for y in range(24) for x in range(24))}),
-    Program("graph", "plotutils", "graph/graph",
-            [Case(["-T", "pnm", "-C", "--bitmap-size", "160x120", "-m", "2", "-S", "16", "0.06", "-q", "0.6", "-W", "0.02", "-X", "x", "-L", "Title \\*G", "points.txt"]),
-             Case(["-T", "gif", "--bitmap-size", "120x90", "-l", "y", "-I", "e"], b"1 2 0.5  2 40 3  3 900 50  4 7 1\n"),
-             Case(["-T", "svg", "-S", "4", "-B", "points.txt"]), Case(["-T", "meta", "missing"])],
-            [["./configure", "--host=riscv32-unknown-elf", "--build=x86_64-linux-gnu", CC, "--without-x", "--without-libpng", "--disable-shared"],
-             *(["make", "-C", folder] for folder in ("lib", "libxmi", "libplot", "graph"))],
-            files={"points.txt": "".join(f"{i} {i * i % 37}\n" for i in range(41)).encode()}),
-]
+    Program("tachyon", "tachyon", "compile/linux/tachyon", [
+        Case(["scene.dat", "-format", "PPM", "-o", "out.ppm"]),
+        Case(["scene.dat", "-format", "TARGA", "-o", "out.tga", "-res", "32", "24"])], [[
+            "make", "-C", "unix", "all", "ARCH=linux", CC, "CFLAGS=-O2 -DBsd", "LIBS=-L. -ltachyon -lm", "AR=ar",
+            "ARFLAGS=r", "STRIP=true", "RANLIB=ranlib"]], files={"scene.dat": SCENE},
+            noise=rb"\s*Rendering Progress:.*?complete *\r?|[0-9.]+ seconds"),
+    Program(
+        "potrace", "potrace", "src/potrace",
+        [Case(["-s", "picture.pbm", "-o", "out.svg"]),
+         Case(["-b", "pgm", "picture.pbm", "-o", "out.pgm"])],
+        [["./configure", "--host=riscv32-unknown-elf", "--build=x86_64-linux-gnu", CC, "--disable-zlib"],
+         ["make", "-C", "src", "potrace"]], files={
+             "picture.pbm": b"P1\n24 24\n" + b"".join(b"1 " if (x - 12)**2 + (y - 12)**2 < 100 else b"0 "
+                                                      for y in range(24) for x in range(24))}),
+    Program("graph", "plotutils", "graph/graph", [
+        Case([
+            "-T", "pnm", "-C", "--bitmap-size", "160x120", "-m", "2", "-S", "16", "0.06", "-q", "0.6", "-W", "0.02",
+            "-X", "x", "-L", "Title \\*G", "points.txt"]),
+        Case(["-T", "gif", "--bitmap-size", "120x90", "-l", "y", "-I", "e"], b"1 2 0.5  2 40 3  3 900 50  4 7 1\n"),
+        Case(["-T", "svg", "-S", "4", "-B", "points.txt"]),
+        Case(["-T", "meta", "missing"])], [[
+            "./configure", "--host=riscv32-unknown-elf", "--build=x86_64-linux-gnu", CC, "--without-x",
+            "--without-libpng", "--disable-shared"], *(["make", "-C", folder]
+                                                       for folder in ("lib", "libxmi", "libplot", "graph"))],
+            files={"points.txt": "".join(f"{i} {i * i % 37}\n" for i in range(41)).encode()}), ]
 
 
 def run(command, cwd, log, env=None):
     with open(log, "ab") as file:
         file.write((" ".join(map(str, command)) + "\n").encode())
         file.flush()
-        if subprocess.run(command, cwd=cwd, stdout=file, stderr=file, stdin=subprocess.DEVNULL, env=env, check=False).returncode:
+        if subprocess.run(command, cwd=cwd, stdout=file, stderr=file, stdin=subprocess.DEVNULL, env=env,
+                          check=False).returncode:
             raise RuntimeError(f"{command[0]} failed: {log}")
 
 
@@ -171,8 +209,10 @@ class Workshop:
         for folder in ("lists/partial", "cache/archives/partial"):
             (apt / folder).mkdir(parents=True, exist_ok=True)
         (apt / "sources.list").write_text(SOURCES)
-        run(["apt-get", "-q", "-o", f"Dir::Etc::SourceList={apt}/sources.list", "-o", "Dir::Etc::SourceParts=/dev/null", "-o",
-             f"Dir::State::Lists={apt}/lists", "-o", f"Dir::Cache={apt}/cache", "-o", "APT::Sandbox::User=root", *arguments], cwd or apt,
+        run(["apt-get", "-q", "-o", f"Dir::Etc::SourceList={apt}/sources.list", "-o", "Dir::Etc::SourceParts=/dev/null",
+             "-o",
+             f"Dir::State::Lists={apt}/lists", "-o", f"Dir::Cache={apt}/cache", "-o", "APT::Sandbox::User=root",
+             *arguments], cwd or apt,
             self.work / "apt.log")
 
     def fetch(self, package):
@@ -184,7 +224,8 @@ class Workshop:
             self.apt("source", "--download-only", "--tar-only", package, cwd=place)
             (place / "unpacked").mkdir()
             archive = [name for name in glob.glob(f"{place}/*.orig.tar.*") if not name.endswith(".asc")]
-            run(["tar", "-C", place / "unpacked", "--strip-components=1", "-xf", archive[0]], place, self.work / "apt.log")
+            run(["tar", "-C", place / "unpacked", "--strip-components=1", "-xf", archive[0]], place,
+                self.work / "apt.log")
         return place / "unpacked"
 
     def make(self, program, kind):
@@ -199,12 +240,16 @@ class Workshop:
             log.unlink(missing_ok=True)
             compiler = self.compilers[kind]
             if program.build is None:
-                toolchain = [f"-DCMAKE_TOOLCHAIN_FILE={self.build}/lib/trax/trax-toolchain.cmake", f"-DCMAKE_C_FLAGS={self.flags}"]
-                run(["cmake", "-S", place / "source", "-B", place / "build", "-DCMAKE_BUILD_TYPE=Release", *program.cmake,
+                toolchain = [f"-DCMAKE_TOOLCHAIN_FILE={self.build}/lib/trax/trax-toolchain.cmake",
+                             f"-DCMAKE_C_FLAGS={self.flags}"]
+                run(["cmake", "-S", place / "source", "-B", place / "build", "-DCMAKE_BUILD_TYPE=Release",
+                     *program.cmake,
                      *(toolchain if kind == "trax" else [])], place, log)
                 run(["cmake", "--build", place / "build", "--target", program.target], place, log)
             for command in program.build or []:
-                words = [word.format(cc=compiler, kind=kind, host=self.work / "host" / program.name / "source") for word in command if kind == "trax" or not word.startswith(("--host", "--build"))]
+                words = [
+                    word.format(cc=compiler, kind=kind, host=self.work / "host" / program.name / "source")
+                    for word in command if kind == "trax" or not word.startswith(("--host", "--build"))]
                 run(words, place / "source", log, {**os.environ, "CC": compiler})
         if not binary.exists() and pathlib.Path(f"{binary}.elf").exists():
             return pathlib.Path(f"{binary}.elf")
@@ -218,14 +263,17 @@ class Workshop:
         place.mkdir(parents=True)
         for name, contents in program.files.items():
             (place / name).parent.mkdir(parents=True, exist_ok=True)
-            (place / name).write_bytes(contents if isinstance(contents, bytes) else (self.fetch(program.source) / contents).read_bytes())
+            (place / name).write_bytes(contents if isinstance(contents, bytes) else (self.fetch(program.source) /
+                                                                                     contents).read_bytes())
         for case in program.cases:
             command = [binary, *case.arguments]
             if kind == "trax":
                 command = [self.build / "bin" / "trax-sim", "--engine", self.engine, "--quiet", "--dir", ".", *command]
             done = subprocess.run(command, cwd=place, input=case.stdin, capture_output=True, check=False, timeout=1200,
                                   env={"PATH": os.environ["PATH"], "TZ": "UTC", "LC_ALL": "C"})
-            files = {str(path.relative_to(place)): hashlib.sha256(path.read_bytes()).hexdigest() for path in sorted(place.rglob("*")) if path.is_file()}
+            files = {
+                str(path.relative_to(place)): hashlib.sha256(path.read_bytes()).hexdigest()
+                for path in sorted(place.rglob("*")) if path.is_file()}
             results.append((re.sub(program.noise, b"", done.stdout), done.returncode, files, done.stderr))
         return results
 
@@ -240,7 +288,10 @@ def compare(shop, program):
     for case, ours, theirs in zip(program.cases, trax, host):
         for what, a, b in zip(("standard output", "exit status", "files"), ours, theirs):
             if a != b:
-                differences.append(f"{case.arguments}: {what}: {str(a)[-300:]} instead of {str(b)[-300:]}; {ours[3].decode(errors='replace')[:400]}")
+                differences.append(
+                    f"{case.arguments}: {what}: {str(a)[-300:]} instead of {str(b)[-300:]}; "
+                    f"{ours[3].decode(errors='replace')[:400]}"
+                )
     return differences, time.monotonic() - begun
 
 
@@ -260,7 +311,8 @@ def main():
     for program in chosen:
         differences, seconds = compare(shop, program)
         failed += bool(differences)
-        print(f"{'FAILED' if differences else 'passed'} {program.name}: {len(program.cases)} runs in {seconds:.1f} s", flush=True)
+        print(f"{'FAILED' if differences else 'passed'} {program.name}: {len(program.cases)} runs in {seconds:.1f} s",
+              flush=True)
         for line in differences:
             print(f"  {line}")
     print(f"{len(chosen) - failed} passed, {failed} failed")

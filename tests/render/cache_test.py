@@ -25,7 +25,8 @@ def fail(text):
 
 
 def command(cache, *words):
-    return [f"{BIN}/trax-render", f"{SOURCE}/box.obj", "--view", f"{SOURCE}/box.view", "--size", "16x9", "--config", "1x32", "--cache", cache, *words]
+    return [f"{BIN}/trax-render", f"{SOURCE}/box.obj", "--view", f"{SOURCE}/box.view", "--size", "16x9", "--config",
+            "1x32", "--cache", cache, *words]
 
 
 def render(cache, *words, **how):
@@ -47,9 +48,11 @@ def clean(cache, programs):
 
 def expect(ended, what, note=None):
     if ended.returncode != 0 or pixels() != picture:
-        fail(f"{what}: status {ended.returncode}, {'the' if pixels() == picture else 'another'} picture: {ended.stderr}")
+        fail(
+            f"{what}: status {ended.returncode}, {'the' if pixels() == picture else 'another'} picture: {ended.stderr}")
     lines = ended.stderr.splitlines()
-    if note is None and lines or note is not None and (len(lines) != 1 or not lines[0].startswith("trax-render: note: ") or note not in lines[0]):
+    if note is None and lines or note is not None and (len(lines) != 1 or not lines[0].startswith("trax-render: note: ")
+                                                       or note not in lines[0]):
         fail(f"{what}: not one note with '{note}': {ended.stderr}")
 
 
@@ -128,12 +131,14 @@ def healing():
 
 
 def together():
-    """Processes that find the same damage, or make the same program, do not disturb each other, even if one of them fails."""
+    """Processes that find the same damage, or make the same program, do not disturb each other, even if one of them
+    fails."""
     entry, = glob.glob("cache/*.elf")
     for turn in range(2):
         with open(entry, "wb") as file:
             file.write(b"damaged")
-        processes = [subprocess.Popen(command("cache", "-o", f"x{number}.png", "-q"), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        processes = [subprocess.Popen(command("cache", "-o", f"x{number}.png", "-q"), stdout=subprocess.PIPE,
+                                      stderr=subprocess.STDOUT, text=True)
                      for number in range(4)]
         for number, process in enumerate(processes):
             said, _ = process.communicate(timeout=120)
@@ -144,8 +149,10 @@ def together():
     # One that is stopped while the other compiles takes nothing away from it.
     for turn in range(4):
         shutil.rmtree("cache")
-        first = subprocess.Popen(command("cache", "-o", "x0.png", "-q"), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        second = subprocess.Popen(command("cache", "-o", "x.png"), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        first = subprocess.Popen(command("cache", "-o", "x0.png", "-q"), stdout=subprocess.DEVNULL,
+                                 stderr=subprocess.DEVNULL)
+        second = subprocess.Popen(command("cache", "-o", "x.png"), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                                  text=True)
         children = f"/proc/{first.pid}/task/{first.pid}/children"  # the compiler
         while first.poll() is None and not open(children).read():
             time.sleep(0.005)
@@ -160,11 +167,13 @@ def together():
 
 
 def no_room():
-    """Files of no more than so many bytes, as on a disk that is full: the general program renders, and nothing is left behind."""
+    """Files of no more than so many bytes, as on a disk that is full: the general program renders, and nothing is left
+    behind."""
     entry, = glob.glob("cache/*.elf")
     for limit in (12000, 30000, os.path.getsize(entry) - 20):
         shutil.rmtree("full", ignore_errors=True)
-        ended = render("full", "--stats", "/dev/null", preexec_fn=lambda: (resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))))
+        ended = render("full", "--stats", "/dev/null",
+                       preexec_fn=lambda: (resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))))
         expect(ended, f"files of {limit} bytes", "the general program renders")
         if os.path.exists("full") and os.listdir("full"):
             fail(f"files of {limit} bytes: left {os.listdir('full')}")
@@ -182,7 +191,8 @@ def no_room():
         if ended.returncode != 1 or "--cache small cannot be written: Read-only file system" not in ended.stderr:
             fail(f"a cache that was asked for and cannot be written: {ended}")
         os.environ["XDG_CACHE_HOME"] = os.path.abspath("small")
-        ended = subprocess.run([word for word in command("", "-o", "x.png") if word not in ("--cache", "")], capture_output=True, text=True)
+        ended = subprocess.run([word for word in command("", "-o", "x.png") if word not in ("--cache", "")],
+                               capture_output=True, text=True)
         expect(ended, "a cache that cannot be written", "the general program renders")
     finally:
         subprocess.run(["umount", "small"], check=True)
@@ -216,7 +226,8 @@ def after_turntable():
     if render(cache, "--background", "000002").returncode:
         fail("a picture after a turntable")
     programs = glob.glob(f"{cache}/*.elf")
-    if len(programs) != 256 or len([name for name in os.listdir(cache) if name.startswith("0" * 28) and name.endswith(".elf")]) != 255:
+    if len(programs) != 256 or len([
+            name for name in os.listdir(cache) if name.startswith("0" * 28) and name.endswith(".elf")]) != 255:
         fail(f"after a turntable {len(programs)} programs are in the cache")
 
 

@@ -4,9 +4,9 @@
     tests/render/chips.py SCENES_DIRECTORY                 four scenes at 160x90 on the fifteen chips
     tests/render/chips.py MESH --chips 1x32,8x64 --size 32x18
 
-SCENES_DIRECTORY holds conference.ply.xz, crytek-sponza.ply.xz, dragon.ply.xz with dragon_box.obj, and sibenik.ply.xz (also without
-.xz). Prints a row for each picture, with the million instructions that each engine simulated in a second of the host. Exit status
-0 if all are equal.
+SCENES_DIRECTORY holds conference.ply.xz, crytek-sponza.ply.xz, dragon.ply.xz with dragon_box.obj, and sibenik.ply.xz
+(also without .xz). Prints a row for each picture, with the million instructions that each engine simulated in a second
+of the host. Exit status 0 if all are equal.
 """
 
 import argparse
@@ -44,10 +44,12 @@ def speed(one):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("scenes", type=pathlib.Path, metavar="SCENES_DIRECTORY|MESH")
-    parser.add_argument("--bin", default=str(HERE.parents[1] / "build/bin"), help="the folder of trax-render and trax-scene")
-    parser.add_argument("--only", default="conference,crytek-sponza,dragon,sibenik", help="scenes of the directory, with commas between")
+    parser.add_argument("--bin", default=str(HERE.parents[1] / "build/bin"),
+                        help="the folder of trax-render and trax-scene")
+    parser.add_argument("--only", default="conference,crytek-sponza,dragon,sibenik",
+                        help="scenes of the directory, with commas between")
     parser.add_argument("--chips", default=",".join(CHIPS), help="with commas between (default: all fifteen)")
     parser.add_argument("--size", default="160x90")
     parser.add_argument("--work", help="a folder that keeps scenes, pictures and statistics")
@@ -63,16 +65,22 @@ def main():
         os.makedirs(folder, exist_ok=True)
         for name, arguments in scenes_of(options, folder):
             for chip in options.chips.split(","):
-                command = [os.path.join(options.bin, "trax-render"), *arguments, "--quiet", "--config", chip, "--size", options.size, "-o",
+                command = [os.path.join(options.bin, "trax-render"), *arguments, "--quiet", "--config", chip, "--size",
+                           options.size, "-o",
                            "picture.png"]
-                fast, reference = (engines.run(command, engine, os.path.join(folder, name, chip), ["picture.png"]) for engine in ("fast", "reference"))
+                fast, reference = (engines.run(command, engine, os.path.join(folder, name, chip),
+                                               ["picture.png"]) for engine in ("fast", "reference"))
                 wrong = engines.difference(reference, fast) or engines.violation(reference)
                 if not wrong and (reference.status != 0 or not reference.files):
                     wrong = f"exit status {reference.status}: {reference.errors.decode()[:200]}"
                 rows += 1
                 different += wrong is not None
-                print(f"| {name} | {chip} | {fast.statistics.get('cycles', 0):,} | {fast.statistics.get('instructions', 0):,} | {speed(reference)} | "
-                      f"{speed(fast)} | {reference.host_seconds / max(fast.host_seconds, 1e-9):.1f} | {'NO: ' + wrong if wrong else 'yes'} |", flush=True)
+                print(
+                    f"| {name} | {chip} | {fast.statistics.get('cycles', 0):,} | "
+                    f"{fast.statistics.get('instructions', 0):,} | {speed(reference)} | "
+                    f"{speed(fast)} | {reference.host_seconds / max(fast.host_seconds, 1e-9):.1f} | "
+                    f"{'NO: ' + wrong if wrong else 'yes'} |",
+                    flush=True)
     print(f"{rows} pictures of {options.size}, {different} different; {time.monotonic() - begin:.0f} s")
     return 1 if different else 0
 

@@ -12,7 +12,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 def command(build, output):
     """How ninja makes the output, as words."""
-    last = subprocess.run(["ninja", "-C", str(build), "-t", "commands", output], check=True, capture_output=True, text=True).stdout.splitlines()[-1]
+    last = subprocess.run(["ninja", "-C", str(build), "-t", "commands", output], check=True, capture_output=True,
+                          text=True).stdout.splitlines()[-1]
     return shlex.split(next(part for part in last.split(" && ") if part.split()[0] not in ("cd", ":")))
 
 
@@ -43,9 +44,10 @@ def list_stale(mutants, folder, name_and_text=lambda mutant: mutant[1:3]):
 
 
 def main(description, tests, mutants, make, said):
-    """Tries mutants, tuples (name, file of raytracer/device, text, what it becomes, further values). make(folder, build) compiles the tests, which are in the
-    folder of this name, in a changed copy of the tree, and said(folder, further values) gives what they say of the mutant, empty if they do not notice it.
-    What they say of a copy that is not changed is an error. The exit status."""
+    """Tries mutants, tuples (name, file of raytracer/device, text, what it becomes, further values). make(folder,
+    build) compiles the tests, which are in the folder of this name, in a changed copy of the tree, and said(folder,
+    further values) gives what they say of the mutant, empty if they do not notice it. What they say of a copy that is
+    not changed is an error. The exit status."""
     parser = argparse.ArgumentParser(description=description.split("\n")[0])
     parser.add_argument("scratch", type=pathlib.Path, nargs="?")
     parser.add_argument("--stale", action="store_true", help="only lists mutants of texts that are not there")

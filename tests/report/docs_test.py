@@ -4,6 +4,7 @@
 
 import contextlib
 import io
+import itertools
 import json
 import pathlib
 import re
@@ -16,7 +17,7 @@ import example
 FOLDER = pathlib.Path(sys.argv.pop(1)).resolve()
 sys.path.insert(0, str(FOLDER))
 
-from report import charts, docs, estimates, markup, tables  # noqa: E402
+from report import charts, docs, estimates, markup, plots, tables  # noqa: E402
 from report.paper import Paper  # noqa: E402
 from report.results import Results  # noqa: E402
 from trax_eval.util import Problem  # noqa: E402
@@ -222,6 +223,16 @@ class DocsTest(unittest.TestCase):
         gaps = [heights[a] - heights[b] for a, b in zip(("0.0001", "0.001", "0.01"), ("0.001", "0.01", "0.1"))]
         self.assertLess(max(gaps) - min(gaps), 0.3)  # a decade is as high as any other
         self.assertGreater(min(gaps), 20)
+        # What no axis can have is left out; the rest is drawn, on every kind of axis.
+        for values in ((5e-324, 1), (1e308, -1e308, 3), (1, 1), (2.5, 2.6), (-1e-90, 1e90)):
+            for log_x, log_y in itertools.product((False, True), repeat=2):
+                series = [plots.Series("a", 1, [(x, y, f"{x} {y}") for x in values for y in values])]
+                lines = plots.Lines("a", "a", "x", "y", series, log_x=log_x, log_y=log_y, base=2)
+                drawn = [(x, y) for x, y, _ in lines.drawn(series[0])]
+                self.assertEqual(plots.draw(lines).count("<circle class"), len(drawn))
+                self.assertTrue(all(1e-100 < abs(part) < 1e100 for point in drawn for part in point))
+            bars = plots.Bars("a", "a", "x", [("a", [(10, value, "") for value in values])], [(10, "issued")])
+            self.assertEqual(plots.draw(bars).count("<polygon"), sum(1e-100 < value < 1e100 for value in values))
         # No two series of a figure look alike, with scenes, programs and modes in one.
         results = Results(example.complete())
         figure = charts.sweep_figure(results, PAPER, results.sweeps[1], "figure")
@@ -229,14 +240,23 @@ class DocsTest(unittest.TestCase):
         self.assertEqual(len({(series.style, series.mark) for series in figure.series}), 3 * 4)
 
     def test_descriptions(self):
-        for table, message in (({"row": "chip"}, "unknown key \"row\""), ({"values": [3]}, "expected names"),
-                               ({"relative": "a"}, "an object of axes"), ({"as": "x"}, "allowed are"),
-                               ({"values": [{"name": "mrps", "as": "x"}]},
-                                "allowed are"), ({"summary": "mean"}, "allowed are geometric mean, least, greatest"),
-                               (3, "table: expected an object or a list of objects"),
-                               ([{},
-                                 3], "table: expected an object or a list of objects"), ([{"id": "a"},
-                                                                                          {"id": "a"}], "the same id")):
+        for table, message in (
+            ({"row": "chip"}, 'unknown key "row"'),
+            ({"values": [3]}, "values: expected names"),
+            ({"values": [{"name": "mrps", "as": "x"}]}, "values.as: allowed are"),
+            ({"values": [{"name": "mrps", "digits": "2"}]}, "values.digits: expected a number from 1 to 15"),
+            ({"values": [{"name": "mrps", "per": 3}]}, "values.per: expected a text"),
+            ({"values": [{"name": "mrps", "unit": "1"}]}, 'values: unknown key "unit"'),
+            ({"relative": "a"}, "relative: expected an object of axes"),
+            ({"relative": {"chip": ["1x32"]}}, "relative: expected an object of axes"),
+            ({"where": {"chip": {}}}, "where: expected an object of axes"),
+            ({"as": "x"}, "as: allowed are"),
+            ({"summary": "mean"}, "summary: allowed are geometric mean, least, greatest"),
+            ({"title": 1}, "title: expected a text"),
+            (3, "table: expected an object or a list of objects"),
+            ([{}, 3], "table: expected an object or a list of objects"),
+            ([{"id": "a"}, {"id": "a"}], "the same id"),
+        ):
             made = example.stranger()
             made["sweeps"][0]["table"] = table
             with self.assertRaisesRegex(Problem, message):

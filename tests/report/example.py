@@ -75,9 +75,16 @@ def run(program, scene, chip, changes=None, mode="exact", experiments=("table2",
     return record
 
 
+PAPERS = {"conference": "conference", "crytek-sponza": "crytek", "dragon": "dragon", "forest": "fairy",
+          "dragon-close": "dragon"}  # what scenes stand for
+
+
 def document(runs, sweeps=(), series=()):
+    programs = sorted({one["program"] for one in runs if isinstance(one.get("program"), str)})
     return {
-        "format": "trax-eval-results", "version": 1, "trax": "0.1.0", "command": "trax-eval --all -o out/eval",
+        "programs": [{"name": name} for name in programs],
+        "scenes": [{"name": name, "paper": paper} for name, paper in PAPERS.items()],
+        "format": "trax-eval-results", "version": 2, "trax": "0.1.0", "command": "trax-eval --all -o out/eval",
         "created": "2026-01-01T00:00:00Z", "host": {"processors": 2, "model": "any"}, "host_seconds": 3600.0,
         "runs": list(runs), "sweeps": list(sweeps), "series": list(series)
     }
@@ -201,7 +208,7 @@ def stranger():
         record["points"].append({**record["points"][0], "experiment": "plain"})
         record["values"]["bytes_per_ray"] = 100 + place
     made.update(
-        version=2, programs=[{"name": "beam", "title": "Beams of a stranger"}],
+        programs=[{"name": "beam", "title": "Beams of a stranger"}],
         scenes=[{"name": "cube", "title": "A cube", "paper": None},
                 {"name": "dragon", "title": "Dragon", "paper": "dragon"}], workloads=[{"name": "fog", "title": "Fog"}])
     return made

@@ -469,7 +469,7 @@ class ReportTest(unittest.TestCase):
         page = self.make(example.document([]))
         self.assertEqual(len(page.tables["table1"]["rows"]), 20)
         self.assertEqual(page.tables["runs"]["rows"], [])
-        page = self.make('{"format": "trax-eval-results", "version": 1}')
+        page = self.make('{"format": "trax-eval-results", "version": 2}')
         self.assertIn("table3", page.tables)
 
     def test_hostile(self):
@@ -489,10 +489,10 @@ class ReportTest(unittest.TestCase):
         self.refused("{", r"bad\.json:1:2: Expecting property name")
         self.refused("[]", r"is not a file of results: \"format\"")
         self.refused('{"format": "trax-eval-results", "version": 3}',
-                     r"\"version\" is 3; this report reads versions 1 and 2")
-        self.refused('{"format": "trax-eval-results", "version": 1, "runs": {}}', "\"runs\" is not a list")
-        self.refused('{"format": "trax-eval-results", "version": 1, "runs": [3]}', r"runs\[0\] is not an object")
-        self.refused('{"format": "trax-eval-results", "version": 1, "sweeps": ["a"]}', r"sweeps\[0\] is not an object")
+                     r"\"version\" is 3, not 2: another trax-eval wrote it")
+        self.refused('{"format": "trax-eval-results", "version": 2, "runs": {}}', "\"runs\" is not a list")
+        self.refused('{"format": "trax-eval-results", "version": 2, "runs": [3]}', r"runs\[0\] is not an object")
+        self.refused('{"format": "trax-eval-results", "version": 2, "sweeps": ["a"]}', r"sweeps\[0\] is not an object")
         for key, value, message in (("scene", 3, "is int, not a string"), ("stats", [], "is list, not an object"),
                                     ("set", "x", "is str, not an object"), ("experiments", "x", "is not a list")):
             bad = copy.deepcopy(good)

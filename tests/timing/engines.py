@@ -27,7 +27,8 @@ def run(command, engine, folder, files=(), seconds=3600, extra=()):
     for name in (*files, "statistics.json"):
         if os.path.exists(os.path.join(place, name)):
             os.remove(os.path.join(place, name))
-    done = subprocess.run([*command, "--engine", engine.partition("-")[0], "--stats", "statistics.json", *extra], cwd=place, capture_output=True,
+    done = subprocess.run([*command, "--engine", engine.partition("-")[0], "--stats", "statistics.json", *extra],
+                          cwd=place, capture_output=True,
                           timeout=seconds, check=False)
     statistics = {}
     if os.path.exists(os.path.join(place, "statistics.json")):
@@ -86,7 +87,8 @@ def violation(one):
     clock = one.statistics["configuration"]["chip"]["clock_mhz"] * 1e6
     gbps = one.statistics["memory"]["bytes"] / max(one.statistics["cycles"], 1) * clock / 1e9
     memory, dram = (one.statistics["configuration"][section] for section in ("memory", "dram"))
-    allowed = memory["bandwidth_gbps"] if memory["model"] == "limit" else dram["mtps"] * dram["bus_bits"] / 8 * memory["channels"] / 1e3
+    allowed = memory["bandwidth_gbps"] if memory[
+        "model"] == "limit" else dram["mtps"] * dram["bus_bits"] / 8 * memory["channels"] / 1e3
     if one.status == 0 and gbps > allowed * (1 + 1e-12):
         return f"{gbps} GB/s of {allowed}"
     return None

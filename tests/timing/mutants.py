@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Do the tests of time notice a wrong engine?
 
-Each mutant is one changed line of an engine. A copy of the tree is changed, built and tested; a mutant that no test notices
-survives, and is named. Ends with status 1 if one does, or if a line to be changed is not there any more.
+Each mutant is one changed line of an engine. A copy of the tree is changed, built and tested; a mutant that no test
+notices survives, and is named. Ends with status 1 if one does, or if a line to be changed is not there any more.
 
     tests/timing/mutants.py SCRATCH [--only EXPRESSION]     only mutants in whose file or lines it is found
     tests/timing/mutants.py --stale                         only lines that are not there any more
@@ -53,8 +53,10 @@ def first_failure(tree):
     """The number of the first test that fails; None if none does."""
     for i, (command, environment) in enumerate(TESTS):
         try:
-            status = subprocess.run([tree / "build/tests/bin" / command[0], *command[1:]], cwd=tree, env=os.environ | environment,
-                                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=10 * SECONDS, preexec_fn=limit).returncode
+            status = subprocess.run([tree / "build/tests/bin" / command[0], *command[1:]], cwd=tree,
+                                    env=os.environ | environment,
+                                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=10 * SECONDS,
+                                    preexec_fn=limit).returncode
         except subprocess.TimeoutExpired:
             status = "timeout"
         if status:
@@ -101,7 +103,8 @@ def main():
     tree = options.scratch.resolve() / "tree"
     copy_tree(tree)
     if not (tree / "build/build.ninja").exists():
-        launcher = ["-DCMAKE_C_COMPILER_LAUNCHER=ccache", "-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
+        launcher = ["-DCMAKE_C_COMPILER_LAUNCHER=ccache",
+                    "-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
         subprocess.run(["cmake", "--preset", "release", *launcher], cwd=tree, check=True, stdout=subprocess.DEVNULL)
     if build(tree).returncode or first_failure(tree) is not None:
         sys.exit("mutants.py: the tests fail without a mutant")
@@ -115,7 +118,8 @@ def main():
         caught[2] += 1
         if "-test" in outcome:
             caught[0] += 1
-            caught[1] += not outcome.startswith(("timing-engines", "timing-state", "timing-epochs", "timing-checkpoint"))
+            caught[1] += not outcome.startswith(("timing-engines", "timing-state", "timing-epochs",
+                                                 "timing-checkpoint"))
         print(f"{outcome:28} {name}: {old.strip()}  ->  {new.strip()}", flush=True)
     for kind, (caught, by_hand, total) in totals.items():
         print(f"{kind}: {caught} of {total} caught, {by_hand} by counts derived by hand")

@@ -1,7 +1,8 @@
-"""The comments by which a program of gcc's test suite says how it wants to be compiled, and for which machines it is meant.
+"""The comments by which a program of gcc's test suite says how it wants to be compiled, and for which machines it is
+meant.
 
-Understood are dg-do, dg-options, dg-additional-options, dg-skip-if, dg-require-* and dg-error, with target selectors (gcc's internals
-manual, "Directives" and "Selectors"). What a target is and has is answered for trax.
+Understood are dg-do, dg-options, dg-additional-options, dg-skip-if, dg-require-* and dg-error, with target selectors
+(gcc's internals manual, "Directives" and "Selectors"). What a target is and has is answered for trax.
 """
 
 import fnmatch
@@ -10,8 +11,8 @@ from dataclasses import dataclass, field
 
 TRIPLET = "trax-unknown-elf"
 
-# What programs may require and a bare machine with this ABI has not got. Everything else they ask for is taken as present, so that a
-# program is tried rather than skipped.
+# What programs may require and a bare machine with this ABI has not got. Everything else they ask for is taken as
+# present, so that a program is tried rather than skipped.
 LACKING = {
     "dfp": "decimal floating point",
     "fgraphite": "an option of gcc's own optimizer",
@@ -25,7 +26,8 @@ LACKING = {
 }
 # Names that a selector may use and that are not true here.
 UNTRUE = set(LACKING) | {
-    "avr_tiny", "freestanding", "hard_float", "ia32", "keeps_null_pointer_checks", "llp64", "lp64", "lra", "newlib_nano_io", "pie",
+    "avr_tiny", "freestanding", "hard_float", "ia32", "keeps_null_pointer_checks", "llp64", "lp64", "lra",
+    "newlib_nano_io", "pie",
     "short_enums", "vxworks_kernel"}
 
 
@@ -67,7 +69,8 @@ def words(text):
 
 
 def selected(selector):
-    """Is trax among the targets that a selector names? It is a list of triplet patterns and names, or an expression of !, && and ||."""
+    """Is trax among the targets that a selector names? It is a list of triplet patterns and names, or an expression of
+    !, && and ||."""
     parts = words(selector)
     if "||" in parts or "&&" in parts:
         operator = "||" if "||" in parts else "&&"
@@ -105,7 +108,8 @@ class Directives:
 def read(text, given):
     """Read the directives of a program's text for compiling it with the options given."""
     result = Directives()
-    for match in re.finditer(r"\{\s*(dg-[a-z-]+)((?:[^{}]|\{(?:[^{}]|\{(?:[^{}]|\{(?:[^{}]|\{[^{}]*\})*\})*\})*\})*)\}", text):
+    for match in re.finditer(r"\{\s*(dg-[a-z-]+)((?:[^{}]|\{(?:[^{}]|\{(?:[^{}]|\{(?:[^{}]|\{[^{}]*\})*\})*\})*\})*)\}",
+                             text):
         arguments = words(match.group(2))
         targets = [words(argument) for argument in arguments if argument.split()[:1] == ["target"]]
         applies = not targets or selected(" ".join("{" + part + "}" for part in targets[0][1:]))

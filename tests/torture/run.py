@@ -4,12 +4,13 @@
     tests/torture/run.py                                all programs at -O0 and -O2
     tests/torture/run.py --levels -O1,-Os --filter 'execute/2000*'
 
-The programs are those of Debian's package gcc-12-source; they are unpacked into the build folder. A program of execute/ (with ieee/ and
-builtins/) has to compile, link, run on trax-sim and end with status 0; one of compile/ has to become an object file, or to be refused
-where it says so. Each first has the 512 bytes of local memory for its stack; one that needs more gets -mstack=global.
+The programs are those of Debian's package gcc-12-source; they are unpacked into the build folder. A program of execute/
+(with ieee/ and builtins/) has to compile, link, run on trax-sim and end with status 0; one of compile/ has to become an
+object file, or to be refused where it says so. Each first has the 512 bytes of local memory for its stack; one that
+needs more gets -mstack=global.
 
-not_applicable.txt names the programs that cannot pass and why. It is checked: a listed program that passes is an error, unless its
-behaviour is undefined, and so is one that the host's clang -m32 passes, which is tried for each.
+not_applicable.txt names the programs that cannot pass and why. It is checked: a listed program that passes is an error,
+unless its behaviour is undefined, and so is one that the host's clang -m32 passes, which is tried for each.
 
 Exit status: 0 if at least 98 % of the applicable programs pass at every level and the list holds, else 1.
 """
@@ -39,15 +40,18 @@ REQUIRED = 98.0  # percent of the applicable
 SECONDS = 120  # per step
 CYCLES = 2_000_000_000
 GLOBAL_STACK = ["-mstack=global", "-mstack-size=8388608"]
-SIMULATOR = ["--engine", "fast", "--quiet", "--max-cycles", str(CYCLES), "--set", "icache.bytes=1048576", "--set", "memory.size_mib=64"]
+SIMULATOR = ["--engine", "fast", "--quiet", "--max-cycles", str(CYCLES), "--set", "icache.bytes=1048576", "--set",
+             "memory.size_mib=64"]
 
 # gcc 12 takes the C of before 1999 with warnings only; so do these, by clang.
-DIALECT = ["-w", "-std=gnu17", "-Wno-implicit-int", "-Wno-implicit-function-declaration", "-Wno-int-conversion", "-Wno-return-mismatch",
+DIALECT = ["-w", "-std=gnu17", "-Wno-implicit-int", "-Wno-implicit-function-declaration", "-Wno-int-conversion",
+           "-Wno-return-mismatch",
            "-Wno-incompatible-function-pointer-types"]
 # What our driver passes by itself, where a program asks to be skipped with it.
 TARGET_OPTIONS = ["-fomit-frame-pointer"]
 # What gcc's drivers (ieee.exp, builtins.exp) add for a folder.
-FOLDER_OPTIONS = {"execute/ieee": ["-fno-inline", "-DSIGNAL_SUPPRESS"], "execute/builtins": ["-fno-inline-functions", "-Wl,--allow-multiple-definition"]}
+FOLDER_OPTIONS = {"execute/ieee": ["-fno-inline", "-DSIGNAL_SUPPRESS"],
+                  "execute/builtins": ["-fno-inline-functions", "-Wl,--allow-multiple-definition"]}
 
 
 @dataclasses.dataclass
@@ -78,7 +82,8 @@ class Listed:
     used: bool = False
 
     def covers(self, level):
-        return self.levels in ("all", "undefined") or (level != "-O0" if self.levels == "optimized" else level in self.levels.split(","))
+        return self.levels in ("all", "undefined") or (level != "-O0" if self.levels == "optimized" else level
+                                                       in self.levels.split(","))
 
 
 def fail(message):
@@ -112,7 +117,8 @@ def programs(suite):
     def names(folder):
         return sorted(glob.glob(os.path.join(suite, folder, "*.c")))
 
-    found = [Program(os.path.relpath(path, suite), [path], True) for folder in ("execute", "execute/ieee") for path in names(folder)]
+    found = [Program(os.path.relpath(path, suite), [path],
+                     True) for folder in ("execute", "execute/ieee") for path in names(folder)]
     for path in names("execute/builtins"):
         if not path.endswith("-lib.c"):
             sources = [path, path[:-2] + "-lib.c", os.path.join(suite, "execute/builtins/lib/main.c")]
@@ -122,7 +128,7 @@ def programs(suite):
 
 def read_list(path):
     """Read not_applicable.txt, whose head says how it looks."""
-    listed, levels = [], None
+    listed, levels, reason = [], None, None
     with open(path, encoding="utf-8") as file:
         for number, line in enumerate(file, 1):
             if not line.strip() or line.startswith("#"):
@@ -132,7 +138,10 @@ def read_list(path):
                 continue
             match = re.fullmatch(r"(all|undefined|optimized|-O\S+) (.+)\n", line)
             if not match:
-                fail(f"{path}:{number}: expected 'all|undefined|optimized|LEVELS REASON', or names with a blank before them")
+                fail(
+                    f"{path}:{number}: expected 'all|undefined|optimized|LEVELS REASON', or names with a blank before "
+                    f"them"
+                )
             levels, reason = match.groups()
     return listed
 
@@ -151,8 +160,10 @@ def options_of(program, directives):
 
 
 def execute(command, folder):
-    """Run a command in a process group of its own; return (status, standard error and output); status None if it had to be stopped."""
-    with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, cwd=folder,
+    """Run a command in a process group of its own; return (status, standard error and output); status None if it had to
+    be stopped."""
+    with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          cwd=folder,
                           start_new_session=True) as process:
         try:
             output, _ = process.communicate(timeout=SECONDS)
@@ -167,7 +178,8 @@ def compile_(command, options, folder):
     """Compile; options that this compiler has never heard of (gcc's own optimizers') are left out."""
     while True:
         status, output = execute([*command, *options], folder)
-        unknown = set(re.findall(r"(?:unknown argument(?:; did you mean '.*?')?:?|unsupported option) '([^']*)'", output)) & set(options)
+        unknown = set(re.findall(r"(?:unknown argument(?:; did you mean '.*?')?:?|unsupported option) '([^']*)'",
+                                 output)) & set(options)
         if status in (None, 0) or not unknown:
             return status, output
         options = [option for option in options if option not in unknown]
@@ -176,7 +188,8 @@ def compile_(command, options, folder):
 def first_error(output):
     """The line that says most about a failure."""
     lines = [line.strip() for line in output.splitlines() if line.strip()]
-    for pattern in (r"fatal error: error in backend", r"\*\*\* Bad machine code", r"Assertion .* failed", r"PLEASE submit a bug report",
+    for pattern in (r"fatal error: error in backend", r"\*\*\* Bad machine code", r"Assertion .* failed",
+                    r"PLEASE submit a bug report",
                     r"\berror: (?!linker command failed)", r"undefined", r"fault:"):
         for line in lines:
             if re.search(pattern, line):
@@ -195,7 +208,8 @@ class Compiler:
         binary = os.path.join(folder, "program")
         mode = [] if program.run else ["-c"]
         # -lm stands last, as in gcc's driver.
-        command = [*self.command, *DIALECT, level, *extra, *mode, *program.sources, "-o", binary, *(["-lm"] if program.run else [])]
+        command = [*self.command, *DIALECT, level, *extra, *mode, *program.sources, "-o", binary,
+                   *(["-lm"] if program.run else [])]
         status, output = compile_(command, options_of(program, directives), folder)
         if directives.errors:
             return ("", "") if status == 1 else ("is compiled, and should not be", output)
@@ -249,7 +263,8 @@ class Runner:
         listed = self.listed(program.name)
         if listed and listed.levels == "undefined":
             if not any(self.host.attempt(run, directives, level, folder)[0] for level in ("-O2", "-Os", "-O0")):
-                return Result("failed", f"in not_applicable.txt, but clang -m32 passes it at all levels: {listed.reason}")
+                return Result("failed",
+                              f"in not_applicable.txt, but clang -m32 passes it at all levels: {listed.reason}")
             return Result("not applicable", f"undefined: {listed.reason}")
         if not problem:
             if listed:
@@ -276,11 +291,17 @@ def report(level, results):
         rows[suite_of(name)][result.verdict] += 1
         rows[suite_of(name)]["global"] += result.global_stack
     total = sum(rows.values(), collections.Counter())
-    print(f"\n{'level':6}{'programs':20}{'passed':>8}{'failed':>8}{'not applicable':>16}{'passed of applicable':>22}{'-mstack=global':>16}")
+    print(
+        f"\n{'level':6}{'programs':20}{'passed':>8}{'failed':>8}{'not applicable':>16}"
+        f"{'passed of applicable':>22}{'-mstack=global':>16}"
+    )
     for suite, row in [*sorted(rows.items()), ("all", total)]:
         applicable = row["passed"] + row["failed"]
         share = f"{100 * row['passed'] / applicable:.2f} %" if applicable else "-"
-        print(f"{level:6}{suite:20}{row['passed']:8}{row['failed']:8}{row['not applicable']:16}{share:>22}{row['global']:16}")
+        print(
+            f"{level:6}{suite:20}{row['passed']:8}{row['failed']:8}{row['not applicable']:16}{share:>22}"
+            f"{row['global']:16}"
+        )
     reasons = collections.Counter(result.reason for result in results.values() if result.verdict == "not applicable")
     for reason, count in reasons.most_common():
         print(f"  not applicable {count:4}  {reason}")
@@ -296,7 +317,8 @@ def main():
     parser.add_argument("--build", default=default_build, help="build folder (default: build)")
     parser.add_argument("--levels", default="-O0,-O2", help="comma separated (default: -O0,-O2)")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
-    parser.add_argument("--filter", action="append", default=[], metavar="PATTERN", help="only programs such as 'execute/ieee/*'")
+    parser.add_argument("--filter", action="append", default=[], metavar="PATTERN",
+                        help="only programs such as 'execute/ieee/*'")
     parser.add_argument("--host-clang", default="clang-19", help="the reference for the list (default: clang-19)")
     arguments = sys.argv[1:]
     for place, argument in enumerate(arguments[:-1]):
@@ -314,7 +336,10 @@ def main():
     probe = os.path.join(folder, "probe")
     status, output = execute([options.host_clang, "-m32", "-x", "c", "/dev/null", "-shared", "-o", probe], folder)
     if status != 0:
-        fail(f"{options.host_clang} -m32 does not link, install the Debian packages clang-19 and gcc-multilib: {first_error(output)}")
+        fail(
+            f"{options.host_clang} -m32 does not link, install the Debian packages clang-19 and gcc-multilib: "
+            f"{first_error(output)}"
+        )
     chosen = [program for program in programs(suite)
               if not options.filter or any(fnmatch.fnmatchcase(program.name, pattern) for pattern in options.filter)]
     if not chosen:

@@ -8,8 +8,10 @@ import dejagnu
 
 class Read(unittest.TestCase):
     def test_options(self):
-        read = dejagnu.read('/* { dg-do run } */\n/* { dg-options "-O2 -fwrapv" } */ { dg-additional-options { "-g" } }', [])
-        self.assertEqual(("run", ["-O2", "-fwrapv", "-g"], "", False), (read.action, read.options, read.unsupported, read.errors))
+        read = dejagnu.read(
+            '/* { dg-do run } */\n/* { dg-options "-O2 -fwrapv" } */ { dg-additional-options { "-g" } }', [])
+        self.assertEqual(("run", ["-O2", "-fwrapv", "-g"], "", False),
+                         (read.action, read.options, read.unsupported, read.errors))
 
     def test_options_of_other_machines(self):
         text = '{ dg-options "-msse" { target { i?86-*-* x86_64-*-* } } } { dg-options "-w" { target { ! lp64 } } }'
@@ -17,7 +19,8 @@ class Read(unittest.TestCase):
 
     def test_programs_for_other_machines(self):
         self.assertTrue(dejagnu.read("{ dg-do compile { target mips*-*-* } }", []).unsupported)
-        self.assertTrue(dejagnu.read("{ dg-do compile { target { { i?86-*-* x86_64-*-* } && { ! ia32 } } } }", []).unsupported)
+        self.assertTrue(dejagnu.read("{ dg-do compile { target { { i?86-*-* x86_64-*-* } && { ! ia32 } } } }",
+                                     []).unsupported)
         self.assertFalse(dejagnu.read("{ dg-do compile { target { ptr32plus && { ! llp64 } } } }", []).unsupported)
         self.assertFalse(dejagnu.read("{ dg-do run { target *-*-* } }", []).unsupported)
 

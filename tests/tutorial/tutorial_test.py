@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
 """docs/tutorial.md and docs/extending.md by doing them: tutorial_test.py SOURCE BUILD [--update] [--whole COPY]
 
-Files and commands are taken from the pages, in their order, as tests/docs/blocks.py says. Files go to out/tutorial, and commands
-begin in the top folder. Blocks of `sh whole` and `text whole` need changed sources built anew.
+Files and commands are taken from the pages, in their order, as tests/docs/blocks.py says. Files go to out/tutorial, and
+commands begin in the top folder. Blocks of `sh whole` and `text whole` need changed sources built anew.
 
-Without --whole the instruction's patch is applied to a copy of the files that it changes, and of these everything is made that takes no compiler:
-tables, manual, patterns. --whole COPY clones the sources into the folder COPY, builds them, and does all that the pages say (some ten minutes).
---update writes into the pages what the commands have printed."""
+Without --whole the instruction's patch is applied to a copy of the files that it changes, and of these everything is
+made that takes no compiler: tables, manual, patterns. --whole COPY clones the sources into the folder COPY, builds
+them, and does all that the pages say (some ten minutes). --update writes into the pages what the commands have
+printed."""
 
 import argparse
-import os
 import pathlib
 import re
 import shutil
@@ -35,14 +35,15 @@ def same_picture(folder, source):
 def run(*command, **options):
     done = subprocess.run([str(word) for word in command], capture_output=True, text=True, **options)
     if done.returncode != 0:
-        raise Failure(f"{' '.join(map(str, command))}: status {done.returncode}\n{done.stdout[-1500:]}{done.stderr[-1500:]}")
+        raise Failure(
+            f"{' '.join(map(str, command))}: status {done.returncode}\n{done.stdout[-1500:]}{done.stderr[-1500:]}")
     return done.stdout
 
 
 def check_figure(source, text):
     """The figure's cycles are those of the pages, all of the tutorial's are there, and bars are as long as they say."""
     bars = re.findall(r'width="(\d+)" height="\d+"/><text [^>]*>(\d[\d,]+)</text>',
-        (source / "docs/tutorial.svg").read_text())
+                      (source / "docs/tutorial.svg").read_text())
     figures = {figure.replace(",", ""): int(width) for width, figure in bars}
     wrong = [figure for figure in figures if not re.search(rf"\b{figure}\b", text)]
     if wrong or not figures:
@@ -57,7 +58,8 @@ def check_figure(source, text):
 
 
 def check_changes(source, build, scratch):
-    """The instruction's patch: it applies, the tables made of them have the new instructions and are otherwise the same, patterns and tests are accepted."""
+    """The instruction's patch: it applies, the tables made of them have the new instructions and are otherwise the
+    same, patterns and tests are accepted."""
     patch = (source / "tests/tutorial/instruction.patch").read_text()
     changed = re.findall(r"^\+\+\+ b/(\S+)", patch, re.M)
     tree = scratch / "changed"
@@ -70,11 +72,13 @@ def check_changes(source, build, scratch):
 
     include = re.search(r"-I (\S*llvm\S*/include)", run("ninja", "-C", build, "-t", "commands", "isa-manual"))[1]
     made = {}
-    for what, old in (("instructions", build / "isa/include/trax/instructions.inc"), ("semantics", build / "isa/include/trax/semantics.inc"),
+    for what, old in (("instructions", build / "isa/include/trax/instructions.inc"),
+                      ("semantics", build / "isa/include/trax/semantics.inc"),
                       ("manual", source / "docs/isa.md")):
         out = scratch / what
         template = ["-template", tree / "isa/isa.md.in"] if what == "manual" else []
-        run(build / "tests/bin/trax-isa-gen", f"-gen={what}", *template, "-I", tree / "isa", "-I", include, tree / "isa/Isa.td", "-o", out)
+        run(build / "tests/bin/trax-isa-gen", f"-gen={what}", *template, "-I", tree / "isa", "-I", include,
+            tree / "isa/Isa.td", "-o", out)
         made[what] = out.read_text()
         lost = [line for line in old.read_text().splitlines() if line not in set(made[what].splitlines())]
         if what != "manual" and lost:
@@ -83,15 +87,17 @@ def check_changes(source, build, scratch):
             if name not in made[what].lower():
                 raise Failure(f"{what}: has no {name}")
     for table in ("dag-isel", "asm-matcher", "instr-info", "disassembler", "emitter"):
-        run("llvm-tblgen-19", f"-gen-{table}", "-I", include, "-I", tree / "llvm-target", "-I", tree / "isa", tree / "llvm-target/Trax.td", "-o",
+        run("llvm-tblgen-19", f"-gen-{table}", "-I", include, "-I", tree / "llvm-target", "-I", tree / "isa",
+            tree / "llvm-target/Trax.td", "-o",
             scratch / table)
     if "Trax::FMAXMIN" not in (scratch / "dag-isel").read_text():
         raise Failure("the compiler has no pattern for fmaxmin")
 
-    check = "import sys; sys.path.insert(0, sys.argv[1]); from description import read_instructions; from instructions import check_rows; " \
-            "check_rows(read_instructions(sys.argv[2]))"
+    check = ("import sys; sys.path.insert(0, sys.argv[1]); from description import read_instructions; "
+             "from instructions import check_rows; check_rows(read_instructions(sys.argv[2]))")
     run(sys.executable, "-B", "-c", check, tree / "tests/isa/suite", scratch / "instructions")
-    without = subprocess.run([sys.executable, "-B", "-c", check, str(source / "tests/isa/suite"), str(scratch / "instructions")], capture_output=True, text=True)
+    without = subprocess.run([sys.executable, "-B", "-c", check, str(source / "tests/isa/suite"),
+                              str(scratch / "instructions")], capture_output=True, text=True)
     if "fmaxmin (FMAXMIN) has no test: add a row to tests/isa/suite/instructions.py" not in without.stderr:
         raise Failure(f"without its row the suite says: {without.stderr}")
     for name in ("FMAXMIN", "FMINMAX"):  # from the class follow unit, latency and energy
@@ -100,7 +106,7 @@ def check_changes(source, build, scratch):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("source", type=pathlib.Path)
     parser.add_argument("build", type=pathlib.Path)
     parser.add_argument("--update", action="store_true")
@@ -128,7 +134,8 @@ def main():
                 root.mkdir()
                 (root / "build").symlink_to(build)
                 (root / "raytracer").symlink_to(source / "raytracer")
-            printed, errors = run_commands(every, root, root / "out/tutorial", ("sh", "whole") if options.whole else ("sh",))
+            printed, errors = run_commands(every, root, root / "out/tutorial",
+                                           ("sh", "whole") if options.whole else ("sh",))
             if errors:
                 raise Failure(f"the commands wrote to standard error:\n{errors[-2000:]}")
             if options.update:

@@ -1,4 +1,5 @@
-"""What a specialised program reads (trax/scene_format.h), for converters of experiments: they run in the folder of prepared inputs, and change scene.trax."""
+"""Reads and changes scene.trax (trax/scene_format.h), for converters of experiments, which run in the folder of
+prepared inputs."""
 
 import array
 import pathlib
@@ -21,7 +22,8 @@ def negated_if(is_leaf):
 
 
 class Scene:
-    """What the device reads (trax/scene_format.h): its words, little endian as is the host (x86-64), and where things are in them."""
+    """The device's scene (trax/scene_format.h) as words, little endian as the host (x86-64), and the places of its
+    parts."""
 
     def __init__(self, path="scene.trax"):
         self.path, self.words = pathlib.Path(path), array.array("I")
@@ -55,13 +57,16 @@ class Scene:
         return (reference - self.base - self.nodes * 4) // (self.node_size * 4)
 
     def boxes(self, node):
-        """Of a node's children: lows and highs along each axis, those in planes in proportion to lengths."""
+        """Returns the lows and highs of a node's children along each axis. Planes on a grid are in proportion to
+        lengths."""
         at = self.nodes + node * self.node_size
         planes = memoryview(self.words)[at:at + self.children].cast("B").cast(self.plane_format)
-        return [[[plane * unit for plane, unit in zip(planes[first:first + 3], self.units)] for first in (box, box + 3)] for box in (0, 6)]
+        return [[[plane * unit for plane,
+                  unit in zip(planes[first:first + 3], self.units)] for first in (box, box + 3)] for box in (0, 6)]
 
     def swap(self, node):
-        at, half, last = self.nodes + node * self.node_size, self.children // 2, self.nodes + node * self.node_size + self.children
+        at, half = self.nodes + node * self.node_size, self.children // 2
+        last = at + self.children
         words = self.words
         words[at:at + half], words[at + half:last] = words[at + half:last], words[at:at + half]
         words[last], words[last + 1] = words[last + 1], words[last]
@@ -73,11 +78,15 @@ class Scene:
         return values[:3], values[3:6], values[6:]
 
     def replace_triangles(self, place, words, behind=()):
-        """place: maps a leaf's first triangle to a place in `words`, in words; `behind` becomes the section of materials."""
+        """place: maps a leaf's first triangle to a place in `words`, in words; `behind` becomes the section of
+        materials."""
         start = self.base + self.triangles * 4
 
         def moved(references):
-            return [start + 4 * place((reference - start) // (TRIANGLE * 4)) + (reference & 7) if reference & 7 else reference for reference in references]
+            return [
+                start + 4 * place(
+                    (reference - start) // (TRIANGLE * 4)) + (reference & 7) if reference & 7 else reference
+                for reference in references]
 
         self.references(moved)
         del self.words[self.triangles:]
@@ -90,4 +99,5 @@ class Scene:
     def leaves(self):
         """First triangle and number of triangles of each leaf, in order."""
         start = self.base + self.triangles * 4
-        return sorted(((reference - start) // (TRIANGLE * 4), reference & 7) for references in self.numbers() for reference in references if reference & 7)
+        return sorted(((reference - start) // (TRIANGLE * 4),
+                       reference & 7) for references in self.numbers() for reference in references if reference & 7)

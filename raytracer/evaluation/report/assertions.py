@@ -1,5 +1,5 @@
-"""What the paper asserts of its choices, and what the sweeps say: judges of claims.py that return (holds, what was
-found); None: not known."""
+"""The paper's assertions about its choices, judged by the sweeps. A judge returns (holds, finding); holds is None if it
+is not known."""
 
 from .results import mean, ratio
 

@@ -1,4 +1,4 @@
-"""Which figures the report has, made of the runs."""
+"""The report's figures, made of the runs."""
 
 import math
 
@@ -50,7 +50,7 @@ def _styles(results, groups, by_scene):
 
 
 def shares(run):
-    """Of the thread-cycles, by group of CAUSES: (style, share, what to say); None if the run has no causes."""
+    """Returns (style, share of the thread-cycles, tip) by group of CAUSES, or None if the run has no causes."""
     total = run.get("thread_cycles")
     parts = []
     for style, label, causes in CAUSES:
@@ -73,12 +73,11 @@ def _scaling(results, paper, scene):
     series = []
     column = results.stands_for.get(scene)
     if paper.speedup(column, "8x64"):
-        points = [(paper.threads(chip), paper.speedup(column,
-                                                      chip), f"paper, {chip}: {paper.speedup(column, chip):.2f} times, "
-                   f"{paper.mrps(column, chip):.2f} MRPS") for chip in paper.chips]
-        series.append(
-            Series("paper" if results.columns[column] == scene else f"paper, {column}", PAPER[0], points, PAPER[1],
-                   line=False))
+        points = [(paper.threads(chip), paper.speedup(column, chip),
+                   f"paper, {chip}: {paper.speedup(column, chip):.2f} times, {paper.mrps(column, chip):.2f} MRPS")
+                  for chip in paper.chips]
+        label = "paper" if results.columns[column] == scene else f"paper, {column}"
+        series.append(Series(label, PAPER[0], points, PAPER[1], line=False))
     for index, program in enumerate(results.programs()):
         style, mark = style_of(index)
         points = []
@@ -124,10 +123,10 @@ def _error_time(results, paper):
         style, mark = style_of(index)
         points = []
         for run in results.runs:
-            published = results.published(
-                paper, run.scene, run.config) if run.program == program and not run.set and not run.workload else None
-            value = ratio(run.get("mrps"), published)
-            if value is None or not run.host_seconds:
+            if run.program != program or run.set or run.workload or not run.host_seconds:
+                continue
+            value = ratio(run.get("mrps"), results.published(paper, run.scene, run.config))
+            if value is None:
                 continue
             points.append((run.host_seconds, 100 * (value - 1),
                            f"{run.name()}: {100 * (value - 1):+.0f} % in {run.host_seconds:.1f} s"))
@@ -234,17 +233,19 @@ def _joined(columns, rows):
     for row in rows:
         groups.setdefault(math.floor(40 * math.log10(max(1, row[0]))), []).append((row, row[0] - begin))
         begin = row[0]
-    fetches = [columns.index(name) for name in ("issued", "icache_bank_conflict") if name in columns]
+    asked = [columns.index(name) for name in ("issued", "icache_bank_conflict") if name in columns]
+
+    def weight(row, column):
+        """An interval's weight for each of its cycles."""
+        by_fetches = column == "fetch_refused" and len(asked) == 2
+        return sum(number(row[other]) or 0 for other in asked) if by_fetches else 1
+
     for group in groups.values():
         joined = [group[-1][0][0]]
         for place, column in enumerate(columns[1:], 1):
-            weights = [(row[place],
-                        cycles * (sum(number(row[other]) or 0
-                                      for other in fetches) if column == "fetch_refused" and len(fetches) == 2 else 1))
-                       for row, cycles in group if number(row[place]) is not None]
-            joined.append(
-                ratio(math.fsum(value * weight for value, weight in weights),
-                      math.fsum(weight for _, weight in weights)))
+            known = [(row[place], cycles * weight(row, column)) for row, cycles in group
+                     if number(row[place]) is not None]
+            joined.append(ratio(math.fsum(value * part for value, part in known), math.fsum(part for _, part in known)))
         yield joined
 
 

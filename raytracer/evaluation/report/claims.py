@@ -1,5 +1,4 @@
-"""What the paper says, and whether what was measured says the same: a row for each claim, with the rule by which it is
-judged."""
+"""The paper's claims: a row for each, with the rule by which it is judged."""
 
 import copy
 from dataclasses import dataclass
@@ -25,7 +24,7 @@ def _judged(holds, found):
 
 
 def table2_deviations(results, paper, program):
-    """Of every cell of Table 2 that was measured."""
+    """Returns the deviation of every cell of Table 2 that was measured."""
     found = [
         deviation(results.figure("mrps", program, scene, chip), paper.mrps(column, chip))
         for column, scene in results.columns.items() for chip in paper.chips
@@ -34,7 +33,7 @@ def table2_deviations(results, paper, program):
 
 
 def speedup(results, program, scene, chip):
-    """From 1x32 to a chip; pictures of one size and mode only."""
+    """Returns the speed-up of a chip over 1x32, for pictures of one size and mode only."""
     one, many = results.cell(program, scene, "1x32"), results.cell(program, scene, chip)
     if not one or not many or one.size != many.size:
         return None
@@ -50,7 +49,8 @@ def median(values):
 
 
 def _near(deviations, cells, what):
-    """All of so many figures are within a tenth of the paper's; deviations has None for what was not measured."""
+    """Judges whether all of so many figures are within a tenth of the paper's. `deviations` has None for a figure that
+    was not measured."""
     values = [abs(value) for value in deviations if value is not None]
     if not values:
         return UNKNOWN, NOT_MEASURED
@@ -279,7 +279,8 @@ def _of_scenes(results, scenes):
 
 
 def _verdict(judge, results, paper, program):
-    """What a judge says. Where scenes are missing a claim stays open, and the text says what the others have."""
+    """Returns a judge's verdict. If scenes are missing the claim stays open, and the text has the finding of the
+    others."""
     def judged(some):
         holds, text = judge(some, paper, program)
         return (holds, text) if holds in (AGREES, DIFFERS, UNKNOWN) else _judged(holds, text)

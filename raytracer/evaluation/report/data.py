@@ -18,7 +18,7 @@ def _rounded(value):
 
 
 def _kept(run, names, source):
-    """Of a run's record what says which run it is, and the figures of these names, flat: stats.mrps,
+    """Returns the part of a run's record that identifies the run, and the figures of these names, flat: stats.mrps,
     values.area_units."""
     record = run.record
     kept = {

@@ -71,7 +71,7 @@ class Builder:
         ], None, {})
 
     def claims(self):
-        """Of programs that are no sweep's variants, the claims of which something is known."""
+        """The claims table of the programs that are no sweep's variants, without claims of which nothing is known."""
         programs = [
             name for name in self.results.programs()
             if any(run.program == name and not run.variant for run in self.results.runs)
@@ -121,7 +121,7 @@ class Builder:
         return [sweep["name"]] if sweep else names
 
     def origin(self, sweep, asked):
-        """What made the figures: the command, the size of the pictures, the version and the day."""
+        """The origin of the figures: the command, the size of the pictures, the version and the day."""
         runs = [run for run in self.results.runs if run.index in asked and run.done]
         sources = self.results.document.get("sources") or [{}]
         sizes = sorted({run.size for run in runs if run.size}, reverse=True)
@@ -143,7 +143,7 @@ class Builder:
 
 
 def needs(pages, builder):
-    """What the pages' blocks show: names of figures by the places of runs, and names of sweeps."""
+    """Returns the figures that the pages' blocks show: their names by run, and the names of the sweeps."""
     needed, sweeps = {}, set()
     for page in pages:
         for name in page.names:

@@ -1,4 +1,4 @@
-"""Quick runs beside the exact runs of the same jobs."""
+"""Compares quick runs with the exact runs of the same jobs."""
 
 import functools
 import itertools
@@ -12,13 +12,14 @@ class Estimate:
     def __init__(self, run, exact):
         self.run, self.exact, self.interval = run, exact, run.interval()
         self.value = exact.get("mrps") if exact else None
-        self.holds = None if self.value is None or self.interval is None else self.interval[
-            0] <= self.value <= self.interval[1]
+        self.holds = None
+        if self.value is not None and self.interval is not None:
+            self.holds = self.interval[0] <= self.value <= self.interval[1]
         self.error = deviation(run.get("mrps"), self.value)
 
 
 def _job(run):
-    """What the exact run of the same job has in common with an estimate: all that says what is run."""
+    """The key that an estimate and the exact run of the same job share."""
     settings = tuple(sorted(str(item) for item in run.set.items() if not item[0].startswith("trax-render --sample-")))
     return run.program, run.scene, run.view, run.workload, run.variant, run.config, run.size, settings
 
@@ -100,7 +101,7 @@ def _summary(name, results, runs):
 
 
 def of_sweep(results, sweep):
-    """What makes the summary of a sweep's estimates, or None."""
+    """Returns a function that makes the summary of a sweep's estimates, or None."""
     runs = [run for run in results.runs if sweep.get("name") in run.experiments]
     if all(run.mode == "exact" for run in runs):
         return None

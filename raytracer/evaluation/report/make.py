@@ -31,7 +31,7 @@ SHORT = {
 
 
 def summary(results, paper, judged):
-    """In plain words: what was measured, and what agrees."""
+    """The summary in plain words: what was measured, and what agrees."""
     done, failed = [run for run in results.runs if run.done], [run for run in results.runs if run.status == "failed"]
     sentences = [
         f"{len(done)} of {len(results.runs)} runs {'is' if len(done) == 1 else 'are'} there" +

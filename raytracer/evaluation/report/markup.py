@@ -32,7 +32,7 @@ MISSING = Html('<span class="missing" title="not measured">–</span>')
 
 
 def _cell(cell, numeric):
-    """Of a Table: numbers have a true minus, and what was not measured is shown as that."""
+    """A cell of a Table. Numbers have a true minus; a missing figure is shown as missing."""
     def figures(text):
         return text.replace("-", "−") if numeric else text
 

@@ -1,4 +1,4 @@
-"""What the paper published (../paper), as the report asks for it."""
+"""The paper's published figures (../paper)."""
 
 import csv
 import pathlib
@@ -53,7 +53,7 @@ class Paper:
         return int(row["tms"] * row["tps_per_tm"])
 
     def mrps(self, column, chip):
-        """Of Table 2; "average" is the paper's own average."""
+        """A rate of Table 2; "average" is the paper's own average."""
         row = self.table2.get(chip)
         return row.get(f"{column}_mrps") if row else None
 

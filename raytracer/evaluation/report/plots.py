@@ -18,6 +18,11 @@ MARKS = {
 }
 
 
+def can_be_drawn(value):
+    """Returns whether a figure is known and lies in the range that axes can have."""
+    return value is not None and (value == 0 or 1e-100 < abs(value) < 1e100)
+
+
 def log_ticks(values):
     """1, 2, 5, 10, ... for a logarithmic axis over these values."""
     values = [value for value in values if value and value > 0]
@@ -28,26 +33,28 @@ def log_ticks(values):
 
 
 class Axis:
-    """The range of an axis, and its ticks: (value, text)."""
-    def __init__(self, values, ticks=None, log=False, base=10, from_zero=False):
-        low, high = min(values), max(values)
-        self.scale = math.log if log else float
-        if log:
-            low, high = low / 1.25, high * 1.25
-        else:
-            low = 0 if from_zero and low >= 0 else low
-            room = 0.06 * (high - low) or abs(high) or 1
-            low, high = low if low == 0 else low - room, high + room
-        self.low, self.high = low, high
+    """The range of an axis, and its ticks: (value, text). low may be above high: then the axis is upside down."""
+    def __init__(self, low, high, ticks=None, log=False, base=10):
+        self.low, self.high, self.scale = low, high, math.log if log else float
         chosen = ticks or (self.powers(base) if log else self.steps())
-        self.ticks = [(value, text) for value, text in chosen if low <= value <= high]
+        self.ticks = [(value, text) for value, text in chosen if min(low, high) <= value <= max(low, high)]
+
+    @classmethod
+    def around(cls, values, ticks=None, log=False, base=10, from_zero=False):
+        """An axis with room around the values."""
+        low, high = min(values), max(values)
+        if log:
+            return cls(low / 1.25, high * 1.25, ticks, log, base)
+        low = 0 if from_zero and low >= 0 else low
+        room = 0.06 * (high - low) or abs(high) or 1
+        return cls(low if low == 0 else low - room, high + room, ticks)
 
     def place(self, value):
         """0 at the low end, 1 at the high end."""
         return (self.scale(value) - self.scale(self.low)) / (self.scale(self.high) - self.scale(self.low))
 
     def steps(self):
-        """At most seven multiples of 1, 2 or 5 times a power of ten."""
+        """Returns at most seven ticks: multiples of 1, 2 or 5 times a power of ten."""
         unit = 10.0**math.floor(math.log10((self.high - self.low) / 5))
         step = next(step for step in (unit, 2 * unit, 5 * unit, 10 * unit) if (self.high - self.low) / step <= 6.5)
         counts = range(math.ceil(self.low / step), math.floor(self.high / step) + 1)
@@ -55,7 +62,7 @@ class Axis:
 
     def powers(self, base):
         first, last = math.ceil(math.log(self.low, base)), math.floor(math.log(self.high, base))
-        if base == 10 and last - first < 2:
+        if last <= first + (base == 10):
             return log_ticks((self.low, self.high))
         return [(float(base)**power, f"{float(base) ** power:g}")
                 for power in range(first, last + 1, 1 + (last - first) // 8)]
@@ -110,7 +117,7 @@ class Series:
         self.points = [(x, y, str(tip)) for x, y, tip in points]
 
     def known(self):
-        return [point for point in self.points if point[0] is not None and point[1] is not None]
+        return [point for point in self.points if can_be_drawn(point[0]) and can_be_drawn(point[1])]
 
 
 class Lines:
@@ -131,9 +138,9 @@ class Lines:
 
     def elements(self):
         points = [point for series in self.series for point in self.drawn(series)]
-        across = Axis([point[0] for point in points], self.x_ticks, self.log_x, self.base, self.from_zero)
-        plane = Plane(across, Axis([point[1] for point in points], None, self.log_y, from_zero=self.from_zero), self.x,
-                      self.y, self.height)
+        across = Axis.around([point[0] for point in points], self.x_ticks, self.log_x, self.base, self.from_zero)
+        up = Axis.around([point[1] for point in points], None, self.log_y, from_zero=self.from_zero)
+        plane = Plane(across, up, self.x, self.y, self.height)
         shown = [*plane.frame()]
         for series in self.series:
             shown += self.line(series, plane) if series.line else []
@@ -160,7 +167,7 @@ class Bars:
     length are missing."""
     def __init__(self, identity, title, x, bars, labels):
         self.identity, self.title, self.x, self.labels = identity, title, x, labels
-        self.bars = [(str(name), [part for part in parts if part[1] is not None and part[1] > 0])
+        self.bars = [(str(name), [part for part in parts if can_be_drawn(part[1]) and part[1] > 0])
                      for name, parts in bars]
         self.height = 80 + 18 * len(self.bars)
 
@@ -172,10 +179,8 @@ class Bars:
         return [(style, "square", label) for style, label in self.labels if style in used]
 
     def elements(self):
-        across, up = Axis([0, 1], from_zero=True), Axis([0, 1])
-        across.low, across.high = 0, max(sum(length for _, length, _ in parts) for _, parts in self.bars)
-        across.ticks = across.steps()
-        up.low, up.high, up.ticks = len(self.bars) - 0.4, -0.6, [(row, name) for row, (name, _) in enumerate(self.bars)]
+        across = Axis(0, max(sum(length for _, length, _ in parts) for _, parts in self.bars))
+        up = Axis(len(self.bars) - 0.4, -0.6, [(row, name) for row, (name, _) in enumerate(self.bars)])
         plane = Plane(across, up, self.x, "", self.height)
         shown = [*plane.frame()]
         for row, (_, parts) in enumerate(self.bars):

@@ -42,8 +42,8 @@ class Group:
 
 
 def groups(results, lanes=False):
-    """All kinds on all machines, or on those of which a SIMD machine's lanes are known. A scene whose run is not there
-    makes the mean of its group missing."""
+    """Returns all kinds on all machines, or on those with known lanes of a SIMD machine. A missing scene makes the mean
+    of its group missing."""
     found = {}
     runs = [run for run in results.runs if not lanes or any(".lanes." in name for name in run.values) or not run.done]
     for run in by_kind(runs):
@@ -79,8 +79,8 @@ def with_lanes(results):
 
 
 def gain_table(results):
-    """What a machine of independent threads does for each ray of a SIMD machine with as many lanes, if lanes were all
-    that differs."""
+    """The gain of a machine of independent threads over a SIMD machine with as many lanes, if lanes were the only
+    difference."""
     columns = [("kind of ray", "t"), ("workload", "t"), ("program", "t"),
                ("chip", "t")] + [(f"{width} lanes in use", "n")
                                  for width in WIDTHS] + [(f"MIMD over {width} lanes", "n") for width in WIDTHS]

@@ -1,5 +1,5 @@
-"""What trax-eval measured (results.json), as the report asks for it. Nothing here is invented: a figure that a file
-does not have, or that is no finite number, is None, and arithmetic on None gives None."""
+"""The measurements of trax-eval (results.json), as the report needs them. A figure that a file does not have, or that
+is no finite number, is None, and arithmetic on None gives None."""
 
 import copy
 import math
@@ -34,12 +34,12 @@ def deviation(ours, published):
 
 
 def mean(values):
-    """Of all, or None if one is missing: an average over fewer scenes would be another figure."""
+    """The mean of all values, or None if one is missing: an average over fewer scenes would be another figure."""
     values = list(values)
     if not values or None in values:
         return None
-    return values[0] if len(values) == 1 else math.fsum(values) / len(
-        values)  # a count stays a whole number; sum rounds otherwise from Python 3.12 on
+    # A count stays a whole number. sum() rounds otherwise from Python 3.12 on.
+    return values[0] if len(values) == 1 else math.fsum(values) / len(values)
 
 
 class Run:
@@ -66,12 +66,12 @@ class Run:
         self.variant = text("variant")
         self.status, self.error, self.command = text("status", "missing"), text("error"), text("command")
         self.json, self.csv, self.picture = text("json"), text("csv"), text("picture")
-        self.set, self.stats, self.values, self.machine = table("set"), table("stats"), table("values"), table(
-            "machine")
+        self.set, self.machine = table("set"), table("machine")
+        self.stats, self.values = table("stats"), table("values")
         self.host_seconds = number(record.get("host_seconds"))
         size = record.get("size")
-        self.size = tuple(size) if isinstance(size, list) and len(size) == 2 and all(
-            isinstance(n, int) and n > 0 for n in size) else None
+        good = isinstance(size, list) and len(size) == 2 and all(isinstance(n, int) and n > 0 for n in size)
+        self.size = tuple(size) if good else None
         experiments = record.get("experiments") or []
         if not isinstance(experiments, list):
             raise Problem(f"runs[{index}].experiments is not a list")
@@ -104,7 +104,7 @@ class Run:
         return number(value)
 
     def processor_seconds(self):
-        """What the run took of the host, whatever else that did."""
+        """The host's processor time of the run, whatever else the host did."""
         self.asked.setdefault(self.index, set()).add("host.processor_seconds")
         host = self.record.get("host")
         return number(host.get("processor_seconds")) if isinstance(host, dict) else None
@@ -117,14 +117,14 @@ class Run:
         return float(value) if isinstance(value, bool) else number(value)
 
     def kinds(self):
-        """Of rays, of which the run has any."""
+        """The kinds of rays that the run has."""
         found = [name.split(".")[1] for name in self.values
                  if name.startswith("rays.") and name.endswith(".count")] if self.done else []
         found.sort(key=lambda kind: (KINDS.index(kind) if kind in KINDS else len(KINDS), kind))
         return [kind for kind in found if self.get(f"values.rays.{kind}.count")]
 
     def axis(self, name):
-        """What a sweep's table can have a row or a column for, as it is."""
+        """The run's value on an axis of a sweep's tables."""
         if name in ("program", "scene", "chip", "variant", "workload", "mode", "size"):
             value = getattr(self, "config" if name == "chip" else name)
             return value and "{}x{}".format(*value) if name == "size" else value
@@ -160,12 +160,12 @@ class Run:
         return rays * clock / high, rays * clock / low
 
     def is_estimate(self):
-        """Whether the run may be off: its interval has two ends. A quick run of which all is simulated is exact."""
+        """Returns whether the run's interval has two ends. A quick run of which all is simulated is exact."""
         interval = self.interval()
         return interval is not None and interval[0] != interval[1]
 
     def frames_per_second(self):
-        """At 1280x720, whatever the size of the picture: the simulated time a pixel, times as many."""
+        """Frames per second at 1280x720: the simulated time a pixel, times the pixels of such a picture."""
         seconds = self.get("seconds")
         if not seconds or not self.size:
             return None
@@ -177,38 +177,20 @@ class Run:
                                            self.mode) if part)
 
 
-def upgrade(document):
-    """Version 1 had no titles; what of the paper its scenes stand for was known here."""
-    papers = {
-        "conference": "conference", "crytek-sponza": "crytek", "dragon": "dragon", "forest": "fairy",
-        "dragon-close": "dragon"
-    }
-    runs = [run for run in document.get("runs") or [] if isinstance(run, dict)]
-
-    def named(key, order=()):
-        return sorted({run[key] for run in runs if isinstance(run.get(key), str)}, key=lambda name:
-                      (order.index(name) if name in order else len(order), name))
-
-    return {
-        **document, "version": 2, "programs": [{"name": name} for name in named("program")],
-        "scenes": [{"name": name, "paper": papers.get(name)} for name in named("scene", list(papers))]
-    }
-
-
 class Results:
     def __init__(self, document, runs=None):
         if not isinstance(document, dict) or document.get("format") != FORMAT:
             raise Problem(f"is not a file of results: \"format\" is not \"{FORMAT}\"")
-        if document.get("version") not in (1, 2):
-            raise Problem(f"\"version\" is {document.get('version')!r}; this report reads versions 1 and 2")
+        if document.get("version") != 2:
+            raise Problem(f"\"version\" is {document.get('version')!r}, not 2: another trax-eval wrote it; its command "
+                          "writes it anew")
         for key in ("runs", "sweeps", "series", "programs", "scenes", "workloads"):
             if not isinstance(document.get(key), (list, type(None))):
                 raise Problem(f"\"{key}\" is not a list")
             for index, entry in enumerate(document.get(key) or []):
                 if not isinstance(entry, dict):
                     raise Problem(f"{key}[{index}] is not an object")
-        self.document = document = upgrade(document) if document["version"] == 1 else document
-        self.asked = {}
+        self.document, self.asked = document, {}
         self.runs = [Run(record, index, self.asked)
                      for index, record in enumerate(document.get("runs") or [])] if runs is None else runs
         self.sweeps = document.get("sweeps") or []
@@ -260,7 +242,7 @@ class Results:
         return Results(self.document, [run for run in self.runs if sweep in run.experiments])
 
     def named(self, kind):
-        """Of "programs", "scenes", "workloads": what is known of each that has runs, by name, in the order of the
+        """Returns the entries of "programs", "scenes" or "workloads" that have runs, by name, in the order of the
         file."""
         known = {entry["name"]: entry for entry in self.document.get(kind) or [] if isinstance(entry.get("name"), str)}
         present = dict.fromkeys(getattr(run, kind[:-1]) for run in self.runs)
@@ -287,7 +269,8 @@ class Results:
         return paper.mrps(self.stands_for.get(scene), chip)
 
     def machine(self, program):
-        """What all machines of a program have besides their chip and what was set for single runs: (key, value)."""
+        """Returns the settings (key, value) that all machines of a program have, apart from their chip and from
+        settings of single runs."""
         seen = {}  # by key, the values of the runs that do not set it
         runs = [run for run in self.runs if run.program == program and run.done]
         for run in runs:

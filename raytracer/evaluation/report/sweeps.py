@@ -11,10 +11,12 @@ from trax_eval.table_spec import AS, descriptions
 from .results import deviation, mean, number, ratio
 from .table import Cell, Table, between, duration, figure, percent, share
 
-SUMMARIES = {
-    "geometric mean": lambda values: math.prod(values)**(1 / len(values))
-    if min(values) > 0 else None, "least": min, "greatest": max
-}
+
+def geometric_mean(values):
+    return math.exp(math.fsum(map(math.log, values)) / len(values)) if min(values) > 0 else None
+
+
+SUMMARIES = {"geometric mean": geometric_mean, "least": min, "greatest": max}
 NAMED = ("program", "workload", "kind", "variant", "chip", "size", "mode", "scene")
 # Titles of figures; those that are shares are shown in per cent.
 TITLES = {
@@ -34,8 +36,8 @@ OF_KINDS = [
 
 
 class Value:
-    """What a table shows of a run: a statistic, or an object with its `name` and what it is divided by (`per`),
-    `title`, `digits`, `percent`, how it is compared (`as`), and with `paper` also the rate in the paper's Table 2."""
+    """A figure of a run in a table: a statistic, or an object with its `name` and its divisor (`per`), `title`,
+    `digits`, `percent`, how it is compared (`as`), and with `paper` also the rate in the paper's Table 2."""
     def __init__(self, given, compared=AS[0]):
         given = {"name": given} if isinstance(given, str) else given
         self.name, self.per = given["name"], given.get("per")
@@ -63,12 +65,13 @@ class Value:
         return self.compared in ("times", "percent")
 
     def cell(self, value, **more):
-        return share(value, 1 if value and abs(value) < 0.01 else 0, **more) if self.percent else figure(
-            value, self.digits, **more)
+        if self.percent:
+            return share(value, 1 if value and abs(value) < 0.01 else 0, **more)
+        return figure(value, self.digits, **more)
 
 
 def interval_text(run, per=None):
-    """Of a run's rate, divided by `per` as the rate is."""
+    """The interval of a run's rate as text, divided by `per` as the rate is."""
     interval = run.interval()
     if interval and per:
         interval = tuple(ratio(end, run.get(per)) for end in interval)
@@ -78,8 +81,8 @@ def interval_text(run, per=None):
 
 
 def by_kind(runs):
-    """Each run by each kind of its rays; one that is not done by those that others of its workload have, so that a mean
-    with it is missing."""
+    """Yields each run once for each kind of its rays. An unfinished run has the kinds of the other runs of its
+    workload, so that a mean with it is missing."""
     kinds = {}
     for run in runs:
         kinds.setdefault((run.program, run.workload), {}).update(dict.fromkeys(run.kinds()))
@@ -91,7 +94,7 @@ def by_kind(runs):
 
 
 class Axes:
-    """In what the runs of a table differ, and the order of each axis's values."""
+    """The axes in which the runs of a table differ, and the order of each axis's values."""
     def __init__(self, results, paper, runs, sweep):
         self.runs, self.order = runs, {}
         keys = dict.fromkeys([
@@ -135,11 +138,11 @@ class Axes:
 
 
 def relation(value, times):
-    """How many times another figure one is, instead of both."""
+    """A cell with the ratio of a figure to another, instead of both."""
     if value.compared == "times":
         return figure(times, value.digits)
-    return Cell(None if times is None else percent(times - 1, signed=True, digits=1),
-                None if times is None else times - 1)
+    change = None if times is None else times - 1
+    return Cell(percent(change, signed=True, digits=1), change)
 
 
 def _is_one(value, wanted):
@@ -248,7 +251,7 @@ class SweepTable:
         yield duration(sum(hosts.values()) or None)
 
     def fixed(self):
-        """What all runs have in common, for the title."""
+        """The values that all runs have in common, for the title."""
         shown = (*self.rows, *self.columns, *self.mean, *self.each)
         first = [self.axes.order[key][0] for key in NAMED if key not in shown and len(self.axes.order[key]) == 1]
         return ", ".join(str(value) for value in first if value)

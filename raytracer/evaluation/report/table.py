@@ -81,7 +81,7 @@ class Table:
         self.note, self.notes = note, notes
 
     def measured(self):
-        """Without the rows of which nothing was measured that could be."""
+        """Returns the table without rows of which nothing was measured."""
         def is_there(cell):
             return cell.value is not None and cell.style != "paper"
 
@@ -89,13 +89,13 @@ class Table:
         return Table(self.identity, self.title, self.columns, rows, self.note, self.notes)
 
     def without_empty(self):
-        """Without the columns in which nothing was measured."""
+        """Returns the table without columns in which nothing was measured."""
         kept = [place for place in range(len(self.columns)) if any(row[place].shown for row in self.rows)]
         return Table(self.identity, self.title, [self.columns[place] for place in kept],
                      [[row[place] for place in kept] for row in self.rows], self.note, self.notes)
 
     def lines(self, padded):
-        """Of Markdown; padded: to be read as it stands."""
+        """Lines of Markdown; padded: to be read as plain text."""
         def plain(cell):
             text = "-" if cell.shown is None else " ".join([cell.shown, *(text for text, _ in cell.links)])
             text = f"{text} ({cell.below})" if cell.below else text

@@ -22,7 +22,7 @@ def _shade(value):
 
 
 def published(value):
-    """As the paper has it: no digit more, and none less."""
+    """A published figure with the paper's digits."""
     return Cell(None if value is None else getattr(value, "text", f"{value:g}"), value, style="paper")
 
 
@@ -44,8 +44,7 @@ def measured(run, wanted):
 
 
 def claims_table(claims, programs):
-    columns = [("claim", "t"),
-               ("paper", None)] + [(program, "t") for program in programs] + [("how it is judged", None)]
+    columns = [("claim", "t"), ("paper", None), *((program, "t") for program in programs), ("how it is judged", None)]
     rows, notes = [], []
     for claim in claims:
         row, more = [words(claim.title), Cell(claim.paper)], []
@@ -76,11 +75,10 @@ def table1(results, paper):
         chip, wanted = row["name"], row.get("rt_gflops")
         if chip not in paper.table2:
             rows.append([
-                words(chip), EMPTY,
-                published(row.get("area_mm2")), *([EMPTY] * (1 + len(programs))),
-                published(row.get("peak_gflops")), EMPTY,
-                published(wanted) if wanted else EMPTY
-            ] + [EMPTY] * (len(columns) - 7 - len(programs)))
+                words(chip), EMPTY, published(row.get("area_mm2")), *([EMPTY] * (1 + len(programs))),
+                published(row.get("peak_gflops")), EMPTY, published(wanted) if wanted else EMPTY,
+                *([EMPTY] * len(programs))
+            ])
             continue
         one = next((run for run in results.runs if run.config == chip and run.done and not run.set), None)
 
@@ -108,7 +106,7 @@ def table1(results, paper):
 
 
 def table1_scenes(results, paper, program):
-    """What the mean of Table 1 is made of, and how much of the time the units are in use."""
+    """The scenes behind the mean of Table 1, and the utilisation of the units."""
     columns = [("chip", "t"), ("threads", "n"), ("RT GFLOPS, paper", "n"), (program, "n"),
                *((scene, "n") for scene in results.papers),
                *((unit, "n") for unit in ("adders", "multipliers", "FPDIV/iSQRT"))]
@@ -148,8 +146,8 @@ def table2(results, paper, program):
             duration(sum(run.host_seconds or 0 for run in done) or None)
         ]
         rows.append(row)
-    note = own_machine(results, program) + "Million rays per second. " \
-        "The fairy scene is not available; the generated forest replaces it."
+    note = (own_machine(results, program) + "Million rays per second. "
+            "The fairy scene is not available; the generated forest replaces it.")
     times = [
         run.host_seconds for chip in paper.chips for scene in results.papers
         if (run := results.cell(program, scene, chip)) and run.host_seconds
@@ -161,7 +159,7 @@ def table2(results, paper, program):
 
 
 def speedups(results, paper, program):
-    """From 1x32, which tells of the machine whatever the program's speed is."""
+    """Speed-ups over 1x32, which depend on the machine more than on the program's speed."""
     columns = [("chip", "t"), ("threads", "n")]
     for column, scene in results.columns.items():
         columns += [(f"{column}, paper", "n"), (f"{scene}, {program}", "n")]
@@ -274,7 +272,7 @@ def described(results, paper):
 
 
 def hardware(results, paper):
-    """What each chip's hardware did, a row for each run of a cell."""
+    """The utilisation of each chip's hardware, a row for each run of a cell."""
     columns = [("program", "t"), ("scene", "t"), ("chip", "t"), ("adders", "n"), ("multipliers", "n"),
                ("FPDIV/iSQRT", "n"), ("issue", "n"), ("data-cache hits", "n"), ("bank conflicts, instructions", "n"),
                ("bandwidth", "n"), ("bytes a ray", "n"), ("binds", "t"), ("power (W)", "n")]
@@ -347,7 +345,8 @@ def run_table(results, paper, link, configurations):
 
 
 def makers(results, paper, sweep):
-    """What makes a sweep's tables, of its own runs alone: the paper's for the sweeps that repeat its tables."""
+    """Returns functions that make a sweep's tables from its own runs. The sweeps that repeat the paper's tables have
+    those."""
     name = sweep.get("name")
     only, made = results.only(name), []
     for make in {"table1": (table1, ), "table2": (of_the_text, ), "table3": (table3, )}.get(name, ()):

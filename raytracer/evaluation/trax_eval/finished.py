@@ -37,7 +37,7 @@ class DamagedPicture(Problem):
 
 
 def is_picture(path, pixels):
-    """Whether it is there and has the pixels of that hash."""
+    """Returns whether the picture exists and has the pixels of that hash."""
     try:
         status = os.stat(path)
     except OSError:
@@ -55,7 +55,7 @@ def shows(path, pixels, *stamp):
 
 
 def forget_damaged(out, keys):
-    """So that damaged runs are made anew. Of those that a damaged picture is of, one is enough."""
+    """Removes damaged runs, so that they are made anew. Of the runs that share a damaged picture, one is enough."""
     pictures = set()
     for key in keys:
         try:

@@ -1,5 +1,5 @@
-"""What programs read: prepared by trax-render, changed by the program's converter, and kept under the hash of what the
-manifest says."""
+"""The inputs of programs: prepared by trax-render, changed by the program's converter, and kept under the hash of the
+manifest's description."""
 
 import contextlib
 import filecmp
@@ -20,7 +20,7 @@ SOURCE = "source"  # of a program that trax-render is to compile again
 
 
 class Request(typing.NamedTuple):
-    """Of what inputs are made."""
+    """The things that inputs are made of."""
 
     scene: pathlib.Path
     view: str | None
@@ -136,7 +136,7 @@ def seal_inputs(program, folder):
 
 
 def description_of(manifest):
-    """What of the manifest decides a result: a job has a machine of its own."""
+    """The part of the manifest that decides a result. The machine is the job's."""
     return {name: manifest[name] for name in ("program", "buffers", "items", "picture")}
 
 

@@ -9,7 +9,7 @@ SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 class Interrupted(BaseException):
-    """By the signal whose number is its argument."""
+    """An interrupt by the signal whose number is its argument."""
 
 
 class Held:
@@ -47,7 +47,7 @@ def catch_interrupts():
 
 
 def end_by_signal(number):
-    """As every program of the project: docs/architecture.md, "Signals"."""
+    """Ends the process by the signal, as every program of the project (docs/architecture.md, "Signals")."""
     print("trax-eval: interrupted; the same command goes on", file=sys.stderr)
     sys.stdout.flush()
     signal.signal(number, signal.SIG_DFL)

@@ -144,7 +144,7 @@ def measure(tools, out, inputs, job, scratch, threads, run):
 
 
 def check_inputs(job, inputs):
-    """What the manifest names is checked by trax-sim."""
+    """Checks the files beside the manifest. trax-sim checks those that the manifest names."""
     whole = job["inputs"].get("whole", {}).get("files", {})
     expected = {name: value for name, value in job["inputs"].items() if name != "whole"}
     damaged = [] if description_of(read_manifest(inputs)) == expected else [NAME]
@@ -154,7 +154,7 @@ def check_inputs(job, inputs):
 
 
 def run_process(program, command, scratch, on_start):
-    """What it took of the host; an error if it fails. on_start is told the process."""
+    """Runs a command and returns its resource usage; a Problem if it fails. on_start receives the process."""
     with open(f"{scratch}/errors", "wb") as errors:
         process = subprocess.Popen(dying(command, "KILL"), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                                    stderr=errors)
@@ -234,7 +234,7 @@ def keep_results(out, key, job, scratch, statistics, figures, code, host):
 
 
 def processor():
-    """What the host calls its processor."""
+    """The host's name of its processor."""
     try:
         for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines():
             if line.startswith("model name"):

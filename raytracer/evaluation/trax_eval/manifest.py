@@ -1,4 +1,4 @@
-"""What trax-render --prepare writes (docs/manifest.md)."""
+"""The manifest that trax-render --prepare writes (docs/manifest.md)."""
 
 import ctypes
 import json
@@ -29,7 +29,7 @@ def library():
 
 
 def xxh128_of_file(path):
-    """As xxhsum -H2 prints it."""
+    """The hash as xxhsum -H2 prints it."""
     functions = library()
     state = ctypes.c_void_p(functions.XXH3_createState())
     try:

@@ -16,12 +16,12 @@ read = set()  # identities of all files that the command under way has opened fo
 
 
 def identity(found):
-    """Of a file, by its status. A later file may have the inode of one that is gone."""
+    """A file's identity, by its status. A later file may have the inode of a removed one."""
     return found.st_dev, found.st_ino, found.st_ctime_ns
 
 
 class IsInput(Exception):
-    """What the user is told."""
+    """The output is an input. The message is for the user."""
 
 
 def note(event, arguments):
@@ -76,7 +76,8 @@ def temporary_name(target):
 
 
 def check_target(target, path, foreign):
-    """What may be replaced: nothing, or a regular file, and of foreign files none that was read."""
+    """Returns the status of the file to be replaced, or None. Only a regular file may be replaced, and a foreign one
+    only if it was not read."""
     try:
         found = os.lstat(target)
     except FileNotFoundError:

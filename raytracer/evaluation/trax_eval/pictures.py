@@ -9,7 +9,7 @@ SIGNATURE = b"\x89PNG\r\n\x1a\n"
 
 
 def png(picture, pixels):
-    """What a manifest describes so, R, G, B, A bytes, row by row, as a PNG."""
+    """Writes a manifest's picture, R, G, B, A bytes, row by row, as a PNG."""
     width, height = picture["width"], picture["height"]
     if picture["layout"] != "rgba uint8":
         raise Problem(f"the picture is of {picture['layout']}, not of bytes")
@@ -36,7 +36,7 @@ def rows_of(data):
 
 
 def pixels_that_differ(one, other):
-    """Of two of our pictures (paths); None of pictures of two sizes."""
+    """Counts the pixels that differ between two of our pictures (paths); None for pictures of two sizes."""
     if one == other:
         return 0
     (size, rows), (other_size, other_rows) = rows_of(one.read_bytes()), rows_of(other.read_bytes())

@@ -1,4 +1,5 @@
-"""From sweeps to keys of jobs: names and options are checked, programs built, scenes imported and inputs prepared."""
+"""Turns sweeps into keys of jobs: names and options are checked, programs built, scenes imported and inputs
+prepared."""
 
 import contextlib
 import sys
@@ -60,7 +61,7 @@ def check_machines(sweeps, tools):
 
 
 class Planner:
-    """From points to keys of jobs. Programs are built, scenes imported and inputs prepared once each."""
+    """Turns points into keys of jobs. Programs are built, scenes imported and inputs prepared once each."""
     def __init__(self, out, tools, folder, quiet, only_look, scratch):
         self.out, self.tools, self.folder, self.scratch = out, tools, folder, scratch
         self.quiet, self.only_look = quiet, only_look
@@ -93,15 +94,17 @@ class Planner:
         return self.once(("program", program), make)
 
     def scene(self, sweep, point):
-        """As plan_scene."""
+        """Returns the scene file that a point needs, and its import, as plan_scene does."""
         scene, workload = sweep.scenes[point.scene], sweep.workloads[point.workload]
         options = tuple(point.options("trax-scene", workload))
         machine = point.chip_file, point.machine()
-        order = order_options(self.tools.whole(*machine, "dcache.bytes")) if point.program.specialised else [
-        ]  # it is made for a machine, as trax-render has it
+        order = []
+        if point.program.specialised:  # made for a machine, as trax-render has it
+            order = order_options(self.tools.whole(*machine, "dcache.bytes"))
+        key = "scene", point.scene, scene["folder"], tuple(scene["meshes"]), options, tuple(order)
         return self.once(
-            ("scene", point.scene, scene["folder"], tuple(scene["meshes"]), options, tuple(order)), lambda: plan_scene(
-                self.out, self.tools, self.folder, scene, [*order, *options], self.hashes, self.only_look))
+            key, lambda: plan_scene(self.out, self.tools, self.folder, scene, [*order, *options], self.hashes,
+                                    self.only_look))
 
     def import_all(self, sweeps, jobs):
         """The scenes of all sweeps, several at the same time."""
@@ -129,19 +132,19 @@ class Planner:
         return imported.path
 
     def request(self, sweep, point):
-        """What its inputs are made of; None if its scene is only looked at and has not been imported."""
+        """Returns the request for a point's inputs; None if its scene is only looked at and has not been imported."""
         scene, program, workload = sweep.scenes[point.scene], point.program, sweep.workloads[point.workload]
         machine = point.chip_file, point.machine()
         rendered = tuple(point.options("trax-render", workload))
-        sampling = tuple(
-            word for word in rendered
-            if word.startswith("--sample-") and point.mode == "quick")  # all of an exact picture is simulated
+        # All of an exact picture is simulated.
+        sampling = tuple(word for word in rendered if word.startswith("--sample-") and point.mode == "quick")
         rendered = tuple(word for word in rendered if not word.startswith("--sample-"))
         path = self.scene_file(sweep, point)
         if path is None:
             return None
-        chip = tuple(self.tools.whole(*machine, key)
-                     for key in ("chip.tms", "icache.bytes")) if program.specialised else None
+        chip = None
+        if program.specialised:
+            chip = tuple(self.tools.whole(*machine, key) for key in ("chip.tms", "icache.bytes"))
         return Request(path, scene["view"], point.size, program, chip, rendered, sampling,
                        whole=point.mode == "quick" or point.error or point.hits)
 

@@ -24,7 +24,7 @@ MOST_COUNTERS = 1024
 
 @dataclasses.dataclass(eq=False)
 class Program:
-    """What a file says. There is one for each file."""
+    """The contents of a program's file. Each file has one object."""
 
     name: str
     title: str
@@ -47,7 +47,7 @@ class Program:
 
     @property
     def plain(self):
-        """It runs as trax-render has it: nothing is compiled or changed here."""
+        """Returns whether trax-render runs the program as it is: nothing is compiled or changed here."""
         return not (self.patches or self.convert or self.counters or self.program.endswith(".c") or
                     self.source and self.specialised)
 

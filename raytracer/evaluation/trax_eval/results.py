@@ -15,15 +15,15 @@ from .values import ratio, values_of
 
 FORMAT, VERSION = "trax-eval-results", 2
 CATALOGUES = ("programs", "scenes", "workloads")
-LEFT_OUT = ("tms", "channels", "instructions_by_operation", "identity"
-            )  # of the statistics: the run's own file has them
+# Statistics that only the run's own file has.
+LEFT_OUT = ("tms", "channels", "instructions_by_operation", "identity")
 SERIES_ROWS, SERIES_BEGIN = 2000, 500
 SERIES_COLUMNS = ("issued", "icache_bank_conflict", "fp_add_conflict", "fp_mul_conflict", "dcache_bank_conflict",
                   "wait_memory", "halted")
 
 
 def effective(point, tools):
-    """Without settings that are what the machine has anyway, so that equal machines are called equal."""
+    """Returns the settings without those that the machine has anyway, so that equal machines have equal names."""
     kept = []
     for pair in point.settings:
         if pair[0].startswith("trax-render --sample-") and point.mode == "exact":  # all of it is simulated
@@ -55,9 +55,9 @@ def machine_of(point, tools):
 
 
 def plan_file(out, sweep):
+    """The sweep's requests. Exact runs stay in the results beside estimates of the same sweep."""
     modes = {"quick"} if sweep.quick else {point.mode for point in sweep.points} - {"exact"}
-    return out / "sweeps" / ".".join([sweep.name, *sorted(modes), "json"
-                                      ])  # exact runs stay in the results beside estimates of the same sweep
+    return out / "sweeps" / ".".join([sweep.name, *sorted(modes), "json"])
 
 
 def references(sweep, keys):
@@ -69,16 +69,19 @@ def references(sweep, keys):
             other for other in sweep.points if sweep.reference in (other.variant, other.program.name) and
             (other.scene, other.workload) == (point.scene, point.workload)
         ]
+
+        def likeness(other):
+            return other.chip == point.chip, len(set(other.settings) & set(point.settings)), \
+                other.program is point.program
+
         if same:
-            found[point] = keys[max(
-                same, key=lambda other: (other.chip == point.chip, len(set(other.settings) & set(point.settings)), other
-                                         .program is point.program))][0]
+            found[point] = keys[max(same, key=likeness)][0]
     return found
 
 
 def write_plan(out, sweep, keys, tools):
-    """What a sweep asks for, so that results.json can be made of all sweeps in the folder. keys: point -> key, or the
-    reason why there is none."""
+    """Writes a sweep's requests, so that results.json can be made of all sweeps in the folder. keys: point -> key, or
+    the reason why there is none."""
     points, compared = [], references(sweep, keys)
     for point in sweep.points:
         key, reason = keys[point]
@@ -158,7 +161,7 @@ def thin_series(path, threads):
 
 
 def compared(out, result, reference):
-    """How many pixels differ from those of the run with the key `reference`."""
+    """Counts the pixels that differ from those of the run with the key `reference`."""
     other, _ = found_of(out, reference) if reference else (None, None)
     if not other or not result["picture"] or not other[0]["picture"]:
         return {}
@@ -169,7 +172,7 @@ def compared(out, result, reference):
 
 
 def catalogue(plans, kind):
-    """What the plans say of programs, scenes or workloads, each once."""
+    """Returns the plans' programs, scenes or workloads, each once."""
     return list({one["name"]: one for plan in reversed(plans) for one in reversed(plan.get(kind, []))}.values())[::-1]
 
 
@@ -182,7 +185,7 @@ def found_of(out, key):
 
 
 def run_of(out, tools, areas, point):
-    """What is known of a run, from its files. Its machine has the paper's name, whatever the sweep calls it."""
+    """Returns a run's record, made of its files. Its machine has the paper's name, whatever the sweep calls it."""
     point = point | point.get("preset", {})
     run = {
         name: point[name] for name in ("key", "scene", "view", "size", "program", "config", "set", "machine", "mode")
@@ -211,7 +214,7 @@ def run_of(out, tools, areas, point):
 
 
 def is_foreign(path):
-    """Whether it is JSON, but no plan."""
+    """Returns whether the file is JSON, but no plan."""
     try:
         value = read_json(path)
     except Problem:

@@ -1,4 +1,4 @@
-"""Who runs the jobs: this process, GNU parallel, or Slurm. Each starts `trax-eval job`, or does what that does."""
+"""The runners of jobs: this process, GNU parallel, or Slurm. Each starts `trax-eval job`, or does the same."""
 
 import concurrent.futures
 import contextlib
@@ -60,7 +60,7 @@ class Progress:
 
 
 def reason(error):
-    """What a program or a fault says first: its message too, if it is on the next line."""
+    """The first words of a program's message or fault, with the fault's message if it is on the next line."""
     lines = [line.strip() for line in error.splitlines()]
     message = next((line.removeprefix("message").strip() for line in lines[1:] if line.startswith("message ")), None)
     return f"{lines[0]}: {message}" if message else lines[0]
@@ -81,8 +81,7 @@ def try_job(out, tools, key, threads, on_start=None):
 
 
 def kill(process):
-    """Not process.kill, which would wait for it, too. It may have ended by itself, and its thread not be done with it
-    yet."""
+    """Kills a process. process.kill would also wait for it, and its thread may still do so."""
     if process.returncode is None:
         with contextlib.suppress(ProcessLookupError):
             os.kill(process.pid, signal.SIGKILL)
@@ -203,8 +202,8 @@ def slurm(*words):
 
 
 class Queue:
-    """What Slurm's controller knows of arrays. It is asked now and then. If it does not answer for a while, the tasks
-    go on."""
+    """The state of arrays according to Slurm's controller, which is asked now and then. If it does not answer for a
+    while, the tasks go on."""
     def __init__(self, arrays):
         self.arrays, self.asked, self.answered, self.known = arrays, None, time.monotonic(), True
 

@@ -47,7 +47,7 @@ def find_scenes(name, beside, sets=True):
 
 
 def find_mesh(directory, name, beside=None):
-    """In the folder `beside`, or in that of scenes, where it may be packed."""
+    """Finds a mesh in the folder `beside`, or in that of scenes, where it may be packed."""
     if name.startswith("generate:"):
         return name
     for candidate in (*([pathlib.Path(beside, name)] if beside else []), directory / name, directory / (name + ".xz")):
@@ -88,7 +88,7 @@ def plan_scene(out, tools, directory, scene, options, hashes, only_look=False):
 
 
 def is_current(path, record, hashes, tell):
-    """Whether the scene file is what an import would make of the files as they are. tell: damage is noted."""
+    """Returns whether the scene file is what an import of the present files would give. tell: damage is noted."""
     try:
         known = read_sealed(record) if record.exists() else None
         damaged = known and path.exists() and hash_file(path) != known["scene"] and f"{path}: is damaged"
@@ -115,7 +115,7 @@ def hash_or_none(path):
 
 
 def read_list(path):
-    """What trax-scene --list-files wrote: names as bytes of any encoding, each byte a letter."""
+    """Reads the output of trax-scene --list-files: names as bytes of any encoding, each byte a letter."""
     files = {}
     for line in path.read_bytes().decode("latin-1").split("\n")[:-1]:
         digest, name = line.removeprefix("\\").split("  ", 1)
@@ -145,5 +145,6 @@ def import_scenes(wanted, jobs, scratch):
 
 
 def mesh_files(directory, name):
-    """Of a scene that comes with trax, in the folder of scenes: for scripts that measure without trax-eval."""
+    """The meshes of a scene that comes with trax, in the folder of scenes: for scripts that measure without
+    trax-eval."""
     return [find_mesh(directory, mesh) for mesh in find_scenes(name, ".", False)[0]["meshes"]]

@@ -46,7 +46,7 @@ def option_words(name, value):
 
 
 def without_option(words, name):
-    """Without the option and its values."""
+    """Returns the words without the option and its values."""
     kept, dropped = [], False
     for word in words:
         if word.startswith("--"):
@@ -80,14 +80,14 @@ class Point:
         return self.config or self.chip
 
     def machine(self):
-        """All changes of the chip's configuration; of the same key the sweep's."""
+        """Returns all changes of the chip's configuration; those of the sweep go before the program's."""
         return tuple(
             {**dict(self.program.settings),
              **{key: value for key, value in self.settings if not option_of(key)}}.items())
 
     def options(self, tool, workload):
-        """What trax-scene or trax-render is given: the program's options, the workload's, and the sweep's in place of
-        both."""
+        """Returns the options for trax-scene or trax-render: the program's and the workload's, replaced by the
+        sweep's."""
         words = [
             *(self.program.scene if tool == "trax-scene" else self.program.render),
             *workload["scene" if tool == "trax-scene" else "render"]
@@ -101,7 +101,7 @@ class Point:
 
 @dataclasses.dataclass
 class Sweep:
-    """What a file asks for."""
+    """The contents of a sweep file."""
 
     name: str
     title: str
@@ -128,7 +128,7 @@ class Reader(Fields):
         return pathlib.Path(self.path).parent
 
     def found(self, key, find, name):
-        """What a file beside the sweep or of the installation says; `find` looks for it."""
+        """Looks up a name in a file beside the sweep or in the installation, by `find`."""
         try:
             return find(name, self.folder)
         except Problem as problem:
@@ -154,7 +154,7 @@ class Reader(Fields):
         return [(key, value) for value in values]
 
     def variants(self):
-        """Every combination of the values: a list of (variant, its program or None, tuple of (key, value))."""
+        """Returns every combination of the values: a list of (variant, its program or None, tuple of (key, value))."""
         groups = self.value.get("set", {})
         groups = groups if isinstance(groups, list) else [groups]
         combinations, names = [], []

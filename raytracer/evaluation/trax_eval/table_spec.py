@@ -2,35 +2,68 @@
 
 from .util import Problem
 
-KEYS = ("id", "title", "each", "rows", "columns", "values", "mean", "where", "only", "relative", "as", "summary")
 AS = ("change", "times", "percent", "figure")  # how a figure is compared; the first is the default
 SUMMARIES = ("geometric mean", "least", "greatest")
+
+
 LISTS = ("each", "rows", "columns", "mean", "values", "summary")
 
 
-def is_value(entry, key):
-    return isinstance(entry, str) or key == "values" and isinstance(entry, dict) and isinstance(entry.get("name"), str)
+def listed(value):
+    return value if isinstance(value, list) else [value]
+
+
+def is_text(value):
+    return isinstance(value, str)
+
+
+def is_figure(value):
+    return is_text(value) or isinstance(value, dict) and is_text(value.get("name"))
+
+
+def is_place(value):
+    return isinstance(value, (str, int, float))
+
+
+def is_choice(value):
+    return isinstance(value, dict) and all(is_place(one) for some in value.values() for one in listed(some))
+
+
+TEXT = is_text, "expected a text"
+FLAG = (lambda value: isinstance(value, bool)), "expected true or false"
+NAMES = (lambda value: all(map(is_text, listed(value)))), "expected names"
+CHOICE = is_choice, "expected an object of axes and values"
+COMPARED = (lambda value: value in AS), f"allowed are {', '.join(AS)}"
+# The members of a table, and those of an object in its `values`: the test of each, and what its error says.
+OF_TABLE = {
+    "id": TEXT, "title": TEXT, "each": NAMES, "rows": NAMES, "columns": NAMES, "mean": NAMES, "where": CHOICE,
+    "only": CHOICE, "as": COMPARED,
+    "values": (lambda value: all(map(is_figure, listed(value))), "expected names"),
+    "relative": (lambda value: is_choice(value) and all(map(is_place, value.values())), CHOICE[1]),
+    "summary": (lambda value: all(one in SUMMARIES for one in listed(value)), f"allowed are {', '.join(SUMMARIES)}"),
+}
+OF_VALUE = {
+    "name": TEXT, "per": TEXT, "title": TEXT, "percent": FLAG, "paper": FLAG, "as": COMPARED,
+    "digits": (lambda value: type(value) is int and 1 <= value <= 15, "expected a number from 1 to 15"),
+}
+
+
+def check(given, members, where):
+    for key, value in given.items():
+        if key not in members:
+            raise Problem(f'{where}: unknown key "{key}"; allowed are {", ".join(members)}')
+        is_good, message = members[key]
+        if not is_good(value):
+            raise Problem(f"{where}.{key}: {message}")
 
 
 def checked(given, where):
     """One description, with a list for each single word. A wrong member is a Problem."""
-    for key in given:
-        if key not in KEYS:
-            raise Problem(f'{where}: unknown key "{key}"; allowed are {", ".join(KEYS)}')
-    spec = {key: [value] if key in LISTS and not isinstance(value, list) else value for key, value in given.items()}
-    for key in LISTS:
-        if not all(is_value(entry, key) for entry in spec.get(key, [])):
-            raise Problem(f"{where}.{key}: expected names")
-    for key in ("where", "only", "relative"):
-        if not isinstance(spec.get(key, {}), dict):
-            raise Problem(f"{where}.{key}: expected an object of axes and values")
-    for one in [spec, *(value for value in spec.get("values", []) if isinstance(value, dict))]:
-        if one.get("as", AS[0]) not in AS:
-            raise Problem(f"{where}.as: allowed are {', '.join(AS)}")
-    if any(name not in SUMMARIES for name in spec.get("summary", [])):
-        raise Problem(f"{where}.summary: allowed are {', '.join(SUMMARIES)}")
-    if not all(isinstance(spec.get(key, ""), str) for key in ("id", "title")):
-        raise Problem(f"{where}: id and title are texts")
+    check(given, OF_TABLE, where)
+    spec = {key: listed(value) if key in LISTS else value for key, value in given.items()}
+    for value in spec.get("values", []):
+        if isinstance(value, dict):
+            check(value, OF_VALUE, f"{where}.values")
     return spec
 
 

@@ -25,7 +25,8 @@ def dying(command, number="TERM"):
 
 
 def communicate(process):
-    """What it said. In short steps: Python notices a signal that comes just before a wait only at the wait's end."""
+    """Waits for a process and returns its output. It waits in short steps, because Python notices a signal that comes
+    just before a wait only at the wait's end."""
     while True:
         try:
             return process.communicate(timeout=POLL_SECONDS)
@@ -51,8 +52,8 @@ def run_tool(command, **where):
 
 
 def run_tools(commands, jobs):
-    """As run_tool, several at the same time: yields (place in the list, finished process) as they end. Their output is
-    what they said of errors."""
+    """Runs several commands at the same time, as run_tool: yields (place in the list, finished process) as they end.
+    Their output is their standard error."""
     running, waiting = {}, list(enumerate(commands))
     try:
         while waiting or running:

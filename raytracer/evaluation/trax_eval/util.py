@@ -1,4 +1,4 @@
-"""What every part needs: errors for the user, hashes, files that appear complete or not at all."""
+"""Common parts: errors for the user, hashes, files that appear complete or not at all."""
 
 import hashlib
 import json
@@ -12,11 +12,11 @@ from .outputs import write_output
 
 
 class Problem(Exception):
-    """What the user is told; the command ends with status 1."""
+    """An error for the user. The command ends with status 1."""
 
 
 def complain(program, problem, kind="error", colour="1;31"):
-    """As every program says it (emulator/base/message.c)."""
+    """Prints an error as every program does (emulator/base/message.c)."""
     coloured = not os.environ.get("NO_COLOR") and os.environ.get("TERM", "dumb") != "dumb" and sys.stderr.isatty()
     begin, end = (f"{chr(27)}[{colour}m", f"{chr(27)}[0m") if coloured else ("", "")
     print(f"{program}: {begin}{kind}: {end}{problem}", file=sys.stderr, flush=True)
@@ -58,8 +58,8 @@ def write_file(path, data):
 
 
 def identity(path):
-    """Which file a path names, whatever its spelling; None of what is no regular file, which may be written any number
-    of times."""
+    """Identifies the file that a path names, whatever its spelling; None for anything but a regular file, which may be
+    written any number of times."""
     try:
         found = os.stat(path)
     except OSError:
@@ -126,7 +126,7 @@ def finite(text):
 
 
 def check_texts(value):
-    """What a file of JSON can say and no name, path or argument can have."""
+    """Refuses texts that JSON can have and no name, path or argument can."""
     if isinstance(value, str) and ("\0" in value or any("\ud800" <= letter <= "\udfff" for letter in value)):
         raise ValueError(f"{json.dumps(value)} is no text: it has a character of no encoding, or NUL")
     if isinstance(value, dict):

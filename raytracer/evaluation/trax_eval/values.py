@@ -45,11 +45,11 @@ class Areas:
         area += groups(fpu["tps_per_cluster"]) * fpu["adders_per_cluster"] * adder
         multiplier_groups = groups(fpu["mul_tps_per_cluster"] or fpu["tps_per_cluster"])
         area += multiplier_groups * fpu["multipliers_per_cluster"] * unit["fp_mul"]
-        area += groups(
-            configuration["int_mul"]["tps_per_unit"]) * configuration["int_mul"]["units_per_group"] * unit["int_mul"]
+        int_mul = configuration["int_mul"]
+        area += groups(int_mul["tps_per_unit"]) * int_mul["units_per_group"] * unit["int_mul"]
         area += configuration["special"]["units_per_tm"] * unit["special"]
-        ray = 6 * (unit["fp_add"] +
-                   unit["fp_mul"]) + 13 * unit["fp_compare"] + unit["special"]  # docs/results/ray-unit.md
+        # docs/results/ray-unit.md
+        ray = 6 * (unit["fp_add"] + unit["fp_mul"]) + 13 * unit["fp_compare"] + unit["special"]
         area += groups(configuration["ray"]["tps_per_group"]) * configuration["ray"]["units_per_group"] * ray
         area += groups(icache["tps_per_cache"]) * caches[0] + caches[1]
         return configuration["chip"]["tms"] * area
@@ -92,9 +92,9 @@ STALLS = {
 
 
 def values_of_rays(result, statistics):
-    """By kind of ray, `none` for what is done for no ray: rays.KIND.count, mrps, bytes_per_ray, energy_per_ray (nJ),
-    share (of the thread-cycles that are not after a thread's end), utilisation, one of STALLS and rest (shares of the
-    kind's thread-cycles), and lanes.WIDTH."""
+    """Returns values by kind of ray, with `none` for work for no ray: rays.KIND.count, mrps, bytes_per_ray,
+    energy_per_ray (nJ), share (of the thread-cycles before the threads' ends), utilisation, one of STALLS and rest
+    (shares of the kind's thread-cycles), and lanes.WIDTH."""
     rows = [row for row in result.get("ray_kinds", []) if row["kind"] not in ("all", "rest") and row["thread_cycles"]]
     lanes = {(row["kind"], int(row["width"])): row["utilisation"] for row in result.get("ray_lanes", [])}
     live = statistics["thread_cycles"] - statistics["causes"]["halted"]

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Compile libc++'s headers, but for those that are not available: all in one file, in the order of their names and in the opposite
-one. With TRAX_LEVELS=all in the environment, each alone, too. Exit status 0 if all compile.
+"""Compile libc++'s headers, but for those that are not available: all in one file, in the order of their names and in
+the opposite one. With TRAX_LEVELS=all in the environment, each alone, too. Exit status 0 if all compile.
 
     cxx_headers.py CLANG++ --target=trax
 """
@@ -22,9 +22,12 @@ def main():
 
     def compile_headers(names, *options):
         text = "".join(f"#include <{name}>\n" for name in names)
-        return subprocess.run([*compiler, "-std=c++23", *options, "-x", "c++", "-"], input=text, capture_output=True, text=True, check=False)
+        return subprocess.run([*compiler, "-std=c++23", *options, "-x", "c++", "-"], input=text, capture_output=True,
+                              text=True, check=False)
 
-    directories = [line.strip() for line in compile_headers([], "-v", "-fsyntax-only").stderr.splitlines() if line.startswith(" /")]
+    directories = [
+        line.strip() for line in compile_headers([], "-v", "-fsyntax-only").stderr.splitlines()
+        if line.startswith(" /")]
     folder = next(directory for directory in directories if os.path.exists(os.path.join(directory, "vector")))
     names = [name for name in sorted(os.listdir(folder)) if "." not in name and not name.startswith("_")]
     names = [name for name in names if os.path.isfile(os.path.join(folder, name))]

@@ -1,4 +1,5 @@
-"""What Compiler Explorer does with its properties: explore.py PROPERTIES SOURCE. It cannot be installed by itself; these are its commands."""
+"""What Compiler Explorer does with its properties: explore.py PROPERTIES SOURCE. It cannot be installed by itself;
+these are its commands."""
 
 import subprocess
 import sys
@@ -15,10 +16,14 @@ def run(*command):
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout
 
 
-value = lambda key: values["compiler.trax." + key]
+def value(key):
+    return values["compiler.trax." + key]
+
+
 if "clang version" not in run(value("exe"), "--version"):
     sys.exit("not taken for clang")
-run(value("exe"), *value("options").split(), "-g", "-o", "output.s", "-S", "-fcolor-diagnostics", "-fno-crash-diagnostics", source)
+run(value("exe"), *value("options").split(), "-g", "-o", "output.s", "-S", "-fcolor-diagnostics",
+    "-fno-crash-diagnostics", source)
 with open("output.s", encoding="utf-8") as file:
     if "main:" not in (text := file.read()) or ".loc" not in text:
         sys.exit("assembly without a function or without places")

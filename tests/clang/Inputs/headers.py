@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""headers.py CLANG FOLDER: every header of C17 that a program finds here, and our own, compiles alone, in C and in C++, without
-warnings, twice in a row; what C17 promises of each is declared, and its functions are in the library. Exit status 1 and the compiler's words
-if not."""
+"""headers.py CLANG FOLDER: every header of C17 that a program finds here, and our own, compiles alone, in C and in C++,
+without warnings, twice in a row; what C17 promises of each is declared, and its functions are in the library. Exit
+status 1 and the compiler's words if not."""
 
 import os
 import subprocess
@@ -9,69 +9,79 @@ import sys
 
 # Header: functions and macros that must be usable after it alone (C17 7.x), but for WITHOUT.
 HEADERS = {
-    "alloca.h": "alloca",
-    "assert.h": "assert",
-    "complex.h": "complex I CMPLX CMPLXF CMPLXL " + " ".join(
+    "alloca.h": "alloca", "assert.h": "assert", "complex.h": "complex I CMPLX CMPLXF CMPLXL " + " ".join(
         name + suffix for suffix in ("", "f", "l") for name in
-        "cacos casin catan ccos csin ctan cacosh casinh catanh ccosh csinh ctanh cexp clog cabs cpow csqrt carg cimag conj cproj creal".split()),
-    "ctype.h": "isalnum isalpha isblank iscntrl isdigit isgraph islower isprint ispunct isspace isupper isxdigit tolower toupper",
+        "cacos casin catan ccos csin ctan cacosh casinh catanh ccosh csinh ctanh cexp clog cabs cpow csqrt carg cimag "
+        "conj cproj creal"
+        .split()),
+    "ctype.h": "isalnum isalpha isblank iscntrl isdigit isgraph islower isprint ispunct isspace isupper isxdigit "
+               "tolower toupper",
     "errno.h": "errno EDOM EILSEQ ERANGE",
-    "fenv.h": "feclearexcept fegetexceptflag feraiseexcept fesetexceptflag fetestexcept fegetround fesetround fegetenv feholdexcept "
-              "fesetenv feupdateenv FE_TONEAREST FE_ALL_EXCEPT FE_DFL_ENV",
+    "fenv.h": "feclearexcept fegetexceptflag feraiseexcept fesetexceptflag fetestexcept fegetround fesetround fegetenv "
+              "feholdexcept "
+    "fesetenv feupdateenv FE_TONEAREST FE_ALL_EXCEPT FE_DFL_ENV",
     "float.h": "DBL_MAX FLT_EPSILON LDBL_DIG DBL_TRUE_MIN FLT_EVAL_METHOD DECIMAL_DIG",
-    "inttypes.h": "imaxabs imaxdiv strtoimax strtoumax wcstoimax wcstoumax PRId64 PRIxPTR SCNuMAX",
-    "iso646.h": "",
+    "inttypes.h": "imaxabs imaxdiv strtoimax strtoumax wcstoimax wcstoumax PRId64 PRIxPTR SCNuMAX", "iso646.h": "",
     "limits.h": "CHAR_BIT INT_MAX LLONG_MIN ULONG_MAX",
-    "math.h": "HUGE_VAL HUGE_VALF HUGE_VALL INFINITY NAN FP_ILOGB0 math_errhandling fpclassify isfinite isinf isnan isnormal signbit "
-              "isgreater isgreaterequal isless islessequal islessgreater isunordered " + " ".join(
+    "math.h": "HUGE_VAL HUGE_VALF HUGE_VALL INFINITY NAN FP_ILOGB0 math_errhandling fpclassify isfinite isinf isnan "
+              "isnormal signbit "
+    "isgreater isgreaterequal isless islessequal islessgreater isunordered " + " ".join(
         name + suffix for suffix in ("", "f", "l") for name in
-        "acos asin atan atan2 cos sin tan acosh asinh atanh cosh sinh tanh exp exp2 expm1 frexp ilogb ldexp log log10 log1p log2 logb "
-        "modf scalbn scalbln cbrt fabs hypot pow sqrt erf erfc lgamma tgamma ceil floor nearbyint rint lrint llrint round lround "
+        "acos asin atan atan2 cos sin tan acosh asinh atanh cosh sinh tanh exp exp2 expm1 frexp ilogb ldexp log log10 "
+        "log1p log2 logb "
+        "modf scalbn scalbln cbrt fabs hypot pow sqrt erf erfc lgamma tgamma ceil floor nearbyint rint lrint llrint "
+        "round lround "
         "llround trunc fmod remainder remquo copysign nan nextafter nexttoward fdim fmax fmin fma".split()),
-    "setjmp.h": "setjmp longjmp",
-    "stdalign.h": "",
-    "stdarg.h": "va_start va_arg va_end va_copy",
+    "setjmp.h": "setjmp longjmp", "stdalign.h": "", "stdarg.h": "va_start va_arg va_end va_copy",
     "stdatomic.h": "atomic_fetch_add atomic_init ATOMIC_INT_LOCK_FREE atomic_flag_test_and_set",
-    "stdbool.h": "true false",
-    "stddef.h": "NULL offsetof",
-    "stdint.h": "INT64_MAX UINT8_C SIZE_MAX",
+    "stdbool.h": "true false", "stddef.h": "NULL offsetof", "stdint.h": "INT64_MAX UINT8_C SIZE_MAX",
     "signal.h": "signal raise SIG_DFL SIG_IGN SIG_ERR SIGABRT SIGFPE SIGILL SIGINT SIGSEGV SIGTERM",
     "locale.h": "setlocale localeconv LC_ALL LC_COLLATE LC_CTYPE LC_MONETARY LC_NUMERIC LC_TIME",
-    "stdio.h": "remove rename tmpfile tmpnam fclose fflush fopen freopen setbuf setvbuf fprintf fscanf printf scanf snprintf sprintf sscanf "
-               "vfprintf vfscanf vprintf vscanf vsnprintf vsprintf vsscanf fgetc fgets fputc fputs getc getchar putc putchar puts ungetc "
-               "fread fwrite fgetpos fseek fsetpos ftell rewind clearerr feof ferror perror stdin stdout stderr EOF BUFSIZ FILENAME_MAX "
-               "FOPEN_MAX L_tmpnam SEEK_CUR SEEK_END SEEK_SET TMP_MAX _IOFBF _IOLBF _IONBF",
-    "stdlib.h": "atof atoi atol atoll strtod strtof strtold strtol strtoll strtoul strtoull rand srand RAND_MAX aligned_alloc calloc "
-                "free malloc realloc abort atexit at_quick_exit exit _Exit getenv quick_exit system bsearch qsort abs labs llabs div "
-                "ldiv lldiv mblen mbtowc wctomb mbstowcs wcstombs EXIT_SUCCESS EXIT_FAILURE MB_CUR_MAX",
-    "stdnoreturn.h": "",
-    "string.h": "memcpy memmove strcpy strncpy strcat strncat memcmp strcmp strcoll strncmp strxfrm memchr strchr strcspn strpbrk "
-                "strrchr strspn strstr strtok memset strerror strlen strtok_r strnlen stpcpy memmem memccpy strdup",
-    "strings.h": "strcasecmp strncasecmp",
-    "tgmath.h": "",
-    "threads.h": "call_once mtx_destroy mtx_init mtx_lock mtx_trylock mtx_unlock thrd_create thrd_current thrd_equal thrd_exit thrd_sleep "
-                 "thrd_yield ONCE_FLAG_INIT mtx_plain mtx_recursive mtx_timed thrd_timedout thrd_success thrd_busy thrd_error thrd_nomem",
+    "stdio.h": "remove rename tmpfile tmpnam fclose fflush fopen freopen setbuf setvbuf fprintf fscanf printf scanf "
+               "snprintf sprintf sscanf "
+    "vfprintf vfscanf vprintf vscanf vsnprintf vsprintf vsscanf fgetc fgets fputc fputs getc getchar putc putchar puts "
+    "ungetc "
+    "fread fwrite fgetpos fseek fsetpos ftell rewind clearerr feof ferror perror stdin stdout stderr EOF BUFSIZ "
+    "FILENAME_MAX "
+    "FOPEN_MAX L_tmpnam SEEK_CUR SEEK_END SEEK_SET TMP_MAX _IOFBF _IOLBF _IONBF",
+    "stdlib.h": "atof atoi atol atoll strtod strtof strtold strtol strtoll strtoul strtoull rand srand RAND_MAX "
+                "aligned_alloc calloc "
+    "free malloc realloc abort atexit at_quick_exit exit _Exit getenv quick_exit system bsearch qsort abs labs llabs "
+    "div "
+    "ldiv lldiv mblen mbtowc wctomb mbstowcs wcstombs EXIT_SUCCESS EXIT_FAILURE MB_CUR_MAX", "stdnoreturn.h": "",
+    "string.h": "memcpy memmove strcpy strncpy strcat strncat memcmp strcmp strcoll strncmp strxfrm memchr strchr "
+                "strcspn strpbrk "
+    "strrchr strspn strstr strtok memset strerror strlen strtok_r strnlen stpcpy memmem memccpy strdup",
+    "strings.h": "strcasecmp strncasecmp", "tgmath.h": "",
+    "threads.h": "call_once mtx_destroy mtx_init mtx_lock mtx_trylock mtx_unlock thrd_create thrd_current thrd_equal "
+                 "thrd_exit thrd_sleep "
+    "thrd_yield ONCE_FLAG_INIT mtx_plain mtx_recursive mtx_timed thrd_timedout thrd_success thrd_busy thrd_error "
+    "thrd_nomem",
     "time.h": "clock difftime mktime time timespec_get asctime ctime gmtime localtime strftime CLOCKS_PER_SEC TIME_UTC",
     "uchar.h": "mbrtoc16 c16rtomb mbrtoc32 c32rtomb",
-    "wchar.h": "wcstod wcstof wcstold wcstol wcstoll wcstoul wcstoull wcscpy wcsncpy wmemcpy wmemmove wcscat wcsncat wcscmp wcscoll wcsncmp "
-               "wcsxfrm wmemcmp wcschr wcscspn wcspbrk wcsrchr wcsspn wcsstr wcstok wmemchr wcslen wmemset wcsftime btowc wctob mbsinit "
-               "mbrlen mbrtowc wcrtomb mbsrtowcs wcsrtombs WEOF WCHAR_MIN",
-    "wctype.h": "iswalnum iswalpha iswblank iswcntrl iswdigit iswgraph iswlower iswprint iswpunct iswspace iswupper iswxdigit iswctype "
-                "wctype towlower towupper towctrans wctrans WEOF",
-    "trax.h": "trax_thread",
-}
+    "wchar.h": "wcstod wcstof wcstold wcstol wcstoll wcstoul wcstoull wcscpy wcsncpy wmemcpy wmemmove wcscat wcsncat "
+               "wcscmp wcscoll wcsncmp "
+    "wcsxfrm wmemcmp wcschr wcscspn wcspbrk wcsrchr wcsspn wcsstr wcstok wmemchr wcslen wmemset wcsftime btowc wctob "
+    "mbsinit "
+    "mbrlen mbrtowc wcrtomb mbsrtowcs wcsrtombs WEOF WCHAR_MIN",
+    "wctype.h": "iswalnum iswalpha iswblank iswcntrl iswdigit iswgraph iswlower iswprint iswpunct iswspace iswupper "
+                "iswxdigit iswctype "
+    "wctype towlower towupper towctrans wctrans WEOF", "trax.h": "trax_thread", }
 # What is not here; docs/porting.md says so.
 WITHOUT = {
-    "threads.h": "cnd_broadcast cnd_destroy cnd_init cnd_signal cnd_timedwait cnd_wait mtx_timedlock thrd_detach thrd_join tss_create "
-                 "tss_delete tss_get tss_set",
-    "wchar.h": "fgetwc fgetws fputwc fputws fwide fwprintf fwscanf getwc getwchar putwc putwchar swprintf swscanf ungetwc vfwprintf "
-               "vfwscanf vswprintf vswscanf vwprintf vwscanf wprintf wscanf",
-}
-NOT_IN_CXX = {"uchar.h", "wchar.h", "wctype.h", "threads.h", "stdatomic.h", "stdnoreturn.h", "tgmath.h", "complex.h", "stdalign.h", "stdbool.h", "iso646.h"}
+    "threads.h": "cnd_broadcast cnd_destroy cnd_init cnd_signal cnd_timedwait cnd_wait mtx_timedlock thrd_detach "
+                 "thrd_join tss_create "
+    "tss_delete tss_get tss_set",
+    "wchar.h": "fgetwc fgetws fputwc fputws fwide fwprintf fwscanf getwc getwchar putwc putwchar swprintf swscanf "
+               "ungetwc vfwprintf "
+    "vfwscanf vswprintf vswscanf vwprintf vwscanf wprintf wscanf", }
+NOT_IN_CXX = {"uchar.h", "wchar.h", "wctype.h", "threads.h", "stdatomic.h", "stdnoreturn.h", "tgmath.h", "complex.h",
+              "stdalign.h", "stdbool.h", "iso646.h"}
 # Macros that are not values.
-MACROS = set("ONCE_FLAG_INIT alloca assert complex CMPLX CMPLXF CMPLXL offsetof va_start va_arg va_end va_copy UINT8_C "
-                 "fpclassify isfinite isinf isnan isnormal signbit isgreater isgreaterequal isless islessequal islessgreater "
-                 "isunordered atomic_fetch_add atomic_init atomic_flag_test_and_set".split())
+MACROS = set(
+    "ONCE_FLAG_INIT alloca assert complex CMPLX CMPLXF CMPLXL offsetof va_start va_arg va_end va_copy UINT8_C "
+    "fpclassify isfinite isinf isnan isnormal signbit isgreater isgreaterequal isless islessequal islessgreater "
+    "isunordered atomic_fetch_add atomic_init atomic_flag_test_and_set".split())
 
 
 def program(header, names, cxx):
@@ -80,14 +90,18 @@ def program(header, names, cxx):
         if name == "errno":
             lines.append("int get_errno(void);\nint get_errno(void) { return errno; }")
         elif cxx:  # libc++ makes overloaded functions of some macros
-            if name not in MACROS and not name[:3].isupper() and name not in ("math_errhandling", "stdin", "stdout", "stderr", "L_tmpnam", "true", "false"):
+            if name not in MACROS and not name[:3].isupper() and name not in ("math_errhandling", "stdin", "stdout",
+                                                                              "stderr", "L_tmpnam", "true", "false"):
                 lines.append(f"namespace use{number} {{ using ::{name}; }}")
         elif name in MACROS:
             lines += [f"#ifndef {name}", f"#error {name}", "#endif"]
         else:
             lines.append(f"__typeof__(({name})) *use{number};")
     if header == "tgmath.h":
-        lines.append("float f(float x, double y);\nfloat f(float x, double y) { return sin(x) + (float)pow(x, y) + (float)fabs(y); }")
+        lines.append(
+            "float f(float x, double y);\nfloat f(float x, double y) { return sin(x) + (float)pow(x, y) + "
+            "(float)fabs(y); }"
+        )
     if header == "assert.h":
         lines.append('static_assert(1, "");')
     if header == "stdalign.h":
@@ -98,7 +112,8 @@ def program(header, names, cxx):
 
 
 def declares(clang, header, name):
-    done = subprocess.run([*clang, "-fsyntax-only", "-x", "c", "-"], input=f"#include <{header}>\nvoid *f = (void *){name};", text=True,
+    done = subprocess.run([*clang, "-fsyntax-only", "-x", "c", "-"],
+                          input=f"#include <{header}>\nvoid *f = (void *){name};", text=True,
                           stderr=subprocess.DEVNULL, check=False)
     return done.returncode == 0
 
@@ -109,12 +124,14 @@ def missing_functions(clang, folder):
     with open(path, "w", encoding="utf-8") as file:
         for number, (header, names) in enumerate(HEADERS.items()):
             functions = [name for name in names.split() if name.islower() and name not in MACROS and header != "trax.h"]
-            functions = [name for name in functions if name not in ("errno", "stdin", "stdout", "stderr", "true", "false", "math_errhandling")]
+            functions = [name for name in functions if name not in ("errno", "stdin", "stdout", "stderr", "true",
+                                                                    "false", "math_errhandling")]
             file.write(f"#include <{header}>\nvoid *functions{number}[] = {{0")
             file.writelines(f",\n#ifndef {name}\n(void *){name}\n#else\n0\n#endif\n" for name in functions)
             file.write("};\n")
         file.write("int main(void) { return 0; }\n")
-    done = subprocess.run([*clang, "-w", path, "-mstack=global", "-Wl,--no-gc-sections", "-Wl,--no-check-stack", "-Wl,--error-limit=0", "-o",
+    done = subprocess.run([*clang, "-w", path, "-mstack=global", "-Wl,--no-gc-sections", "-Wl,--no-check-stack",
+                           "-Wl,--error-limit=0", "-o",
                            os.path.join(folder, "functions")], stderr=subprocess.PIPE, check=False)
     return done.stderr.decode() if done.returncode else ""
 

@@ -1,7 +1,7 @@
 """Runs a recipe of docs/compiler.md as it stands there: recipe.py PAGE DIR HEADING...
 
-Under each `### HEADING`, in their order: a block `sh recipe` is run by a shell that stops at the first error; of any other block the first line,
-`# NAME`, says which file it is. DIR in both is the installation."""
+Under each `### HEADING`, in their order: a block `sh recipe` is run by a shell that stops at the first error; of any
+other block the first line, `# NAME`, says which file it is. DIR in both is the installation."""
 
 import re
 import subprocess

@@ -5,7 +5,8 @@ import subprocess
 import sys
 
 clang, objdump, tree, folder = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3]), pathlib.Path(sys.argv[4])
-SOURCES = ("llvm-target/bench/kernels/tree.c", "llvm-target/bench/kernels/quicksort.c", "llvm-target/bench/kernels/hash_table.c",
+SOURCES = ("llvm-target/bench/kernels/tree.c", "llvm-target/bench/kernels/quicksort.c",
+           "llvm-target/bench/kernels/hash_table.c",
            "llvm-target/bench/kernels/ray_traversal.c", "tests/clang/struct-passing.cpp")
 LEVELS = ("-O0", "-O2", "-Os")
 folder.mkdir(parents=True, exist_ok=True)
@@ -13,9 +14,11 @@ differing = []
 for source in SOURCES:
     for level in LEVELS:
         for name, flags in (("without", []), ("with", ["-g"])):
-            subprocess.run([clang, "--target=trax", level, *flags, "-w", "-I", tree / "raytracer/device", "-I", tree / "raytracer/include",
+            subprocess.run([clang, "--target=trax", level, *flags, "-w", "-I", tree / "raytracer/device", "-I",
+                            tree / "raytracer/include",
                             "-c", tree / source, "-o", folder / f"{name}.o"], check=True)
-        done = subprocess.run([objdump, "-d", folder / "without.o", folder / "with.o"], capture_output=True, text=True, check=True)
+        done = subprocess.run([objdump, "-d", folder / "without.o", folder / "with.o"], capture_output=True, text=True,
+                              check=True)
         without, listing = done.stdout.split(f"{folder}/with.o:", 1)
         without = without.split(f"{folder}/without.o:", 1)[1]
         if without.strip() != listing.strip():

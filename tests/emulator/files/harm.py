@@ -1,5 +1,6 @@
-"""Parts of files_test.py that harm a run: it is killed, or has no room, or another process changes its folder. A file of the user is
-then as a whole what it was or what the program wrote, and nothing outside the folder is read or written."""
+"""Parts of files_test.py that harm a run: it is killed, or has no room, or another process changes its folder. A file
+of the user is then as a whole what it was or what the program wrote, and nothing outside the folder is read or
+written."""
 
 import os
 import pathlib
@@ -18,7 +19,8 @@ def contents(count, seed):
 
 
 class Versions:
-    """Files that are written again and again, in each way that programs use. `room`: bytes that the host lets a file have."""
+    """Files that are written again and again, in each way that programs use. `room`: bytes that the host lets a file
+    have."""
 
     def __init__(self, seed, room=1 << 30):
         pick = random.Random(seed)

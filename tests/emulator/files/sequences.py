@@ -3,7 +3,8 @@
 import os
 import random
 
-# What a sequence may do. `pending`: changes that may wait for a checkpoint; `rights`: run by a user who may not write everything.
+# What a sequence may do. `pending`: changes that may wait for a checkpoint; `rights`: run by a user who may not write
+# everything.
 KINDS = ("all", "pending", "rights")
 NAMES = ("a", "b", "c", "n", "d/a", "d/b", "d/n", "e/a", "h", "l", "dead", "ll/a", "d/e/a")
 FOLDERS = ("d", "e", "d/e", "f")

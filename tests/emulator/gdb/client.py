@@ -14,7 +14,8 @@ class Client:
     """A trax-sim that waits for its debugger, and the debugger."""
 
     def __init__(self, sim, *arguments, acknowledge=False):
-        self.process = subprocess.Popen([sim, "--gdb", "0", "--engine", ENGINE, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.process = subprocess.Popen([sim, "--gdb", "0", "--engine", ENGINE, *arguments], stdout=subprocess.PIPE,
+                                        stderr=subprocess.PIPE)
         line = self.process.stderr.readline().decode()
         port = re.fullmatch(r"trax-sim: waiting for GDB: target remote localhost:(\d+)\n", line)
         if not port:

@@ -13,7 +13,7 @@ import time
 import unittest
 
 sys.dont_write_bytecode = True  # not beside the sources
-from client import ENGINE, Client, thread_of
+from client import ENGINE, Client, thread_of  # noqa: E402
 
 BIN = os.path.abspath(sys.argv.pop(1))
 SIM = os.path.join(BIN, "trax-sim")
@@ -46,7 +46,10 @@ def read_symbols(elf):
     """Of a little-endian ELF32 file, by name."""
     with open(elf, "rb") as file:
         data = file.read()
-    number = lambda at, size=4: int.from_bytes(data[at : at + size], "little")
+
+    def number(at, size=4):
+        return int.from_bytes(data[at:at + size], "little")
+
     sections = [number(32) + i * number(46, 2) for i in range(number(48, 2))]
     result = {}
     for section in sections:
@@ -233,8 +236,8 @@ class Protocol(unittest.TestCase):
         self.assertEqual(read_figures(stats), figures(*FOUR, path("threads")))
 
     def test_as_gdb_steps_over(self):
-        """As GDB does it: the breakpoint is taken away, one thread is stepped alone, the breakpoint comes back. The others
-        miss nothing, and no stop but the stepped thread's comes while it is stepped."""
+        """As GDB does it: the breakpoint is taken away, one thread is stepped alone, the breakpoint comes back. The
+        others miss nothing, and no stop but the stepped thread's comes while it is stepped."""
         stats = os.path.join(work.name, "debugged.json")
         client = self.client("threads", *FOUR, "--stats", stats)
         at, visits = symbols["threads"]["work"], []
@@ -276,7 +279,8 @@ class Protocol(unittest.TestCase):
             if pc == places[-1]:
                 stop = client.resume("vCont;c")
         self.assertEqual(stop[:2], ("W", 0))
-        self.assertEqual(sorted(visits), sorted((thread, place) for thread in range(4) for place in places for _ in range(3)))
+        self.assertEqual(sorted(visits),
+                         sorted((thread, place) for thread in range(4) for place in places for _ in range(3)))
         client.end()
         self.assertEqual(read_figures(stats), figures(*FOUR, path("threads")))
 
@@ -504,8 +508,10 @@ class Protocol(unittest.TestCase):
         self.assertEqual(len(client.monitor("disassemble 0x1000 3").splitlines()), 3)
         self.assertIn("r5  a1", client.monitor("registers"))
         self.assertIn("instructions", client.monitor("stats"))
-        self.assertRegex(client.monitor("where"), r"^work at .*threads.c:7\n    called by main at .*\n    called by _start at .*\n$")
-        self.assertRegex(client.monitor("threads"), r"^4 threads, 0 ended\n(4 threads in work at (.*\n){3}    threads 0-3|[1-3] thr)")
+        self.assertRegex(client.monitor("where"),
+                         r"^work at .*threads.c:7\n    called by main at .*\n    called by _start at .*\n$")
+        self.assertRegex(client.monitor("threads"),
+                         r"^4 threads, 0 ended\n(4 threads in work at (.*\n){3}    threads 0-3|[1-3] thr)")
         self.assertIn("monitor cycle", client.monitor("help"))
         for command in ("", "cycles", "cycle now", "disassemble x", "disassemble 2", "disassemble 0x1000 5 5"):
             self.assertIn("not understood", client.monitor(command), command)
@@ -531,7 +537,8 @@ class Protocol(unittest.TestCase):
     def test_resumed(self):
         """The rest of a run that a checkpoint holds."""
         stats, checkpoint = (os.path.join(work.name, name) for name in ("resumed.json", "checkpoint"))
-        subprocess.run([SIM, *FOUR, "--checkpoint", checkpoint, "--max-cycles", "200", path("threads")], stderr=subprocess.PIPE)
+        subprocess.run([SIM, *FOUR, "--checkpoint", checkpoint, "--max-cycles", "200", path("threads")],
+                       stderr=subprocess.PIPE)
         client = self.client("threads", *FOUR, "--resume", checkpoint, "--stats", stats)
         self.assertEqual(client.cycle(), 200)
         client.ask(f"Z0,{symbols['threads']['work']:x},4")

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Would the random programs notice a mistake? Each instruction's statement in the manual, and what it says of the immediate,
-is changed in turn, and the model made from that manual must differ from the emulator. Prints the changes that were not noticed and how many were; exit status 1
-if one was not.
+"""Would the random programs notice a mistake? Each instruction's statement in the manual, and what it says of the
+immediate, is changed in turn, and the model made from that manual must differ from the emulator. Prints the changes
+that were not noticed and how many were; exit status 1 if one was not.
 
   mutants.py --bin build/bin --jobs 2
   mutants.py --bin build/bin --first               one change of each instruction
@@ -51,6 +51,7 @@ RULES = [
     ("nothing", r"^(.*)$", {None: "{ }"}),
 ]
 
+
 def changes_of(statement):
     for name, pattern, replacements in RULES:
         for match in re.finditer(pattern, statement):
@@ -80,7 +81,8 @@ EQUIVALENT = {
 def changes_of_immediate(text):
     """Of what follows "IMM is bits "."""
     yield "its sign", re.sub("sign|zero", lambda match: {"sign": "zero", "zero": "sign"}[match[0]], text)
-    for pattern, new in ((", times 4", ""), (", times 4", ", times 2"), ("Values of 6", "Values of 3"), ("Values of 4", "Values of 3"), ("below 1", "below 2")):
+    for pattern, new in ((", times 4", ""), (", times 4", ", times 2"), ("Values of 6", "Values of 3"),
+                         ("Values of 4", "Values of 3"), ("below 1", "below 2")):
         if re.search(pattern, text):
             yield "its values", re.sub(pattern, new, text)
 
@@ -90,7 +92,8 @@ def is_noticed(options, manual, begin, end, statement):
     with tempfile.NamedTemporaryFile("w", suffix=".md", encoding="utf-8") as file:
         file.write(manual[:begin] + statement + manual[end:])
         file.flush()
-        result = subprocess.run([os.path.join(options.bin, "../tests/bin/isa-differential"), "--manual", file.name, "--stop",
+        result = subprocess.run([os.path.join(options.bin, "../tests/bin/isa-differential"), "--manual", file.name,
+                                 "--stop",
                                  "--seed", str(options.seed), "--count", str(options.count)],
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=600, check=False)
     if result.returncode == 1 and "isa-differential:" in result.stderr:

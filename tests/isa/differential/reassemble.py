@@ -120,7 +120,8 @@ def main():
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as directory:
         path = os.path.join(directory, "words")
-        run(os.path.join(options.bin, "../tests/bin/isa-differential"), "--seed", str(options.seed), "--count", str(options.count),
+        run(os.path.join(options.bin, "../tests/bin/isa-differential"), "--seed", str(options.seed), "--count",
+            str(options.count),
             "--words", path)
         all_words = read_words(path)
         words = array.array("I", dict.fromkeys(all_words))

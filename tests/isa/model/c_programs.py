@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The C programs of tests/c on the machine made from the manual: they must print what is expected. Those that test faults,
-and what the model lacks, are left out.
+"""The C programs of tests/c on the machine made from the manual: they must print what is expected. Those that test
+faults, and what the model lacks, are left out.
 
   c_programs.py --build build [--level -O2] [--only REGEX]
 """

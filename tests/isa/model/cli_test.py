@@ -45,7 +45,8 @@ class Cli(unittest.TestCase):
         return image
 
     def run_model(self, *options):
-        return subprocess.run([MODEL, *options], stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=60, check=False)
+        return subprocess.run([MODEL, *options], stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=60,
+                              check=False)
 
     def read(self):
         with open(self.signature, encoding="ascii") as file:
@@ -89,7 +90,8 @@ class Cli(unittest.TestCase):
 
     def test_faults(self):
         cases = {"lw a2, 2(a0)": ("misaligned", "0000100c", None), "sw a2, 0(r0)": ("null", "0000100c", "00000000"),
-                 "lw a2, -513(r0)": ("stack", "0000100c", "fffffdff"), "ainc a2, -4(r0)": ("local", "0000100c", "fffffffc"),
+                 "lw a2, -513(r0)": ("stack", "0000100c", "fffffdff"),
+                 "ainc a2, -4(r0)": ("local", "0000100c", "fffffffc"),
                  "lui a2, 0x8000\nlb a2, 5(a2)": ("unmapped", "00001010", "80000005"),
                  "lui a2, 0\nsw a2, %lo(_start)(r0)": ("readonly", "00001010", "00001000"),
                  "jr a0": ("fetch", None, None), "addi a0, a0, 2\njr a0": ("misaligned-pc", None, None),

@@ -3,10 +3,10 @@
 
     tests/isa/mutants/check.py [--build FOLDER] [--only EXPRESSION] [--every N] [--jobs N] [--verbose]
 
-Every mutant is the machine with one thing wrong: an instruction's statement, a special case of an operation, a bit of the decoder,
-a check, what a fault reports, the state at reset (mutants.h). A mutant is caught if an image of the suite ends otherwise than
-its reference. Prints caught / total and names the survivors. Ends with status 1 if there is one that equivalent.py does not
-explain, or one that it explains and that is caught.
+Every mutant is the machine with one thing wrong: an instruction's statement, a special case of an operation, a bit of
+the decoder, a check, what a fault reports, the state at reset (mutants.h). A mutant is caught if an image of the suite
+ends otherwise than its reference. Prints caught / total and names the survivors. Ends with status 1 if there is one
+that equivalent.py does not explain, or one that it explains and that is caught.
 """
 
 import argparse
@@ -30,14 +30,16 @@ def write_tests(suite, path):
     with open(path, "w") as file:
         for test in description["tests"]:
             status = "-" if test["status"] is None else test["status"]
-            print(suite / (test["name"] + ".elf"), suite / (test["name"] + ".signature"), test["of"], test["tms"], test["tps"], status,
+            print(suite / (test["name"] + ".elf"), suite / (test["name"] + ".signature"), test["of"], test["tms"],
+                  test["tps"], status,
                   test["output"].encode("latin-1").hex(), sep="\t", file=file)
     return description["memory_mib"], len(description["tests"])
 
 
 def list_mutants(program):
     listing = subprocess.run([program, "--list"], check=True, capture_output=True, text=True).stdout
-    return {int(number): (mnemonic, what) for number, mnemonic, what in (line.split("\t") for line in listing.splitlines())}
+    return {int(number): (mnemonic, what) for number, mnemonic,
+            what in (line.split("\t") for line in listing.splitlines())}
 
 
 def name(mutant):
@@ -84,7 +86,8 @@ class Progress:
 def run(program, tests, memory_mib, numbers, options):
     """The image that noticed each mutant, "-" if none did."""
     progress, noticed = Progress(len(numbers)), {}
-    process = subprocess.Popen([program, tests, str(memory_mib), str(options.jobs)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    process = subprocess.Popen([program, tests, str(memory_mib), str(options.jobs)], stdin=subprocess.PIPE,
+                               stdout=subprocess.PIPE, text=True)
     process.stdin.write("".join(f"{number}\n" for number in numbers))
     process.stdin.close()
     try:
@@ -127,8 +130,10 @@ def report(mutants, noticed, options):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("--build", type=pathlib.Path, default=SOURCE / "build", help="the build folder; default build")
-    parser.add_argument("--only", default="", metavar="EXPRESSION", help="mutants whose instruction and text it is found in")
-    parser.add_argument("--every", type=int, default=1, metavar="N", help="every Nth of them; 0: the first of each instruction that can be noticed")
+    parser.add_argument("--only", default="", metavar="EXPRESSION",
+                        help="mutants whose instruction and text it is found in")
+    parser.add_argument("--every", type=int, default=1, metavar="N",
+                        help="every Nth of them; 0: the first of each instruction that can be noticed")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), metavar="N", help="mutants at the same time")
     parser.add_argument("--verbose", action="store_true", help="name the image that notices each mutant")
     options = parser.parse_args()

@@ -51,9 +51,12 @@ REWRITES = [
     (r"= PC \+ 4", "= PC", "the link is the instruction itself"),
     (r"= PC \+ 4", "= PC + 8", "the link is one instruction late"),
     (r"RB & 31", "RB & 15", "only four bits of the shift amount count"),
-    (r"(\w+) << \(RB & 31\)", r"(RB > 31 ? 0 : \1 << (RB & 31))", "shift amounts of 32 and more are not taken modulo 32"),
-    (r"(\w+) >> \(RB & 31\)", r"(RB > 31 ? 0 : \1 >> (RB & 31))", "shift amounts of 32 and more are not taken modulo 32"),
-    (r"trax_sra\(RA, RB & 31\)", "trax_sra(RA, RB > 31 ? 31 : RB)", "shift amounts of 32 and more are not taken modulo 32"),
+    (r"(\w+) << \(RB & 31\)", r"(RB > 31 ? 0 : \1 << (RB & 31))",
+     "shift amounts of 32 and more are not taken modulo 32"),
+    (r"(\w+) >> \(RB & 31\)", r"(RB > 31 ? 0 : \1 >> (RB & 31))",
+     "shift amounts of 32 and more are not taken modulo 32"),
+    (r"trax_sra\(RA, RB & 31\)", "trax_sra(RA, RB > 31 ? 31 : RB)",
+     "shift amounts of 32 and more are not taken modulo 32"),
     (r"(\w+) >> \(?(RB & 31|IMM)\b\)?", r"trax_sra(\1, \2)", "copies of the sign are shifted in"),
     (r"trax_sra\((\w+), ([^)]*)\)", r"(\1 >> (\2))", "zeros are shifted in"),
     (r"<< 16", "<< 15", "shifted by 15"),
@@ -111,9 +114,11 @@ REWRITES = [
     (r"(LOAD32(?:_NONTEMPORAL)?\(RA \+ IMM\))", r"__builtin_bswap32(\1)", "big endian"),
     (r"STORE16\(RA \+ IMM, RB\)", "STORE16(RA + IMM, RB << 8 | (RB >> 8 & 0xFF))", "big endian"),
     (r"STORE32(_NONTEMPORAL)?\(RA \+ IMM, RB\)", "STORE32(RA + IMM, __builtin_bswap32(RB))", "big endian"),
-    (r"((?:LOAD|STORE)\d+(?:_NONTEMPORAL)?)\(RA \+ IMM", r"\1((RA + IMM >= 0xFFFFFE00u ? RA + IMM : (RA + IMM) & ~0x40u)",
+    (r"((?:LOAD|STORE)\d+(?:_NONTEMPORAL)?)\(RA \+ IMM",
+     r"\1((RA + IMM >= 0xFFFFFE00u ? RA + IMM : (RA + IMM) & ~0x40u)",
      "bit 6 of global addresses is lost"),
-    (r"((?:LOAD|STORE)\d+(?:_NONTEMPORAL)?)\(RA \+ IMM", r"\1((RA + IMM >= 0xFFFFFE00u ? (RA + IMM) & ~0x100u : RA + IMM)",
+    (r"((?:LOAD|STORE)\d+(?:_NONTEMPORAL)?)\(RA \+ IMM",
+     r"\1((RA + IMM >= 0xFFFFFE00u ? (RA + IMM) & ~0x100u : RA + IMM)",
      "bit 8 of local addresses is lost"),
 ]
 
@@ -161,11 +166,14 @@ def rewrite(statement, flags):
     for operator, others in OPERATORS.items():
         for match in re.finditer(re.escape(operator), statement):
             for other in others:
-                if "trax_signed" in statement and other.strip() in "|^&" or "(uint64_t)" in statement and other == " << ":
+                if "trax_signed" in statement and other.strip(
+                ) in "|^&" or "(uint64_t)" in statement and other == " << ":
                     continue
-                yield statement[:match.start()] + other + statement[match.end():], f"{other.strip()} for {operator.strip()}"
+                yield statement[:match.start()] + other + statement[match.end(
+                ):], f"{other.strip()} for {operator.strip()}"
     for pattern, replacement, what in REWRITES:
-        if "rb is read" in what and "TRAX_READS_RB" not in flags or "exchanged" in what and COMMUTATIVE.search(statement):
+        if "rb is read" in what and "TRAX_READS_RB" not in flags or "exchanged" in what and COMMUTATIVE.search(
+                statement):
             continue
         for match in re.finditer(pattern, statement):
             yield statement[:match.start()] + match.expand(replacement) + statement[match.end():], what
@@ -204,7 +212,8 @@ def stores(statement):
 
 def memory(statement):
     if re.search(r"\b(LOAD|STORE)\d+(_NONTEMPORAL)?\(", statement):
-        yield f"struct trax_ref_tp *const own = tp; tp = &tm->tp[0]; {mine(statement)}", "all threads have the first one's local memory"
+        yield f"struct trax_ref_tp *const own = tp; tp = &tm->tp[0]; {mine(statement)}", \
+            "all threads have the first one's local memory"
 
 
 def mine(statement):
@@ -228,7 +237,8 @@ def own_rules(statement):
         yield f"{statement} reg[5] ^= 1;", "a register is changed"
     elif statement == "HALT();":
         yield "(void)0;", "the thread goes on"
-        yield "HALT(); for (uint32_t i = 0; i < tm->tps; i++) if (!tm->tp[i].ended) end(tm, &tm->tp[i], 0);", "all threads of the TM end"
+        yield "HALT(); for (uint32_t i = 0; i < tm->tps; i++) if (!tm->tp[i].ended) end(tm, &tm->tp[i], 0);", \
+            "all threads of the TM end"
     elif statement == "RD = ATOMIC_INC(RA + IMM);":
         yield f"{statement} NEXT_PC = PC + 8;", "the next instruction is left out"
     elif statement == "NEXT_PC = RA + IMM; RD = PC + 4;":

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""The arithmetic of trax/semantics.h must not depend on the compiler, the level or the processor that it is compiled for.
+"""The arithmetic of trax/semantics.h must not depend on the compiler, the level or the processor that it is compiled
+for.
 
     tests/isa/oracle/builds.py --build build
 
-Compiles builds.c with gcc and clang-19 at -O0 and -O3, and at -O3 for processors with fused multiply-add, with the flags of the build, and
-compares the results with the oracle's. Then compiles with fast-math and the like, which must be refused, and looks at the flags of all
-that the build compiles for the host: nothing may allow contraction, fast-math or the x87. Exit status: 0 if all of that holds, 1 otherwise.
+Compiles builds.c with gcc and clang-19 at -O0 and -O3, and at -O3 for processors with fused multiply-add, with the
+flags of the build, and compares the results with the oracle's. Then compiles with fast-math and the like, which must be
+refused, and looks at the flags of all that the build compiles for the host: nothing may allow contraction, fast-math or
+the x87. Exit status: 0 if all of that holds, 1 otherwise.
 """
 
 import argparse
@@ -22,9 +24,11 @@ COMPILERS = ["gcc", "clang-19"]
 FUSED = "-march=haswell"
 REFUSED = [["-ffast-math"], ["-Ofast"], ["-ffinite-math-only"]]
 REFUSED_BY_GCC = [["-funsafe-math-optimizations"], ["-freciprocal-math"], ["-fno-signed-zeros"], ["-mfpmath=387"]]
-FORBIDDEN = re.compile(r"-Ofast|-ffast-math|-ffinite-math-only|-funsafe-math-optimizations|-fassociative-math|-freciprocal-math|"
-                       r"-fno-signed-zeros|-ffp-contract=(?!off)|-ffp-model=(?!strict|precise)|-mfpmath=.*387|-mno-sse2?|-fdenormal-fp-math.*|"
-                       r"-frounding-math|-mdaz-ftz|-m32|-ffp-eval-method=(?!source)|-fexcess-precision=(?!standard)")
+FORBIDDEN = re.compile(
+    r"-Ofast|-ffast-math|-ffinite-math-only|-funsafe-math-optimizations|-fassociative-math|-freciprocal-math|"
+    r"-fno-signed-zeros|-ffp-contract=(?!off)|-ffp-model=(?!strict|precise)|-mfpmath=.*387|-mno-sse2?|"
+    r"-fdenormal-fp-math.*|"
+    r"-frounding-math|-mdaz-ftz|-m32|-ffp-eval-method=(?!source)|-fexcess-precision=(?!standard)")
 
 
 class Failure(Exception):
@@ -46,7 +50,8 @@ def flags_of(build, source):
     """The flags of one source as the build compiles it, without level, sanitizers and names of files."""
     for file, words in commands(build):
         if file == source:
-            kept = [word for word in words[1:] if not re.match(r"-O|-o$|-c$|-g|-fsanitize|-fno-sanitize|-fno-omit|-M", word)]
+            kept = [word for word in words[1:] if not re.match(r"-O|-o$|-c$|-g|-fsanitize|-fno-sanitize|-fno-omit|-M",
+                                                               word)]
             return [word for word in kept if word != file and not word.endswith(".o")]
     raise Failure(f"{build}/compile_commands.json does not compile {source}")
 
@@ -90,21 +95,24 @@ def check_refusals(flags, folder):
 
 
 def check_contraction(flags, folder, count, expected):
-    """Contraction could merge nothing, since every result passes the test for a NaN; where it can, the results show it."""
+    """Contraction could merge nothing, since every result passes the test for a NaN; where it can, the results show
+    it."""
     for compiler in COMPILERS:
         fast = flags + ["-O3", FUSED, "-ffp-contract=fast"]
         wrong = differing(hashes(compiler, fast, folder, count), expected)
         mergeable = differing(hashes(compiler, fast + ["-DBUILDS_MERGEABLE"], folder, count), expected)
         if wrong or mergeable != ["multiply_add"]:
-            raise Failure(f"{compiler} {FUSED} -ffp-contract=fast: {wrong or 'nothing'} differs, and {mergeable or 'nothing'} "
-                          "where the multiply-add can be merged")
+            raise Failure(
+                f"{compiler} {FUSED} -ffp-contract=fast: {wrong or 'nothing'} differs, and {mergeable or 'nothing'} "
+                "where the multiply-add can be merged")
         print(f"{compiler} {FUSED} -ffp-contract=fast: the oracle's bits; a multiply-add that can be merged differs")
 
 
 def check_flags(build, folders, wrong_on_purpose):
     seen = 0
     for file, words in commands(build):
-        if not any(file.startswith(os.path.realpath(folder) + os.sep) for folder in folders) or file in wrong_on_purpose:
+        if not any(file.startswith(os.path.realpath(folder) + os.sep)
+                   for folder in folders) or file in wrong_on_purpose:
             continue
         seen += 1
         bad = [word for word in words if FORBIDDEN.fullmatch(word)]
@@ -127,7 +135,7 @@ def has_fused():
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("--build", default=os.path.join(HERE, "../../../build"), help="the build folder")
     parser.add_argument("--count", type=int, default=1000000, help="pairs (default: 1000000)")
     options = parser.parse_args()

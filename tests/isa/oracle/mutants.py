@@ -4,9 +4,10 @@
     tests/isa/oracle/mutants.py --build build
     tests/isa/oracle/mutants.py --stale                    only lists texts that are not there
 
-A mutant is oracle.c with one text replaced. isa-exhaustive compares the emulator's arithmetic with it over --count cases of each
-operation, so a mutant that passes would also be a mistake of the emulator that passes. The oracle's test is tried as well, once as a whole
-and once without the comparison with MPFR, by the hand-worked cases alone. Exit status: 0 if isa-exhaustive and the whole test notice all.
+A mutant is oracle.c with one text replaced. isa-exhaustive compares the emulator's arithmetic with it over --count
+cases of each operation, so a mutant that passes would also be a mistake of the emulator that passes. The oracle's test
+is tried as well, once as a whole and once without the comparison with MPFR, by the hand-worked cases alone. Exit
+status: 0 if isa-exhaustive and the whole test notice all.
 """
 
 import argparse
@@ -22,8 +23,7 @@ sys.path.insert(0, str(HERE.parents[1] / "render"))
 from mutation import list_stale  # noqa: E402
 
 MUTANTS = [  # (what is wrong, text, replacement)
-    ("ties to odd", "kept % 2 == 1)", "kept % 2 == 0)"),
-    ("ties away", "(sticky || kept % 2 == 1)", "true"),
+    ("ties to odd", "kept % 2 == 1)", "kept % 2 == 0)"), ("ties away", "(sticky || kept % 2 == 1)", "true"),
     ("ties towards zero", "(sticky || kept % 2 == 1)", "sticky"),
     ("sticky forgotten at a tie", "(sticky || kept % 2 == 1)", "kept % 2 == 1"),
     ("never up", "      kept++;\n  }\n  if (kept == (uint128)1", "      kept += 0;\n  }\n  if (kept == (uint128)1"),
@@ -32,51 +32,67 @@ MUTANTS = [  # (what is wrong, text, replacement)
     ("operands below the normal are zero", "} else if (fraction == 0) {", "} else {"),
     ("subnormal numbers a binade off", "(int)biased - 1 + LEAST_EXPONENT", "(int)biased + LEAST_EXPONENT"),
     ("the greatest binade is infinity", "last > 127 - (SIGNIFICANT_BITS - 1)", "last > 126 - (SIGNIFICANT_BITS - 1)"),
-    ("overflow gives the greatest", "return signed_bits(negative, INFINITY_BITS);\n  if (kept", "return signed_bits(negative, INFINITY_BITS - 1);\n  if (kept"),
+    ("overflow gives the greatest", "return signed_bits(negative, INFINITY_BITS);\n  if (kept",
+     "return signed_bits(negative, INFINITY_BITS - 1);\n  if (kept"),
     ("operands are far too soon", "const int far = 100;", "const int far = 20;"),
     ("an exact zero sum is -0", "return 0; /* +0 [6.3] */", "return SIGN_BIT;"),
     ("-0 + -0 is +0", "x.negative && y.negative ? SIGN_BIT : 0", "0"),
     ("+0 + -0 is -0", "x.negative && y.negative ? SIGN_BIT : 0", "x.negative || y.negative ? SIGN_BIT : 0"),
     ("infinity - infinity is infinity", "x.negative == y.negative ? a : CANONICAL_NAN", "a"),
-    ("a sum with infinity is the other operand", "return x.kind == INFINITE ? a : b;", "return x.kind == INFINITE ? b : a;"),
-    ("subtract adds", "oracle_fadd(a, b ^ SIGN_BIT)", "oracle_fadd(a, b)"),
+    ("a sum with infinity is the other operand", "return x.kind == INFINITE ? a : b;",
+     "return x.kind == INFINITE ? b : a;"), ("subtract adds", "oracle_fadd(a, b ^ SIGN_BIT)", "oracle_fadd(a, b)"),
     ("0 * infinity is infinity", "x.kind == ZERO || y.kind == ZERO ? CANONICAL_NAN : ", ""),
-    ("a zero product has no sign", "if (x.kind == ZERO || y.kind == ZERO)\n    return signed_bits(negative, 0);", "if (x.kind == ZERO || y.kind == ZERO)\n    return 0;"),
+    ("a zero product has no sign", "if (x.kind == ZERO || y.kind == ZERO)\n    return signed_bits(negative, 0);",
+     "if (x.kind == ZERO || y.kind == ZERO)\n    return 0;"),
     ("a NaN is not canonical", "#define CANONICAL_NAN 0x7FC00000u", "#define CANONICAL_NAN 0xFFC00000u"),
     ("the quotient is cut off", "dividend % y.significand != 0", "false"),
-    ("0/0 is infinity", "return x.kind == ZERO ? CANONICAL_NAN : signed_bits(negative, INFINITY_BITS);", "return signed_bits(negative, INFINITY_BITS);"),
-    ("x/0 has no sign", "x.kind == ZERO ? CANONICAL_NAN : signed_bits(negative, INFINITY_BITS)", "x.kind == ZERO ? CANONICAL_NAN : INFINITY_BITS"),
+    ("0/0 is infinity", "return x.kind == ZERO ? CANONICAL_NAN : signed_bits(negative, INFINITY_BITS);",
+     "return signed_bits(negative, INFINITY_BITS);"),
+    ("x/0 has no sign", "x.kind == ZERO ? CANONICAL_NAN : signed_bits(negative, INFINITY_BITS)",
+     "x.kind == ZERO ? CANONICAL_NAN : INFINITY_BITS"),
     ("infinity/infinity is infinity", "y.kind == INFINITE ? CANONICAL_NAN : signed_bits", "signed_bits"),
-    ("x/infinity has no sign", "if (x.kind == ZERO || y.kind == INFINITE)\n    return signed_bits(negative, 0);", "if (x.kind == ZERO || y.kind == INFINITE)\n    return 0;"),
+    ("x/infinity has no sign", "if (x.kind == ZERO || y.kind == INFINITE)\n    return signed_bits(negative, 0);",
+     "if (x.kind == ZERO || y.kind == INFINITE)\n    return 0;"),
     ("the reciprocal root is cut off", "(uint128)(n * n) * x.significand != one", "false"),
-    ("the reciprocal root of -0 is +infinity", "return signed_bits(x.negative, INFINITY_BITS);", "return INFINITY_BITS;"),
-    ("the reciprocal root of infinity is infinity", "if (x.kind == INFINITE)\n    return 0;", "if (x.kind == INFINITE)\n    return a;"),
+    ("the reciprocal root of -0 is +infinity", "return signed_bits(x.negative, INFINITY_BITS);",
+     "return INFINITY_BITS;"),
+    ("the reciprocal root of infinity is infinity", "if (x.kind == INFINITE)\n    return 0;",
+     "if (x.kind == INFINITE)\n    return a;"),
     ("odd exponents are taken as even", "if (d->exponent % 2 != 0) {", "if (d->exponent % 2 > 0) {"),
     ("the root is cut off", "n * n != square)", "false)"),
     ("the root of -0 is +0", "if (x.kind == ZERO)\n    return a;", "if (x.kind == ZERO)\n    return 0;"),
-    ("-0 is not less than +0", "return !d.negative ? magnitude : zeros_equal ? -magnitude : -magnitude - 1;", "return !d.negative ? magnitude : -magnitude;"),
-    ("zeros differ", "int64_t p = place(x, a, true), q = place(y, b, true);", "int64_t p = place(x, a, false), q = place(y, b, false);"),
-    ("a NaN wins", "return x.kind != NOT_A_NUMBER ? a : y.kind != NOT_A_NUMBER ? b : CANONICAL_NAN;", "return CANONICAL_NAN;"),
+    ("-0 is not less than +0", "return !d.negative ? magnitude : zeros_equal ? -magnitude : -magnitude - 1;",
+     "return !d.negative ? magnitude : -magnitude;"),
+    ("zeros differ", "int64_t p = place(x, a, true), q = place(y, b, true);",
+     "int64_t p = place(x, a, false), q = place(y, b, false);"),
+    ("a NaN wins", "return x.kind != NOT_A_NUMBER ? a : y.kind != NOT_A_NUMBER ? b : CANONICAL_NAN;",
+     "return CANONICAL_NAN;"),
     ("two NaNs give the first", "y.kind != NOT_A_NUMBER ? b : CANONICAL_NAN;", "y.kind != NOT_A_NUMBER ? b : a;"),
-    ("a NaN equals", "return UNORDERED;", "return EQUAL;"),
-    ("a NaN is less", "return UNORDERED;", "return LESS;"),
+    ("a NaN equals", "return UNORDERED;", "return EQUAL;"), ("a NaN is less", "return UNORDERED;", "return LESS;"),
     ("<= is <", "return r == LESS || r == EQUAL;", "return r == LESS;"),
     ("the least integer is cut off", "x.negative ? 0x80000000u : 0x7FFFFFFFu", "0x7FFFFFFFu"),
     ("integers are rounded", "d.significand >> -d.exponent", "((d.significand >> (-d.exponent - 1)) + 1) / 2"),
-    ("a NaN gives the greatest integer", "if (x.kind == NOT_A_NUMBER)\n    return 0;\n  uint64_t most", "if (x.kind == NOT_A_NUMBER)\n    return 0x7FFFFFFF;\n  uint64_t most"),
-    ("negative numbers wrap", "if (x.kind == NOT_A_NUMBER || x.negative)\n    return 0;\n  uint64_t n = integer_part(x);", "if (x.kind == NOT_A_NUMBER)\n    return 0;\n  uint64_t n = integer_part(x);\n  if (x.negative)\n    return (uint32_t)(0 - n);"),
-    ("unsigned saturates as signed", "n < UINT32_MAX ? (uint32_t)n : UINT32_MAX", "n < INT32_MAX ? (uint32_t)n : INT32_MAX"),
+    ("a NaN gives the greatest integer", "if (x.kind == NOT_A_NUMBER)\n    return 0;\n  uint64_t most",
+     "if (x.kind == NOT_A_NUMBER)\n    return 0x7FFFFFFF;\n  uint64_t most"),
+    ("negative numbers wrap",
+     "if (x.kind == NOT_A_NUMBER || x.negative)\n    return 0;\n  uint64_t n = integer_part(x);",
+     "if (x.kind == NOT_A_NUMBER)\n    return 0;\n  uint64_t n = integer_part(x);\n  if (x.negative)\n    return "
+     "(uint32_t)(0 - n);"
+     ),
+    ("unsigned saturates as signed", "n < UINT32_MAX ? (uint32_t)n : UINT32_MAX",
+     "n < INT32_MAX ? (uint32_t)n : INT32_MAX"),
     ("a negative integer is taken as unsigned", "bool negative = a >> 31;\n", "bool negative = false;\n"),
-    ("an unsigned integer is taken as signed", "round_pack(false, 0, a, false);\n}\n\nuint32_t oracle_reduce", "oracle_fcvt_s_w(a);\n}\n\nuint32_t oracle_reduce"),
-    ("reduced ties up", "multiple % 2 == 1))", "true))"),
+    ("an unsigned integer is taken as signed", "round_pack(false, 0, a, false);\n}\n\nuint32_t oracle_reduce",
+     "oracle_fcvt_s_w(a);\n}\n\nuint32_t oracle_reduce"), ("reduced ties up", "multiple % 2 == 1))", "true))"),
     ("reduced towards zero", "    multiple++;\n", "    multiple += 0;\n"),
     ("subnormal numbers are reduced", " || (value & INFINITY_BITS) == 0)", ")"),
-    ("a bit too many is kept", "(uint32_t)1 << (SIGNIFICANT_BITS - bits)", "(uint32_t)1 << (SIGNIFICANT_BITS - bits) / 2 * 2"),
-]
+    ("a bit too many is kept", "(uint32_t)1 << (SIGNIFICANT_BITS - bits)",
+     "(uint32_t)1 << (SIGNIFICANT_BITS - bits) / 2 * 2"), ]
 
 
 def flags_and_objects(build):
-    """The command that compiles oracle.c, without names of files; objects that isa-exhaustive and isa-oracle-test are linked from."""
+    """The command that compiles oracle.c, without names of files; objects that isa-exhaustive and isa-oracle-test are
+    linked from."""
     entries = json.loads((build / "compile_commands.json").read_text())
     for entry in entries:
         if pathlib.Path(entry["file"]) == HERE / "oracle.c":
@@ -96,14 +112,16 @@ def flags_and_objects(build):
 
 
 def fails(command):
-    done = subprocess.run([str(word) for word in command], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
+    done = subprocess.run([str(word) for word in command], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                          check=False)
     return done.returncode != 0
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("--build", type=pathlib.Path, default=HERE / "../../../build", help="the build folder")
-    parser.add_argument("--count", type=int, default=1000000, help="isa-exhaustive's cases of each operation (default: 1000000)")
+    parser.add_argument("--count", type=int, default=1000000,
+                        help="isa-exhaustive's cases of each operation (default: 1000000)")
     parser.add_argument("--stale", action="store_true", help="only lists mutants of texts that are not there")
     options = parser.parse_args()
     if options.stale:
@@ -133,7 +151,8 @@ def main():
         for by, noticed in results.items():
             caught[by] += noticed
         missed = [by for by, noticed in results.items() if not noticed]
-        print(f"{number:2}/{len(MUTANTS)} {what}: {'not noticed by ' + ', '.join(missed) if missed else 'noticed'}", flush=True)
+        print(f"{number:2}/{len(MUTANTS)} {what}: {'not noticed by ' + ', '.join(missed) if missed else 'noticed'}",
+              flush=True)
     print(", ".join(f"{by} notices {n} of {len(MUTANTS)}" for by, n in caught.items()))
     return min(caught["isa-exhaustive"], caught["oracle's test"]) < len(MUTANTS)
 

@@ -4,8 +4,8 @@
     tests/isa/oracle/sweep.py                                        pairs enough for test.sh
     tests/isa/oracle/sweep.py --engine functional --count 10000000   as many as asked, of one engine
 
-The operands are the numbered pairs of pairs.h; only hashes of results are compared, and where one differs, the search for the first such
-pair follows. Exit status: 0 if nothing differs, else 1.
+The operands are the numbered pairs of pairs.h; only hashes of results are compared, and where one differs, the search
+for the first such pair follows. Exit status: 0 if nothing differs, else 1.
 """
 
 import argparse
@@ -48,7 +48,8 @@ class Engine:
             path = os.path.join(folder, "parameters")
             with open(path, "wb") as file:
                 file.write(struct.pack("<4I", first, count, bits, verbose))
-            return output(self.command + ["--set", f"special.precision_bits={self.bits or bits}", "--bind", f"parameters={path}", self.program])
+            return output(self.command + ["--set", f"special.precision_bits={self.bits or bits}", "--bind",
+                                          f"parameters={path}", self.program])
 
 
 def find(engine, oracle, first, count, bits):
@@ -86,16 +87,19 @@ def compare(engine, oracle, first, count, bits):
 
 def main():
     here = os.path.dirname(os.path.abspath(__file__))
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--count", type=int, help=f"pairs (default: {', '.join(f'{n} {e}' for e, n in ENGINES.items())})")
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    parser.add_argument("--count", type=int,
+                        help=f"pairs (default: {', '.join(f'{n} {e}' for e, n in ENGINES.items())})")
     parser.add_argument("--first", type=int, default=0, help="the number of the first (default: 0)")
     parser.add_argument("--engine", choices=list(ENGINES), help="one engine only")
     parser.add_argument("--bits", type=int, help="one precision of the special unit only")
-    parser.add_argument("--engine-bits", type=int, help="another precision for the engine: to see that differences are found")
+    parser.add_argument("--engine-bits", type=int,
+                        help="another precision for the engine: to see that differences are found")
     parser.add_argument("--bin", default=os.path.join(here, "../../../build/bin"), help="the folder of the programs")
     parser.add_argument("--machine", default="1x32", help="trax-sim's --config")
     options = parser.parse_args()
-    if options.count is not None and options.count < 1 or options.first < 0 or options.first + (options.count or 0) > 1 << 32:
+    if options.count is not None and options.count < 1 or options.first < 0 or options.first + (options.count or
+                                                                                                0) > 1 << 32:
         parser.error("pairs are numbered from 0 to 4294967295")
     oracle, same = Oracle(options.bin), True
     for name in [options.engine] if options.engine else ENGINES:

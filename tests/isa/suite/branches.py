@@ -62,7 +62,8 @@ def branch_registers(program, inst):
     source = random.Random(inst.name)
     some = [0, 1, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF, 0x12345678]
     for a in some:
-        for condition, ra, rb in (("ra = rb", "r4", "r4"), ("ra is r0", "r0", "r5"), ("rb is r0", "r4", "r0"), ("ra = rb is r0", "r0", "r0")):
+        for condition, ra, rb in (("ra = rb", "r4", "r4"), ("ra is r0", "r0", "r5"), ("rb is r0", "r4", "r0"),
+                                  ("ra = rb is r0", "r0", "r0")):
             branch_to(program, inst, a, a, False, condition, ra, rb)
     program.fill(lambda n: n * 0x01000193 & 0xFFFFFFFF)
     for operand in "ab":
@@ -104,16 +105,20 @@ def near(program, line, condition):
 
 def far(program, line, base, farthest, condition):
     """The same over each power of two up to the farthest, and over the limits, by sections of their own."""
-    distances = [sign * 2**k for k in range(10, farthest.bit_length() - 1) for sign in (1, -1)] + [farthest - 4, -farthest]
+    distances = [sign * 2**k for k in range(10,
+                                            farthest.bit_length() - 1) for sign in (1, -1)] + [farthest - 4, -farthest]
     for i, distance in enumerate(distances):
         # The place of the branch within its block makes the target's address a multiple of 64.
         lead = -distance % 64
         section, back = f".at{i}", f"Lback{i}"
         address = base + 192 * i  # no sum or difference of two is a power of two
-        program.link += [f"--section-start=.from{i}={address:#x}", f"--section-start={section}={address + lead + distance:#x}"]
-        program.sections += [f'  .section .from{i}, "ax", @progbits', f"Lfrom{i}:", f"  .fill {lead // 4}, 4, {FILLER}", f"Lgo{i}:",
+        program.link += [f"--section-start=.from{i}={address:#x}",
+                         f"--section-start={section}={address + lead + distance:#x}"]
+        program.sections += [f'  .section .from{i}, "ax", @progbits', f"Lfrom{i}:", f"  .fill {lead // 4}, 4, {FILLER}",
+                             f"Lgo{i}:",
                              f"  {line(f'Lto{i}')}", "  addi r6, r0, 0", "  jalr r0, 0(r7)",
-                             f'  .section {section}, "ax", @progbits', f"Lto{i}:", f"  addi r6, r0, {i + 1}", "  jalr r0, 0(r7)"]
+                             f'  .section {section}, "ax", @progbits', f"Lto{i}:", f"  addi r6, r0, {i + 1}",
+                             "  jalr r0, 0(r7)"]
         program.address("r7", back)
         program.address("r8", f"Lgo{i}")
         program.emit("jalr r0, 0(r8)")
@@ -148,7 +153,8 @@ def branching(inst, row):
 
 
 def jump_to(program, line, d, condition):
-    """Forward and backward; stores the link, an address and the same in every implementation, and where it led. line(label): assembly."""
+    """Forward and backward; stores the link, an address and the same in every implementation, and where it led.
+    line(label): assembly."""
     for backward in (False, True):
         target, done, start = program.label(), program.label(), program.label()
         program.emit("addi r6, r0, 2")
@@ -206,7 +212,8 @@ def jump_indirect(inst, row):
     for number in range(1, 32):
         if number != 6:
             jump_to(program, jump(f"r{number}", "r4" if number != 4 else "r5"), f"r{number}", "every rd")
-            jump_to(program, jump("r4" if number != 4 else "r5", f"r{number}"), "r4" if number != 4 else "r5", "every ra")
+            jump_to(program, jump("r4" if number != 4 else "r5", f"r{number}"), "r4" if number != 4 else "r5",
+                    "every ra")
     for operand in "da":
         target = program.label()
         program.address("r6" if operand == "a" else "r5", target)

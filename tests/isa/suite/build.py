@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Makes the conformance suite: build.py INSTRUCTIONS_INC ABI_H BIN_DIR FOLDER [--model PROGRAM]
 
-From the ISA description as generated to INSTRUCTIONS_INC: assembly, images by our assembler and linker, reference signatures by
-the model (BIN_DIR/trax-isa-model), the list of them (suite.json) and the coverage table (coverage.md). An instruction without a
-test, or without a case of a condition that applies to it, is an error that names it."""
+From the ISA description as generated to INSTRUCTIONS_INC: assembly, images by our assembler and linker, reference
+signatures by the model (BIN_DIR/trax-isa-model), the list of them (suite.json) and the coverage table (coverage.md). An
+instruction without a test, or without a case of a condition that applies to it, is an error that names it."""
 
 import argparse
 import concurrent.futures
@@ -51,7 +51,8 @@ class Builder:
     def reference(self, name, program):
         """The model's signature of an image, as lines; with the status at its end."""
         path = os.path.join(self.folder, name)
-        done = run(self.model, "--memory-mib", str(MEMORY_MIB), "--tms", str(program.tms), "--tps", str(program.tps), "--signature",
+        done = run(self.model, "--memory-mib", str(MEMORY_MIB), "--tms", str(program.tms), "--tps", str(program.tps),
+                   "--signature",
                    path + ".signature", path + ".elf", statuses=range(256))
         if not os.path.exists(path + ".signature"):
             raise BuildError(f"{name}: the model has made no signature\n{done.stderr.decode(errors='replace')[:2000]}")
@@ -82,8 +83,10 @@ class Builder:
             if wanted and lines[-1].split()[1] != wanted:
                 raise BuildError(f"{name}: not a fault of the kind {wanted} in the model: {lines[-1]}")
             if lines[0] != "0000600d" or "0000600d" in lines[1:]:
-                raise BuildError(f"{name}: in the model, what is before the end has not happened, or what is behind it has")
-            if done.returncode != (program.statuses[label] if label in program.statuses else 134 if wanted == "abort" else 1):
+                raise BuildError(
+                    f"{name}: in the model, what is before the end has not happened, or what is behind it has")
+            if done.returncode != (program.statuses[label]
+                                   if label in program.statuses else 134 if wanted == "abort" else 1):
                 raise BuildError(f"{name}: in the model it ends with status {done.returncode}")
             tests.append(self.test(name, program, conditions, done.returncode, b""))
         return tests
@@ -94,18 +97,25 @@ class Builder:
         if program.checked:
             lines, done = self.reference(program.name, program)
             if len(lines) != program.results + program.unchecked:
-                raise BuildError(f"{program.name}: {len(lines)} words, not {program.results + program.unchecked}, in the model: {lines[-1]}")
+                raise BuildError(
+                    f"{program.name}: {len(lines)} words, not {program.results + program.unchecked}, in the model: "
+                    f"{lines[-1]}"
+                )
             image.set_words(image.symbols["expected"], [int(line, 16) for line in lines[:program.results]])
             image.save(os.path.join(self.folder, program.name + ".elf"))
         lines, done = self.reference(program.name, program)
         if done.returncode != 0 or lines[-1].startswith("fault"):
-            raise BuildError(f"{program.name}: in the model it ends with status {done.returncode}: {lines[-1]}\n{done.stderr.decode()[:500]}")
+            raise BuildError(
+                f"{program.name}: in the model it ends with status {done.returncode}: {lines[-1]}\n"
+                f"{done.stderr.decode()[:500]}"
+            )
         if done.stdout != program.output:
             raise BuildError(f"{program.name}: the model prints {done.stdout!r}, not {program.output!r}")
         return self.test(program.name, program, program.conditions, 0, program.output)
 
     def test(self, name, program, conditions, status, output):
-        return {"name": name, "of": program.of, "tms": program.tms, "tps": program.tps, "status": status, "output": output.decode("latin-1"),
+        return {"name": name, "of": program.of, "tms": program.tms, "tps": program.tps, "status": status,
+                "output": output.decode("latin-1"),
                 "cases": sum(conditions.values()), "conditions": dict(conditions), "places": program.places}
 
 
@@ -128,13 +138,16 @@ def count(instructions, made, constants):
         row.update(program.conditions)
         for conditions in program.entries.values():
             row.update(conditions)
-    of_features = {name: counts.pop(name) for name in list(counts) if name not in {inst.mnemonic for inst in instructions}}
+    of_features = {
+        name: counts.pop(name)
+        for name in list(counts) if name not in {inst.mnemonic
+                                                 for inst in instructions}}
     coverage.check(instructions, counts, constants)
     return counts, of_features
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     for name in ("instructions", "numbers", "tools", "folder"):
         parser.add_argument(name)
     parser.add_argument("--model", help="what makes the signatures")
@@ -149,7 +162,8 @@ def main():
         return
     temporary = options.folder + ".new"
     shutil.rmtree(temporary, ignore_errors=True)
-    builder = Builder(options.tools, options.model or os.path.join(options.tools, "../tests/bin/trax-isa-model"), temporary)
+    builder = Builder(options.tools, options.model or os.path.join(options.tools, "../tests/bin/trax-isa-model"),
+                      temporary)
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         tests = [test for tests in pool.map(builder.make, made) for test in tests]
     shutil.rmtree(builder.sources)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""An instruction without a test, or without a condition's, stops the build: complete_test.py TRAX_ISA_GEN ISA_FOLDER INSTRUCTIONS_INC NUMBERS_H LLVM_INCLUDE...
+"""An instruction without a test, or without a condition's, stops the build: complete_test.py TRAX_ISA_GEN ISA_FOLDER
+INSTRUCTIONS_INC NUMBERS_H LLVM_INCLUDE...
 
 Copies of the description with one more instruction, of each format, one less, and one renamed."""
 
@@ -21,8 +22,10 @@ MORE = [
     ('def CLZ : InstR1<5, 4, "clz", UnitInt, [{ RD = RA; }], "Count.">;', "clz (CLZ) has no test"),
     ('def MULI : InstI<18, "muli", [{ RD = RA * IMM; }], "Multiply.">;', "muli (MULI) has no test"),
     ('def LWX : InstLoad<31, 4, "lwx", [{ RD = LOAD32(RA + IMM); }], "Load.">;', "lwx (LWX) has no test"),
-    ('def BALWAYS : InstB<47, "balways", "always", "if", [{ NEXT_PC = PC + IMM; }], "Branch.">;', "balways (BALWAYS) has no test"),
-    ('def AUIPC : InstU<19, "auipc", uimm16, UnitInt, [{ RD = PC + (IMM << 16); }], "Add.">;', "auipc (AUIPC) has no test"),
+    ('def BALWAYS : InstB<47, "balways", "always", "if", [{ NEXT_PC = PC + IMM; }], "Branch.">;',
+     "balways (BALWAYS) has no test"),
+    ('def AUIPC : InstU<19, "auipc", uimm16, UnitInt, [{ RD = PC + (IMM << 16); }], "Add.">;',
+     "auipc (AUIPC) has no test"),
 ]
 failures = 0
 
@@ -40,7 +43,8 @@ def build(change):
             file.write(change(text))
         table = os.path.join(folder, "instructions.inc")
         includes = [word for include in [folder, *INCLUDES] for word in ("-I", include)]
-        subprocess.run([GENERATOR, "-gen=instructions", *includes, os.path.join(folder, "Isa.td"), "-o", table], check=True)
+        subprocess.run([GENERATOR, "-gen=instructions", *includes, os.path.join(folder, "Isa.td"), "-o", table],
+                       check=True)
         return subprocess.run([sys.executable, "-B", os.path.join(HERE, "build.py"), "--check", table,
                                NUMBERS, "none", "none"], capture_output=True, text=True)
 
@@ -55,7 +59,8 @@ def expect(what, change, messages):
 
 expect("the description as it is", lambda text: text, [])
 expect("one instruction more", lambda text: text + MORE[0][0] + "\n", [MORE[0][1]])
-expect("one of each format more", lambda text: text + "\n".join(definition for definition, _ in MORE) + "\n", [message for _, message in MORE])
+expect("one of each format more", lambda text: text + "\n".join(definition for definition, _ in MORE) + "\n",
+       [message for _, message in MORE])
 expect("without fmin", lambda text: re.sub(r"(?s)def FMIN .*?;\n(?=def)", "", text), ["FMIN has tests"])
 
 # A condition that loses its cases, one after the other.

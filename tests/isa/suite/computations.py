@@ -5,9 +5,11 @@ import random
 
 from program import Program
 
-IMMEDIATES = sorted({0, 1, -1, 2, -2, 32767, -32768, 0x5555, -0x5556, 0x7F, 0x80, 0xFF, -0x80, -0x81, 0x1234} | {1 << bit for bit in range(15)} |
+IMMEDIATES = sorted({0, 1, -1, 2, -2, 32767, -32768, 0x5555, -0x5556, 0x7F, 0x80, 0xFF, -0x80, -0x81,
+                     0x1234} | {1 << bit for bit in range(15)} |
                     {~(1 << bit) for bit in range(15)})
-UPPER = sorted({0, 1, 0xFFFF, 0x7FFF, 0x8000, 0x5555, 0xAAAA, 0x1234} | {1 << bit for bit in range(16)} | {0xFFFF ^ 1 << bit for bit in range(16)})
+UPPER = sorted({0, 1, 0xFFFF, 0x7FFF, 0x8000, 0x5555, 0xAAAA,
+                0x1234} | {1 << bit for bit in range(16)} | {0xFFFF ^ 1 << bit for bit in range(16)})
 POISON = 0x5A5
 
 
@@ -82,7 +84,8 @@ def groups(program, inst, row):
     program.address("r29", f"groups+{4 * words * len(row.groups)}")
     top = program.label()
     program.place(top)
-    program.emit(*(f"lw r{6 + word}, {4 * word}(r28)" for word in range(words)), inst.text("r6", "r7", f"r{7 + inst.group_a}"))
+    program.emit(*(f"lw r{6 + word}, {4 * word}(r28)" for word in range(words)),
+                 inst.text("r6", "r7", f"r{7 + inst.group_a}"))
     program.emit("sw r6, 0(r31)", "addi r31, r31, 4", f"addi r28, r28, {4 * words}", f"bne r28, r29, {top}")
     program.reserve(len(row.groups))
     program.case("values", len(row.groups))
@@ -112,9 +115,10 @@ def aliases(program, inst, row):
             program.case(condition)
 
 
-# Values for the first and the second operand, from two that they have otherwise: so that whichever register is read in the place of
-# the right one, one of the results differs, be it only a truth value.
-_VARIANTS = [lambda a, b: (a, b), lambda a, b: (b, b), lambda a, b: (0, b), lambda a, b: (a, 0), lambda a, b: (b - 1, b), lambda a, b: (b + 1, b)]
+# Values for the first and the second operand, from two that they have otherwise: so that whichever register is read in
+# the place of the right one, one of the results differs, be it only a truth value.
+_VARIANTS = [lambda a, b: (a, b), lambda a, b: (b, b), lambda a, b: (0, b), lambda a, b: (a, 0), lambda a,
+             b: (b - 1, b), lambda a, b: (b + 1, b)]
 
 
 def every_register(program, inst):

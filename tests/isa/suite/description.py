@@ -49,7 +49,8 @@ class Instruction:
 
 def read_instructions(path):
     """[Instruction], in the order of their encodings."""
-    pattern = re.compile(r'^TRAX_INSTRUCTION\((\w+), "([^"]+)", "([^"]*)", (\w+), (\w+), (0x\w+)u, (0x\w+)u, ([^,]*), (\d+)\)$')
+    pattern = re.compile(
+        r'^TRAX_INSTRUCTION\((\w+), "([^"]+)", "([^"]*)", (\w+), (\w+), (0x\w+)u, (0x\w+)u, ([^,]*), (\d+)\)$')
     instructions = []
     with open(path) as file:
         for number, line in enumerate(file, 1):
@@ -61,7 +62,8 @@ def read_instructions(path):
             name, mnemonic, syntax, form, unit, mask, match, flags, size = fields.groups()
             groups = {letter: int(count) for letter, count in re.findall(r"TRAX_GROUP_([AB])\((\d+)\)", flags)}
             instructions.append(Instruction(name, mnemonic, syntax, form, unit, int(mask, 16), int(match, 16),
-                                            frozenset(re.findall(r"TRAX_(\w+)", flags)), int(size), groups.get("A", 1), groups.get("B", 1)))
+                                            frozenset(re.findall(r"TRAX_(\w+)", flags)), int(size), groups.get("A", 1),
+                                            groups.get("B", 1)))
     if not instructions:
         raise DescriptionError(f"{path}: no instructions")
     return instructions
@@ -70,4 +72,5 @@ def read_instructions(path):
 def read_constants(path):
     """{name: value} of the plain macros of trax/numbers.h."""
     with open(path) as file:
-        return {name: int(value, 0) for name, value in re.findall(r"^#define (\w+) (0x[0-9A-Fa-f]+|\d+)u?\b", file.read(), re.M)}
+        return {name: int(value, 0) for name,
+                value in re.findall(r"^#define (\w+) (0x[0-9A-Fa-f]+|\d+)u?\b", file.read(), re.M)}

@@ -1,5 +1,5 @@
-"""What ends the machine: each case starts at an entry of its own and has an image for itself, with the same bytes but for the entry.
-A case stores the first word of the signature, faults, and stores what must not be seen."""
+"""What ends the machine: each case starts at an entry of its own and has an image for itself, with the same bytes but
+for the entry. A case stores the first word of the signature, faults, and stores what must not be seen."""
 
 from memory import LOCAL, MEMORY_END, has_local
 from program import Program
@@ -9,7 +9,8 @@ STACK_WINDOW = LOCAL - 0x10000  # accesses from here to local memory are a stack
 DATA, TEXT = 0x3000, 0x1000
 
 
-KINDS = {"reserved bits": "illegal", "unknown number": "illegal", "unused opcode": "illegal", "unused function": "illegal",
+KINDS = {"reserved bits": "illegal", "unknown number": "illegal", "unused opcode": "illegal",
+         "unused function": "illegal",
          "code abort": "abort", "local fault": "local"}  # of conditions that are not called like their fault
 
 
@@ -83,7 +84,8 @@ def unused_programs(instructions):
     for opcode in range(64):
         if opcode not in used:
             for fields in (0, 0x01234805):
-                program.entry(f"opcode{opcode}_{'fields' if fields else 'zeros'}", "unused opcode", [f".word {opcode << 26 | fields:#010x}"])
+                program.entry(f"opcode{opcode}_{'fields' if fields else 'zeros'}", "unused opcode",
+                              [f".word {opcode << 26 | fields:#010x}"])
     program.entry("ones", "unused opcode", [".word 0xffffffff"])
     programs = [program]
     for opcode in sorted(used):
@@ -95,7 +97,8 @@ def unused_programs(instructions):
         for function in range(64):
             if function not in functions:
                 fields = 0x01230000 if all(inst.format == "R1" for inst in there) else 0x01234800
-                program.entry(f"function{function}", "unused function", [f".word {opcode << 26 | fields | function:#010x}"])
+                program.entry(f"function{function}", "unused function",
+                              [f".word {opcode << 26 | fields | function:#010x}"])
         programs.append(program)
     return programs
 
@@ -108,7 +111,8 @@ def access(inst, immediate=0):
 
 
 def access_program(inst):
-    """Every kind of fault that the instruction's address can have, at the limits of its range, and which of two comes first."""
+    """Every kind of fault that the instruction's address can have, at the limits of its range, and which of two comes
+    first."""
     program = FaultProgram(f"{inst.mnemonic}-faults", inst.mnemonic)
     program.data += ["constants: .word 1, 2, 3, 4"]
     size = inst.bytes
@@ -155,7 +159,8 @@ def access_program(inst):
 
 
 def fetch_program(inst, row):
-    """Branches and jumps to where nothing can be executed. The instruction itself has taken effect: the fault is its target's."""
+    """Branches and jumps to where nothing can be executed. The instruction itself has taken effect: the fault is its
+    target's."""
     program = FaultProgram(f"{inst.mnemonic}-faults", inst.mnemonic)
     targets = {"null": 0, "null_last": NULL_END - 4, "data": DATA, "rodata": "constants", "behind": "text_end"}
     if inst.format == "I":
@@ -176,8 +181,10 @@ def fetch_program(inst, row):
     if inst.format == "I":
         for k in (1, 2, 3):
             program.entry(f"misaligned_{k}", "misaligned-pc", [inst.text("r1", "r4")], [("r4", f"to_text+{k}")])
-            program.entry(f"misaligned_immediate_{k}", "misaligned-pc", [inst.text("r1", "r4", i=k)], [("r4", "to_text")])
-        program.entry("misaligned_data", ("misaligned-pc", "order of faults"), [inst.text("r1", "r4")], [("r4", DATA + 2)])
+            program.entry(f"misaligned_immediate_{k}", "misaligned-pc", [inst.text("r1", "r4", i=k)],
+                          [("r4", "to_text")])
+        program.entry("misaligned_data", ("misaligned-pc", "order of faults"), [inst.text("r1", "r4")],
+                      [("r4", DATA + 2)])
         program.entry("misaligned_null", ("misaligned-pc", "order of faults"), [inst.text("r1", "r4")], [("r4", 1)])
         program.place("to_text")
         program.emit("halt")
@@ -193,12 +200,15 @@ def trap_program(inst, constants):
     program.entry("abort_odd", "code abort", [inst.text(a="r4", i=abort)], [("r4", "message+1")])
     program.entry("abort_silently", "code abort", [inst.text(a="r0", i=abort)])
     program.entry("abort_nowhere", "code abort", [inst.text(a="r4", i=abort)], [("r4", 0x80000000)])
-    for name, address, condition in (("null", 0, "null"), ("null_last", NULL_END - 1, "null"), ("end", MEMORY_END, "unmapped"),
+    for name, address, condition in (("null", 0, "null"), ("null_last", NULL_END - 1, "null"),
+                                     ("end", MEMORY_END, "unmapped"),
                                      ("far", 0x80000000, "unmapped"), ("stack", LOCAL - 1, "stack")):
         program.entry(f"puts_{name}", condition, [inst.text(a="r4", i=puts)], [("r4", address)])
     host = constants["TRAX_TRAP_HOST"]
-    for name, address, condition in (("null", 0, "null"), ("end", MEMORY_END, "unmapped"), ("part", MEMORY_END - 20, "unmapped"),
-                                     ("stack", LOCAL - 4, "stack"), ("odd", "message+1", "misaligned"), ("local_end", -20, "unmapped"),
+    for name, address, condition in (("null", 0, "null"), ("end", MEMORY_END, "unmapped"),
+                                     ("part", MEMORY_END - 20, "unmapped"),
+                                     ("stack", LOCAL - 4, "stack"), ("odd", "message+1", "misaligned"),
+                                     ("local_end", -20, "unmapped"),
                                      ("constant", "message", "readonly")):
         program.entry(f"host_{name}", condition, [inst.text(a="r4", i=host)], [("r4", address)])
     fill = ["addi r6, r0, 64", f"addi r5, r0, {-16}"] + [f"sb r6, {k}(r5)" for k in range(16)]

@@ -1,5 +1,5 @@
-"""What concerns more than one instruction: programs of the folder features, and those that hazards.py, litmus.py and own_accesses.py
-generate.
+"""What concerns more than one instruction: programs of the folder features, and those that hazards.py, litmus.py and
+own_accesses.py generate.
 
 A file features/NAME.s begins with lines `# KEY: VALUE`:
   threads: TMS TPS       of the machine
@@ -7,7 +7,8 @@ A file features/NAME.s begins with lines `# KEY: VALUE`:
   link: WORDS            for the linker
   case: NAME COUNT       a condition, and how many cases of it there are
   entry: LABEL CONDITION KIND, or LABEL CONDITION status NUMBER
-                         an image that starts there; it ends by a fault of that kind, or with that status. It stores 0x600d to the
+                         an image that starts there; it ends by a fault of that kind, or with that status. It stores
+                         0x600d to the
                          first word, and nothing stores that elsewhere."""
 
 import os
@@ -61,4 +62,5 @@ def programs(instructions):
     with open(os.path.join(FOLDER, "common.inc")) as file:
         common = file.read().splitlines()
     names = sorted(name[:-2] for name in os.listdir(FOLDER) if name.endswith(".s"))
-    return [read(name, common) for name in names] + hazards.programs(instructions) + own_accesses.programs() + litmus.programs(common)
+    return [read(name, common)
+            for name in names] + hazards.programs(instructions) + own_accesses.programs() + litmus.programs(common)

@@ -1,16 +1,20 @@
-"""Results used at once, overwritten at once, and operands overwritten at once: what a pipeline, a slow unit or a scoreboard must not
-show. Every instruction that writes a register stands before each kind of reader, at several distances."""
+"""Results used at once, overwritten at once, and operands overwritten at once: what a pipeline, a slow unit or a
+scoreboard must not show. Every instruction that writes a register stands before each kind of reader, at several
+distances."""
 
 import random
 
 from program import Program
 
 READERS = {  # line with X for the register read, and the register that holds the outcome
-    "add": ("add r20, X, r1", "r20"), "fmul": ("fmul r20, X, r2", "r20"), "fdiv": ("fdiv r20, r2, X", "r20"), "mul": ("mul r20, X, X", "r20"),
-    "frsqrt": ("frsqrt r20, X", "r20"), "cmovnz": ("cmovnz r20, r1, X", "r20"), "sw": ("sw X, 0(r4)\n  lw r20, 0(r4)", "r20"),
+    "add": ("add r20, X, r1", "r20"), "fmul": ("fmul r20, X, r2", "r20"), "fdiv": ("fdiv r20, r2, X", "r20"),
+    "mul": ("mul r20, X, X", "r20"),
+    "frsqrt": ("frsqrt r20, X", "r20"), "cmovnz": ("cmovnz r20, r1, X", "r20"),
+    "sw": ("sw X, 0(r4)\n  lw r20, 0(r4)", "r20"),
     "sb": ("sb X, -8(r0)\n  lw r20, -8(r0)", "r20"), "swnt": ("swnt X, 0(r4)\n  lw r20, 0(r4)", "r20"),
 }
-OVERWRITERS = ["addi X, r0, 77", "fadd X, r2, r3", "mul X, r1, r1", "lui X, 0x1234", "lw X, 4(r5)", "lbu X, -12(r0)", "fdiv X, r3, r2", "frsqrt X, r3",
+OVERWRITERS = ["addi X, r0, 77", "fadd X, r2, r3", "mul X, r1, r1", "lui X, 0x1234", "lw X, 4(r5)", "lbu X, -12(r0)",
+               "fdiv X, r3, r2", "frsqrt X, r3",
                "rdsr X, threads"]
 
 
@@ -44,7 +48,8 @@ def setup(program):
     for at in (-4, -8, -12, -16):
         program.constant("r7", source.getrandbits(32))
         program.emit(f"sw r7, {at}(r0)")
-    program.sections += ["  .data", "  .p2align 6", "words: .word 0x3f9d70a4, 0xc1234567, 0x42f6e979, 0x40000000, 5, 6, 7, 8, 9",
+    program.sections += ["  .data", "  .p2align 6",
+                         "words: .word 0x3f9d70a4, 0xc1234567, 0x42f6e979, 0x40000000, 5, 6, 7, 8, 9",
                          "  .p2align 6", "scratch: .zero 64"]
 
 
@@ -54,7 +59,8 @@ def used_at_once(program, lines):
             for distance in (0, 1, 3):
                 program.constant("r20", 0x7EEF0000)
                 program.constant("r19", 0x00BAD000)
-                program.emit(producer.replace("X", "r19"), *["addi r21, r21, 1"] * distance, *line.replace("X", "r19").split("\n  "))
+                program.emit(producer.replace("X", "r19"), *["addi r21, r21, 1"] * distance,
+                             *line.replace("X", "r19").split("\n  "))
                 program.store(outcome)
                 program.case("used at once" if distance == 0 else "used soon")
 
@@ -94,9 +100,12 @@ def operands_overwritten(program, instructions):
 def chains(program):
     """Long dependent chains through all units."""
     source = random.Random("chains")
-    steps = ["add r10, r10, r1", "xori r10, r10, 0x35", "fadd r10, r10, r2", "fmul r10, r3, r10", "fdiv r10, r10, r2", "frsqrt r10, r10",
-             "mul r10, r10, r6", "fcvt.s.wu r10, r10", "fcvt.w.s r10, r10", "sw r10, 0(r4)\n  lw r10, 0(r4)", "sw r10, -4(r0)\n  lhu r10, -4(r0)",
-             "swnt r10, 8(r4)\n  lwnt r10, 8(r4)", "slli r10, r10, 3", "srai r10, r10, 1", "fmax r10, r10, r3", "mulh r10, r10, r10"]
+    steps = ["add r10, r10, r1", "xori r10, r10, 0x35", "fadd r10, r10, r2", "fmul r10, r3, r10", "fdiv r10, r10, r2",
+             "frsqrt r10, r10",
+             "mul r10, r10, r6", "fcvt.s.wu r10, r10", "fcvt.w.s r10, r10", "sw r10, 0(r4)\n  lw r10, 0(r4)",
+             "sw r10, -4(r0)\n  lhu r10, -4(r0)",
+             "swnt r10, 8(r4)\n  lwnt r10, 8(r4)", "slli r10, r10, 3", "srai r10, r10, 1", "fmax r10, r10, r3",
+             "mulh r10, r10, r10"]
     for _ in range(40):
         program.constant("r10", source.getrandbits(32))
         for step in source.choices(steps, k=16):
@@ -107,7 +116,8 @@ def chains(program):
 
 def branches(program):
     """A branch on a result that is just coming, and the link of a jump used at once."""
-    for producer in ("addi r19, r0, 5", "fdiv r19, r2, r2", "lw r19, 12(r5)", "frsqrt r19, r2", "mul r19, r1, r0", "lwnt r19, 16(r5)"):
+    for producer in ("addi r19, r0, 5", "fdiv r19, r2, r2", "lw r19, 12(r5)", "frsqrt r19, r2", "mul r19, r1, r0",
+                     "lwnt r19, 16(r5)"):
         for branch in ("beq r19, r0", "bne r19, r0", "blt r19, r1", "bgeu r1, r19"):
             target = program.label()
             program.emit("addi r20, r0, 1", producer, f"{branch}, {target}", "addi r20, r0, 2")

@@ -1,5 +1,5 @@
-"""A row for each instruction: what its tests compute with. The conditions follow from its format; an instruction without a row, or
-a row without an instruction, is an error that stops the build."""
+"""A row for each instruction: what its tests compute with. The conditions follow from its format; an instruction
+without a row, or a row without an instruction, is an error that stops the build."""
 
 from dataclasses import dataclass, field
 
@@ -29,44 +29,52 @@ _comparison = Row(operands.FLOATS, operands.neighbours())
 _memory = Row()
 
 ROWS = {
-    "ADD": _integer, "SUB": _integer, "AND": _integer, "OR": _integer, "XOR": _integer, "SLL": _integer, "SRL": _integer,
-    "SRA": _integer, "SLT": _integer, "SLTU": _integer, "CMOVNZ": _integer, "CMOVZ": _integer,
-    "MIN": _integer, "MAX": _integer, "MINU": _integer, "MAXU": _integer, "MUL": _integer, "MULH": _integer, "MULHU": _integer,
-    "FADD": _sum, "FSUB": _sum, "FMUL": Row(operands.FLOATS, operands.products()), "FDIV": Row(operands.FLOATS, operands.quotients()),
+    "ADD": _integer, "SUB": _integer, "AND": _integer, "OR": _integer, "XOR": _integer, "SLL": _integer,
+    "SRL": _integer, "SRA": _integer, "SLT": _integer, "SLTU": _integer, "CMOVNZ": _integer, "CMOVZ": _integer,
+    "MIN": _integer, "MAX": _integer, "MINU": _integer, "MAXU": _integer, "MUL": _integer, "MULH": _integer,
+    "MULHU": _integer, "FADD": _sum, "FSUB": _sum, "FMUL": Row(operands.FLOATS, operands.products()),
+    "FDIV": Row(operands.FLOATS, operands.quotients()),
     "FMIN": _comparison, "FMAX": _comparison, "FEQ": _comparison, "FLT": _comparison, "FLE": _comparison,
-    "FBOX": Row(operands.FLOATS[::5], groups=operands.boxes()), "FTRI": Row(operands.FLOATS[::5], groups=operands.triangles()),
+    "FBOX": Row(operands.FLOATS[::5], groups=operands.boxes()),
+    "FTRI": Row(operands.FLOATS[::5], groups=operands.triangles()),
     "FRSQRT": Row(operands.reciprocal_root_operands()),
     "FCVT_W_S": Row(operands.floats_to_convert()), "FCVT_WU_S": Row(operands.floats_to_convert()),
     "FCVT_S_W": Row(operands.integers_to_convert()), "FCVT_S_WU": Row(operands.integers_to_convert()),
-    "ADDI": _immediate, "ANDI": _immediate, "ORI": _immediate, "XORI": _immediate, "SLTI": _immediate, "SLTIU": _immediate,
-    "SLLI": _immediate, "SRLI": _immediate, "SRAI": _immediate, "LUI": _immediate,
-    "LB": _memory, "LBU": _memory, "LH": _memory, "LHU": _memory, "LW": _memory, "LWNT": _memory, "SB": _memory, "SH": _memory,
-    "SW": _memory, "SWNT": _memory, "AINC": _memory,
+    "ADDI": _immediate, "ANDI": _immediate, "ORI": _immediate, "XORI": _immediate, "SLTI": _immediate,
+    "SLTIU": _immediate, "SLLI": _immediate, "SRLI": _immediate, "SRAI": _immediate, "LUI": _immediate,
+    "LB": _memory, "LBU": _memory, "LH": _memory, "LHU": _memory, "LW": _memory, "LWNT": _memory, "SB": _memory,
+    "SH": _memory, "SW": _memory, "SWNT": _memory, "AINC": _memory,
     "BEQ": Row(taken=(7, 7), not_taken=(7, 8)), "BNE": Row(taken=(7, 8), not_taken=(7, 7)),
-    "BLT": Row(taken=(0xFFFFFFFF, 1), not_taken=(1, 0xFFFFFFFF)), "BGE": Row(taken=(1, 0xFFFFFFFF), not_taken=(0xFFFFFFFF, 1)),
-    "BLTU": Row(taken=(1, 0xFFFFFFFF), not_taken=(0xFFFFFFFF, 1)), "BGEU": Row(taken=(0xFFFFFFFF, 1), not_taken=(1, 0xFFFFFFFF)),
+    "BLT": Row(taken=(0xFFFFFFFF, 1), not_taken=(1, 0xFFFFFFFF)),
+    "BGE": Row(taken=(1, 0xFFFFFFFF), not_taken=(0xFFFFFFFF, 1)),
+    "BLTU": Row(taken=(1, 0xFFFFFFFF), not_taken=(0xFFFFFFFF, 1)),
+    "BGEU": Row(taken=(0xFFFFFFFF, 1), not_taken=(1, 0xFFFFFFFF)),
     "JAL": Row(), "JALR": Row(), "RDSR": Row(), "TRAP": Row(), "HALT": Row(), "FENCE": Row(),
 }
 
 
 def check_rows(instructions):
     names = {inst.name for inst in instructions}
-    wrong = [f"{inst.mnemonic} ({inst.name}) has no test: add a row to tests/isa/suite/instructions.py" for inst in instructions
-             if inst.name not in ROWS]
-    wrong += [f"{name} has tests in tests/isa/suite/instructions.py, but the description does not have it" for name in ROWS if name not in names]
+    wrong = [
+        f"{inst.mnemonic} ({inst.name}) has no test: add a row to tests/isa/suite/instructions.py"
+        for inst in instructions if inst.name not in ROWS]
+    wrong += [
+        f"{name} has tests in tests/isa/suite/instructions.py, but the description does not have it" for name in ROWS
+        if name not in names]
     if wrong:
         raise DescriptionError("\n".join(wrong))
 
 
 _SYNTAXES = {  # by format, the operands for which there are conditions
-    "R": {"d,a,b"}, "R1": {"d,a"}, "I": {"d,a,i", "d,i(a)"}, "SH": {"d,a,i"}, "U": {"d,u", "d,s"}, "S": {"b,i(a)"}, "B": {"a,b,p"},
-    "J": {"d,p"}, "T": {"a,t"}, "F": {"f"}, "N": {""}}
+    "R": {"d,a,b"}, "R1": {"d,a"}, "I": {"d,a,i", "d,i(a)"}, "SH": {"d,a,i"}, "U": {"d,u", "d,s"}, "S": {"b,i(a)"},
+    "B": {"a,b,p"}, "J": {"d,p"}, "T": {"a,t"}, "F": {"f"}, "N": {""}}
 
 
 def programs(inst, constants):
     """The instruction's programs, without its faults."""
     if inst.syntax not in _SYNTAXES.get(inst.format, ()):
-        raise DescriptionError(f"{inst.mnemonic}: operands \"{inst.syntax}\" in format {inst.format} are unknown to tests/isa/suite")
+        raise DescriptionError(
+            f"{inst.mnemonic}: operands \"{inst.syntax}\" in format {inst.format} are unknown to tests/isa/suite")
     row = ROWS[inst.name]
     if inst.format == "N":
         return halting(inst)

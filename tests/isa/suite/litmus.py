@@ -1,7 +1,9 @@
-"""Litmus tests of the memory order (docs/isa.md, "Order"): a few accesses of two to four threads, many times with other delays. What is
-counted is how often an outcome came that no rule allows; the result is 0. Which of the allowed outcomes come is no part of it.
+"""Litmus tests of the memory order (docs/isa.md, "Order"): a few accesses of two to four threads, many times with other
+delays. What is counted is how often an outcome came that no rule allows; the result is 0. Which of the allowed outcomes
+come is no part of it.
 
-In the names of the tests x and y are words of lines of their own, 0 at first; the threads 0 and 1 belong to one TM, 2 and 3 to another."""
+In the names of the tests x and y are words of lines of their own, 0 at first; the threads 0 and 1 belong to one TM, 2
+and 3 to another."""
 
 from dataclasses import dataclass
 
@@ -14,8 +16,8 @@ THREADS = 4
 
 @dataclass(frozen=True)
 class Test:
-    """threads: {number: lines}, with r8, r9 the addresses of x and y, r10, r11 (0 at first) what is observed, r12 = 1, r13 = 2.
-    forbidden: [{place: value}]: (thread, "r10"), "x" or "y"."""
+    """threads: {number: lines}, with r8, r9 the addresses of x and y, r10, r11 (0 at first) what is observed, r12 = 1,
+    r13 = 2. forbidden: [{place: value}]: (thread, "r10"), "x" or "y"."""
 
     name: str
     rule: str
@@ -46,40 +48,51 @@ def tests():
 
         # What fence w waits for, and what a result that is used is.
         for store in ("sw", "swnt"):
-            pair(f"message passing, {store}", "fence w waits for stores", [f"{store} r12, 0(r8)", "fence w", f"{store} r12, 0(r9)"], look,
+            pair(f"message passing, {store}", "fence w waits for stores",
+                 [f"{store} r12, 0(r8)", "fence w", f"{store} r12, 0(r9)"], look,
                  old_data)
-        pair("message passing, a byte of it", "fence w waits for stores", ["sb r12, 3(r8)", "fence w", "sh r12, 0(r9)"], look, old_data)
-        pair("message passing, fence rw", "fence rw waits for stores", ["sw r12, 0(r8)", "fence rw", "sw r12, 0(r9)"], look, old_data)
+        pair("message passing, a byte of it", "fence w waits for stores", ["sb r12, 3(r8)", "fence w", "sh r12, 0(r9)"],
+             look, old_data)
+        pair("message passing, fence rw", "fence rw waits for stores", ["sw r12, 0(r8)", "fence rw", "sw r12, 0(r9)"],
+             look, old_data)
         pair("two stores each", "fence w waits for stores", ["sw r12, 0(r8)", "fence w", "sw r13, 0(r9)"],
              ["swnt r12, 0(r9)", "fence w", "swnt r13, 0(r8)"], {"x": 1, "y": 1})
         pair("a store behind what was seen", "fence w waits for stores", ["sw r13, 0(r8)", "fence w", "sw r12, 0(r9)"],
              ["lwnt r10, 0(r9)", _use("r10"), "sw r12, 0(r8)"], {(reader, "r10"): 1, "x": 2})
-        pair("an increment behind a store", "fence w waits for stores", ["sw r12, 0(r8)", "fence w", "ainc r10, 0(r9)"], look, old_data)
-        pair("a store behind an increment", "an increment waited for is performed", ["ainc r10, 0(r8)", _use("r10"), "sw r12, 0(r9)"], look,
+        pair("an increment behind a store", "fence w waits for stores", ["sw r12, 0(r8)", "fence w", "ainc r10, 0(r9)"],
+             look, old_data)
+        pair("a store behind an increment", "an increment waited for is performed",
+             ["ainc r10, 0(r8)", _use("r10"), "sw r12, 0(r9)"], look,
              old_data)
         for register in ("r10", "r0"):
             pair(f"a store behind an increment into {register}", "fence w waits for increments",
                  [f"ainc {register}, 0(r8)", "fence w", "sw r12, 0(r9)"], look, old_data)
-        pair("a store behind an increment", "fence r waits for increments", ["ainc r10, 0(r8)", "fence r", "sw r12, 0(r9)"], look, old_data)
+        pair("a store behind an increment", "fence r waits for increments",
+             ["ainc r10, 0(r8)", "fence r", "sw r12, 0(r9)"], look, old_data)
         # Loads that are used, or waited for by a fence.
         both = {(writer, "r10"): 1, (reader, "r10"): 1}
-        pair("load buffering, used", "a result used is a load performed", ["lwnt r10, 0(r8)", _use("r10"), "sw r12, 0(r9)"],
+        pair("load buffering, used", "a result used is a load performed",
+             ["lwnt r10, 0(r8)", _use("r10"), "sw r12, 0(r9)"],
              ["lwnt r10, 0(r9)", _use("r10"), "sw r12, 0(r8)"], both)
         for load in ("lwnt", "lw"):
             for kind in ("r", "w", "rw"):
-                pair(f"load buffering, {load}", f"fence {kind} waits for loads", [f"{load} r10, 0(r8)", f"fence {kind}", "sw r12, 0(r9)"],
+                pair(f"load buffering, {load}", f"fence {kind} waits for loads",
+                     [f"{load} r10, 0(r8)", f"fence {kind}", "sw r12, 0(r9)"],
                      [f"{load} r10, 0(r9)", f"fence {kind}", "sw r12, 0(r8)"], both)
         pair("message passing", "fence r waits for loads", ["sw r12, 0(r8)", "fence w", "sw r12, 0(r9)"],
              ["lwnt r10, 0(r9)", "fence r", "lwnt r11, 0(r8)"], old_data)
         # The cache is emptied.
         for kind in ("r", "rw"):
-            pair("message passing to a cache", f"fence {kind} empties the cache", ["sw r12, 0(r8)", "fence w", "sw r12, 0(r9)"],
+            pair("message passing to a cache", f"fence {kind} empties the cache",
+                 ["sw r12, 0(r8)", "fence w", "sw r12, 0(r9)"],
                  ["lw r14, 0(r8)", _use("r14"), "lwnt r10, 0(r9)", f"fence {kind}", "lw r11, 0(r8)"], old_data)
-            pair("message passing of an increment to a cache", f"fence {kind} empties the cache", ["ainc r0, 0(r8)", "fence w", "sw r12, 0(r9)"],
+            pair("message passing of an increment to a cache", f"fence {kind} empties the cache",
+                 ["ainc r0, 0(r8)", "fence w", "sw r12, 0(r9)"],
                  ["lw r14, 0(r8)", _use("r14"), "lwnt r10, 0(r9)", f"fence {kind}", "lbu r11, 0(r8)"], old_data)
         pair("message waited for", "stores are performed in finite time", ["sw r12, 0(r8)", "fence w", "sw r12, 0(r9)"],
              ["lw r14, 0(r8)", *_wait("r9"), "fence r", "lw r11, 0(r8)"], {(reader, "r11"): 0})
-        pair("an answer waited for", "stores are performed in finite time", ["sw r12, 0(r8)", *_wait("r9"), "lwnt r11, 0(r8)"],
+        pair("an answer waited for", "stores are performed in finite time",
+             ["sw r12, 0(r8)", *_wait("r9"), "lwnt r11, 0(r8)"],
              [*_wait("r8"), "sw r12, 0(r9)"], {(writer, "r11"): 0})
         # Both directions.
         none = {(writer, "r10"): 0, (reader, "r10"): 0}
@@ -93,22 +106,29 @@ def tests():
              ["lwnt r10, 0(r8)", "lwnt r11, 0(r8)"], old_data, {(reader, "r10"): 2, (reader, "r11"): 0},
              {(reader, "r10"): 2, (reader, "r11"): 1}, {"x": 1})
         for load in ("lw", "lwnt", "lbu"):
-            pair(f"a load and the thread's later store, {load}", "accesses to one word keep their order", [f"{load} r10, 0(r8)", "sw r12, 0(r8)"],
+            pair(f"a load and the thread's later store, {load}", "accesses to one word keep their order",
+                 [f"{load} r10, 0(r8)", "sw r12, 0(r8)"],
                  [f"{load} r10, 0(r9)", "sb r12, 0(r9)"], {(writer, "r10"): 1}, {(reader, "r10"): 1})
-        pair("an increment behind a store to its word", "accesses to one word keep their order", ["sw r13, 0(r8)", "ainc r10, 0(r8)"],
+        pair("an increment behind a store to its word", "accesses to one word keep their order",
+             ["sw r13, 0(r8)", "ainc r10, 0(r8)"],
              ["lwnt r11, 0(r8)"], {(writer, "r10"): 0}, {(reader, "r11"): 1}, {"x": 2})
-        pair("bytes of one word", "a store changes its own bytes", ["sb r12, 0(r8)"], ["sb r13, 1(r8)"], {"x": 0x0001}, {"x": 0x0200}, {"x": 0})
+        pair("bytes of one word", "a store changes its own bytes", ["sb r12, 0(r8)"], ["sb r13, 1(r8)"], {"x": 0x0001},
+             {"x": 0x0200}, {"x": 0})
         pair("increments of one word", "an increment is one step", ["ainc r10, 0(r8)", "ainc r11, 0(r8)"],
              ["ainc r10, 0(r8)", "ainc r11, 0(r8)"],
-             *[{(writer, a): n, (reader, b): n} for a in ("r10", "r11") for b in ("r10", "r11") for n in range(4)], *[{"x": n} for n in range(4)])
+             *[{(writer, a): n, (reader, b): n} for a in ("r10", "r11") for b in ("r10", "r11") for n in range(4)],
+             *[{"x": n} for n in range(4)])
     add("independent reads of independent writes", "there is one order",
         {0: ["sw r12, 0(r8)"], 2: ["sw r12, 0(r9)"], 1: ["lwnt r10, 0(r8)", _use("r10"), "lwnt r11, 0(r9)"],
-         3: ["lwnt r10, 0(r9)", _use("r10"), "lwnt r11, 0(r8)"]}, {(1, "r10"): 1, (1, "r11"): 0, (3, "r10"): 1, (3, "r11"): 0})
+         3: ["lwnt r10, 0(r9)", _use("r10"), "lwnt r11, 0(r8)"]},
+        {(1, "r10"): 1, (1, "r11"): 0, (3, "r10"): 1, (3, "r11"): 0})
     for first, second, third in ((0, 1, 2), (2, 0, 3), (1, 3, 0)):
         add(f"handed on, threads {first}, {second}, {third}", "there is one order",
-            {first: ["sw r12, 0(r8)"], second: [*_wait("r8"), "sw r12, 0(r9)"], third: [*_wait("r9"), "lwnt r11, 0(r8)"]}, {(third, "r11"): 0})
+            {first: ["sw r12, 0(r8)"], second: [*_wait("r8"), "sw r12, 0(r9)"],
+             third: [*_wait("r9"), "lwnt r11, 0(r8)"]}, {(third, "r11"): 0})
     add("plain loads behind a message within a TM", "the threads of a TM share its cache",
-        {0: ["sw r12, 0(r8)", "fence w", "sw r12, 0(r9)"], 1: ["lw r14, 0(r8)", _use("r14"), *_wait("r9"), "lw r11, 0(r8)"]}, {(1, "r11"): 0})
+        {0: ["sw r12, 0(r8)", "fence w", "sw r12, 0(r9)"],
+         1: ["lw r14, 0(r8)", _use("r14"), *_wait("r9"), "lw r11, 0(r8)"]}, {(1, "r11"): 0})
     add("plain loads within a TM", "the threads of a TM share its cache",
         {0: ["lw r14, 0(r8)", _use("r14"), "sw r12, 0(r8)", "fence w", "sw r12, 0(r9)"],
          1: ["lw r14, 0(r8)", "lw r10, 0(r9)", _use("r10"), "lw r11, 0(r8)"]}, {(1, "r10"): 1, (1, "r11"): 0})
@@ -144,7 +164,8 @@ def one(test, index, common):
     program.emit("addi r14, r0, 12")  # the results are not needed yet: they may come late
     program.place("Llate")
     program.emit("addi r14, r14, -1", "bge r14, r0, Llate")
-    program.emit("sw r10, 0(r7)", "sw r11, 4(r7)", f"addi r6, r6, {STRIDE}", "addi r7, r7, 32", "addi r5, r5, 1", f"addi r14, r0, {ROUNDS}",
+    program.emit("sw r10, 0(r7)", "sw r11, 4(r7)", f"addi r6, r6, {STRIDE}", "addi r7, r7, 32", "addi r5, r5, 1",
+                 f"addi r14, r0, {ROUNDS}",
                  "bne r5, r14, Lround", f"barrier {THREADS}", "beq r4, r0, Lcount", "halt")
     program.place("Lcount")
     program.rebase()
@@ -166,7 +187,8 @@ def one(test, index, common):
     program.store("r20")
     program.case(f"{test.rule}: {test.name}", ROUNDS)
     program.end()
-    program.sections += ["  .bss", "  .p2align 8", f"words: .zero {ROUNDS * STRIDE}", f"seen: .zero {ROUNDS * 32}", "  .p2align 6", "arrived: .zero 64"]
+    program.sections += ["  .bss", "  .p2align 8", f"words: .zero {ROUNDS * STRIDE}", f"seen: .zero {ROUNDS * 32}",
+                         "  .p2align 6", "arrived: .zero 64"]
     return program
 
 

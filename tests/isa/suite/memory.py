@@ -13,7 +13,8 @@ LINK = ["-Ttext=0x2000", "-Tdata=0x40000", f"--section-start=.first={FIRST:#x}",
 
 
 def block(name, words):
-    return [f'  .section {name}, "aw", @progbits', "  .p2align 6", f"{name[1:]}_block:"] + [f"  .word {word:#x}" for word in words]
+    return [f'  .section {name}, "aw", @progbits', "  .p2align 6",
+            f"{name[1:]}_block:"] + [f"  .word {word:#x}" for word in words]
 
 
 def random_words(seed, count):
@@ -99,7 +100,8 @@ def load_values(program, inst):
     program.address("r21", f"values+{4 * len(words)}")
     top = program.label()
     program.place(top)
-    program.emit(inst.text("r6", "r20"), "sw r6, 0(r31)", "addi r31, r31, 4", f"addi r20, r20, {inst.bytes}", f"bne r20, r21, {top}")
+    program.emit(inst.text("r6", "r20"), "sw r6, 0(r31)", "addi r31, r31, 4", f"addi r20, r20, {inst.bytes}",
+                 f"bne r20, r21, {top}")
     count = len(words) * 4 // inst.bytes
     program.reserve(count)
     program.rebase()
@@ -128,7 +130,8 @@ def load_addresses(program, inst):
         program.case("alignment", 2)
     if has_local(inst):
         fill_local(program, random_words("local", 128))
-        for at in list(range(0, 16, inst.bytes)) + list(range(256, 272, inst.bytes)) + list(range(496, 512, inst.bytes)):
+        for at in list(range(0, 16, inst.bytes)) + list(range(256, 272,
+                                                              inst.bytes)) + list(range(496, 512, inst.bytes)):
             load(program, inst, "r6", "r0", LOCAL - 2**32 + at)
             program.constant("r4", LOCAL + at)
             load(program, inst, "r6", "r4")
@@ -225,7 +228,8 @@ def store_addresses(program, inst):
         program.case("immediate")
     if has_local(inst):
         fill_local(program, [UNWRITTEN] * 128)
-        for at in list(range(0, 16, inst.bytes)) + list(range(252, 260, inst.bytes)) + list(range(496, 512, inst.bytes)):
+        for at in list(range(0, 16, inst.bytes)) + list(range(252, 260,
+                                                              inst.bytes)) + list(range(496, 512, inst.bytes)):
             program.constant("r5", source.getrandbits(32))
             program.constant("r4", LOCAL + at)
             program.emit(inst.text(a="r4", b="r5"))

@@ -1,16 +1,20 @@
-"""Operands for the instructions' values: corners, and constructed hard cases of binary32. Integers only: no host arithmetic
-decides what a float is. Everything follows from fixed seeds."""
+"""Operands for the instructions' values: corners, and constructed hard cases of binary32. Integers only: no host
+arithmetic decides what a float is. Everything follows from fixed seeds."""
 
 import random
 from functools import lru_cache
 from math import isqrt
 
-INTEGERS = [0, 1, 2, 3, 4, 5, 7, 8, 15, 16, 30, 31, 32, 33, 63, 64, 0x7F, 0x80, 0xFF, 0x7FFF, 0x8000, 0xFFFF, 0x10000, 0x55555555,
-            0xAAAAAAAA, 0x7FFFFFFE, 0x7FFFFFFF, 0x80000000, 0x80000001, 0xFFFF7FFF, 0xFFFF8000, 0xFFFFFFFE, 0xFFFFFFFF, 0xDEADBEEF]
+INTEGERS = [0, 1, 2, 3, 4, 5, 7, 8, 15, 16, 30, 31, 32, 33, 63, 64, 0x7F, 0x80, 0xFF, 0x7FFF, 0x8000, 0xFFFF, 0x10000,
+            0x55555555,
+            0xAAAAAAAA, 0x7FFFFFFE, 0x7FFFFFFF, 0x80000000, 0x80000001, 0xFFFF7FFF, 0xFFFF8000, 0xFFFFFFFE, 0xFFFFFFFF,
+            0xDEADBEEF]
 
 # Both signs of each.
-_MAGNITUDES = [0x00000000, 0x00000001, 0x00000002, 0x00400000, 0x007FFFFF, 0x00800000, 0x00800001, 0x00FFFFFF, 0x0C000000, 0x33800000,
-               0x34000000, 0x3EAAAAAB, 0x3F000000, 0x3F7FFFFF, 0x3F800000, 0x3F800001, 0x3FC00000, 0x40000000, 0x40400000, 0x40490FDB,
+_MAGNITUDES = [0x00000000, 0x00000001, 0x00000002, 0x00400000, 0x007FFFFF, 0x00800000, 0x00800001, 0x00FFFFFF,
+               0x0C000000, 0x33800000,
+               0x34000000, 0x3EAAAAAB, 0x3F000000, 0x3F7FFFFF, 0x3F800000, 0x3F800001, 0x3FC00000, 0x40000000,
+               0x40400000, 0x40490FDB,
                0x4B000000, 0x4B7FFFFF, 0x4B800000, 0x4F000000, 0x4F800000, 0x7E800000, 0x7F000000, 0x7F7FFFFF,
                0x7F800000,  # infinity
                0x7F800001, 0x7FA5A5A5,  # NaNs that signal
@@ -52,8 +56,10 @@ def integer_pairs():
     source = random.Random("integers")
     pairs = [(source.getrandbits(32), source.getrandbits(32)) for _ in range(128)]
     for bit in range(32):
-        pairs += [(source.getrandbits(32), bit), (source.getrandbits(32), bit + 32), (0xFFFFFFFF, bit), (0x80000000, bit),
-                  (1 << bit, source.getrandbits(32)), (source.getrandbits(32), 1 << bit), (1 << bit, 1 << bit), (1 << bit, 1 << 31 - bit),
+        pairs += [(source.getrandbits(32), bit), (source.getrandbits(32), bit + 32), (0xFFFFFFFF, bit),
+                  (0x80000000, bit),
+                  (1 << bit, source.getrandbits(32)), (source.getrandbits(32), 1 << bit), (1 << bit, 1 << bit),
+                  (1 << bit, 1 << 31 - bit),
                   (0x7FFFFFFF ^ 1 << bit, 0x7FFFFFFF), (0xFFFFFFFF ^ 1 << bit, 0xFFFFFFFF)]
     return pairs
 
@@ -65,7 +71,8 @@ def sums():
     pairs = []
     for distance in range(1, 27):
         for tail in (-1, 0, 1):
-            for significand in (1 << 23, _random_significand(source) | 1, _random_significand(source) & ~1 | 2, 0xFFFFFF):
+            for significand in (1 << 23, _random_significand(source) | 1, _random_significand(source) & ~1 | 2,
+                                0xFFFFFF):
                 for sign in (0, 1):
                     # b's low bits, as many as lie below a's last one, are a half of that or one more or less.
                     low = (1 << distance - 1) + tail
@@ -73,15 +80,18 @@ def sums():
                     if b >= 1 << 24:
                         b = (1 << 23) + max(tail, 0)
                     exponent = source.choice((-130, -23, 0, 60))
-                    first, second = (sign, exponent, significand), (sign ^ source.getrandbits(1), exponent - distance, b)
+                    first, second = (sign, exponent, significand), (sign ^ source.getrandbits(1), exponent - distance,
+                                                                    b)
                     pairs.append((first, second) if source.getrandbits(1) else (second, first))
     for _ in range(96):  # nearly equal
         a = _random_significand(source)
         exponent = source.choice((-149, -148, -140, -23, 0, 100))
-        pairs.append(((0, exponent, a), (1, exponent + source.choice((-1, 0, 0)), a ^ source.getrandbits(source.randrange(23)))))
+        pairs.append(((0, exponent, a),
+                      (1, exponent + source.choice((-1, 0, 0)), a ^ source.getrandbits(source.randrange(23)))))
         pairs.append(((1, exponent, a), (source.getrandbits(1), exponent, a)))
     for _ in range(96):  # subnormal results and operands
-        pairs.append(tuple((source.getrandbits(1), -149 + source.randrange(3), source.getrandbits(source.randrange(1, 25)))
+        pairs.append(tuple((source.getrandbits(1), -149 + source.randrange(3),
+                            source.getrandbits(source.randrange(1, 25)))
                            for _ in range(2)))
     for binade in range(1, 255):
         for _ in range(3):
@@ -90,7 +100,8 @@ def sums():
             pairs.append(((sign, binade - 150, _random_significand(source)),
                           (sign ^ source.getrandbits(1), binade - 150 - distance, _random_significand(source))))
     largest = (0, 104, 0xFFFFFF)
-    for second in ((0, 103, 1), (0, 80, 0x7FFFFF), (0, 79, 0xFFFFFF), (0, 80, 0x800001), (0, 104, 1), (0, 104, 0x800000), (1, 104, 0xFFFFFF)):
+    for second in ((0, 103, 1), (0, 80, 0x7FFFFF), (0, 79, 0xFFFFFF), (0, 80, 0x800001), (0, 104, 1),
+                   (0, 104, 0x800000), (1, 104, 0xFFFFFF)):
         for sign in (0, 1):
             pairs.append(((sign, *largest[1:]), (second[0] ^ sign, *second[1:])))
     return _packed(pairs)
@@ -98,7 +109,8 @@ def sums():
 
 @lru_cache(None)
 def products():
-    """Halfway cases, every binade of the result, subnormal results and their halfway cases, the threshold of overflow."""
+    """Halfway cases, every binade of the result, subnormal results and their halfway cases, the threshold of
+    overflow."""
     source = random.Random("products")
     pairs = []
 
@@ -134,7 +146,8 @@ def products():
 
 @lru_cache(None)
 def quotients():
-    """Quotients as near to a halfway case as can be, every binade, subnormal results and their halfway cases, exact ones."""
+    """Quotients as near to a halfway case as can be, every binade, subnormal results and their halfway cases, exact
+    ones."""
     source = random.Random("quotients")
     pairs = []
 
@@ -171,7 +184,8 @@ def neighbours():
     pairs = []
     for _ in range(128):
         a = source.getrandbits(32)
-        pairs += [(a, a), (a, a ^ 0x80000000), (a, (a + 1) & 0xFFFFFFFF), ((a + 1) & 0xFFFFFFFF, a), (a, a ^ 1 << source.randrange(32)),
+        pairs += [(a, a), (a, a ^ 0x80000000), (a, (a + 1) & 0xFFFFFFFF), ((a + 1) & 0xFFFFFFFF, a),
+                  (a, a ^ 1 << source.randrange(32)),
                   (a, source.getrandbits(32))]
     return pairs
 
@@ -182,7 +196,8 @@ def reciprocal_root_operands():
     source = random.Random("roots")
     operands = list(FLOATS)
     for exponent in range(1, 255):
-        operands += [exponent << 23 | source.getrandbits(23) for _ in range(4)] + [exponent << 23, exponent << 23 | 0x7FFFFF]
+        operands += [exponent << 23 | source.getrandbits(23)
+                     for _ in range(4)] + [exponent << 23, exponent << 23 | 0x7FFFFF]
     for bits in range(1, 24):
         operands += [1 << bits - 1 | source.getrandbits(bits - 1) for _ in range(3)] + [1 << bits - 1]
 
@@ -203,14 +218,16 @@ def floats_to_convert():
     operands = list(FLOATS)
     for exponent in range(100, 170):
         operands += [source.getrandbits(1) << 31 | exponent << 23 | source.getrandbits(23) for _ in range(6)]
-    for edge in (0x3F000000, 0x3F800000, 0x40000000, 0x4B000000, 0x4B800000, 0x4EFFFFFF, 0x4F000000, 0x4F7FFFFF, 0x4F800000):
+    for edge in (0x3F000000, 0x3F800000, 0x40000000, 0x4B000000, 0x4B800000, 0x4EFFFFFF, 0x4F000000, 0x4F7FFFFF,
+                 0x4F800000):
         operands += [(edge + step) | sign for step in (-1, 0, 1) for sign in (0, 0x80000000)]
     return operands
 
 
 @lru_cache(None)
 def integers_to_convert():
-    """Every length, with the bits below the last place of the float a half, less and more, above an odd and an even place."""
+    """Every length, with the bits below the last place of the float a half, less and more, above an odd and an even
+    place."""
     source = random.Random("integers to convert")
     operands = list(INTEGERS)
     for bits in range(1, 33):
@@ -243,7 +260,8 @@ def _any_float(source):
 
 @lru_cache(None)
 def boxes():
-    """[limit, three factors, three offsets, six planes]: hits and misses along each axis, touched edges, flat boxes, any floats."""
+    """[limit, three factors, three offsets, six planes]: hits and misses along each axis, touched edges, flat boxes,
+    any floats."""
     source = random.Random("boxes")
     cases = []
     for number in range(900):
@@ -255,9 +273,11 @@ def boxes():
             if number % 5 == 0:
                 axis = source.randrange(3)
                 planes[axis + 3] = planes[axis]
-            ray = [pack(source.getrandbits(1), source.choice((-1, 0, 0, 1)), source.choice((1, 1, 3))) for _ in range(3)]
+            ray = [pack(source.getrandbits(1), source.choice((-1, 0, 0, 1)),
+                        source.choice((1, 1, 3))) for _ in range(3)]
             ray += [_small(source, 3) for _ in range(3)]
-        limit = source.choice((0x7F800000, pack(0, 0, 100), pack(0, 0, source.randrange(6)), _any_float(source) & 0x7FFFFFFF))
+        limit = source.choice((0x7F800000, pack(0, 0, 100), pack(0, 0, source.randrange(6)),
+                               _any_float(source) & 0x7FFFFFFF))
         words = [limit, *ray, *planes]
         cases.append(_with_corners(source, words) if number % 9 == 0 else words)
     return cases
@@ -265,7 +285,8 @@ def boxes():
 
 @lru_cache(None)
 def triangles():
-    """[limit, origin, direction, three vertices]: both sides, edges and vertices that are met exactly, behind, beyond the limit, any floats."""
+    """[limit, origin, direction, three vertices]: both sides, edges and vertices that are met exactly, behind, beyond
+    the limit, any floats."""
     source = random.Random("triangles")
     cases = []
     for number in range(1500):
@@ -278,7 +299,8 @@ def triangles():
             origin = [_small(source, most) for _ in range(3)]
             direction = [_small(source, 2) for _ in range(3)]
             vertices = [_small(source, most) for _ in range(9)]
-        limit = source.choice((0x7F800000, pack(0, 0, 100), pack(0, 0, source.randrange(4)), _any_float(source) & 0x7FFFFFFF))
+        limit = source.choice((0x7F800000, pack(0, 0, 100), pack(0, 0, source.randrange(4)),
+                               _any_float(source) & 0x7FFFFFFF))
         words = [limit, *origin, *direction, *vertices]
         cases.append(_with_corners(source, words) if number % 9 == 0 else words)
     return cases

@@ -1,5 +1,5 @@
-"""A thread's own accesses: every load sees the latest store to each of its bytes, whatever the sizes, the instructions and the
-places."""
+"""A thread's own accesses: every load sees the latest store to each of its bytes, whatever the sizes, the instructions
+and the places."""
 
 import random
 
@@ -11,7 +11,8 @@ LOCAL = -512
 
 
 def sizes(program, memory, base):
-    """Each store, then each load that overlaps it, at every place in a word: behind one another and with another store between."""
+    """Each store, then each load that overlaps it, at every place in a word: behind one another and with another store
+    between."""
     value = random.Random(memory)
     for store, stored in _STORES.items():
         for load, loaded in _LOADS.items():
@@ -20,7 +21,8 @@ def sizes(program, memory, base):
                     if place < at + stored and at < place + loaded:
                         program.constant("r5", value.getrandbits(32))
                         program.constant("r7", value.getrandbits(32))
-                        program.emit(f"sw r7, {base}(r4)", f"{store} r5, {base + at}(r4)", f"{load} r6, {base + place}(r4)")
+                        program.emit(f"sw r7, {base}(r4)", f"{store} r5, {base + at}(r4)",
+                                     f"{load} r6, {base + place}(r4)")
                         program.store("r6")
                         program.case(f"{memory}: a load behind a store")
 
@@ -33,7 +35,8 @@ def sequences(program, memory, base, span):
     for _ in range(400):
         if source.random() < 0.55:
             name = source.choice(stores)
-            at = source.choice((at, at + 4, at - 4, at + 1, at + 2, source.randrange(span))) % span // _STORES[name] * _STORES[name]
+            at = source.choice((at, at + 4, at - 4, at + 1, at + 2,
+                                source.randrange(span))) % span // _STORES[name] * _STORES[name]
             program.constant("r5", source.getrandbits(32))
             program.emit(f"{name} r5, {base + at}(r4)")
         elif memory == "global" and source.random() < 0.15:

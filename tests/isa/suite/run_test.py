@@ -84,15 +84,20 @@ with tempfile.TemporaryDirectory() as folder:
     os.chdir(folder)
     for name, body in BROKEN.items():
         with open(name, "w") as file:
-            file.write(f'#!/bin/sh\nsignature=$1\nsim() {{ {SIM} --set ray.units_per_group=1 --set chip.tms=$tms --set chip.tps_per_tm=$tps --set memory.size_mib=16 '
-                       f'--signature $signature $image; }}\nimage=$2 tms=$3 tps=$4\n{body}\n')
+            file.write(
+                f'#!/bin/sh\nsignature=$1\nsim() {{ {SIM} --set ray.units_per_group=1 --set chip.tms=$tms --set '
+                f'chip.tps_per_tm=$tps --set memory.size_mib=16 '
+                f'--signature $signature $image; }}\nimage=$2 tms=$3 tps=$4\n{body}\n')
         os.chmod(name, 0o755)
     broken("right", 0, r"^sub +\d+ images +[\d,]+ cases  ok\n.*\d+ of \d+ images pass", "^sub")
     broken("word", 1, r"sub +\d+ images.*7 FAILED\n    sub: word 2 \(values\) is 0bad0bad, not [0-9a-f]{8}", "^sub$")
     broken("last", 1, r"sub: word \d+ \(bystanders\) is not there, not [0-9a-f]{8}", "^sub$")
     broken("longer", 1, r"sub: word \d+ is 00000000, not there", "^sub$")
     broken("fault", 1, r"sub: the end is fault illegal pc 00001000 address 00000000, not there", "^sub$")
-    broken("fault_pc", 1, r"lw-faults-null_first: the end is fault null pc 00000004 .*, not fault null pc [0-9a-f]{8} address 00000000", "^lw-faults-null")
+    broken(
+        "fault_pc", 1,
+        r"lw-faults-null_first: the end is fault null pc 00000004 .*, not fault null pc [0-9a-f]{8} address 00000000",
+        "^lw-faults-null")
     broken("nothing", 1, "sub: no signature, status 3", "^sub$")
     broken("silent", 1, "trap: it prints b'', not b'", "^trap$")
     broken("silent", 0, "pass", "^trap$", "--ignore-output")
@@ -104,7 +109,8 @@ with tempfile.TemporaryDirectory() as folder:
     broken("late", 1, r"\Axor\n", "^(and|or|xor)$", "--first", "--names")
     broken("word", 1, r"\Asub\nsub-illegal-bit6\n", "^sub$", "--names")
     broken("right", 0, r"\A\Z", "^sub$", "--names")
-    expect("trax-sim by the default command", 0, "pass", "--emulator", SIM, "--only", "^rdsr$", "--machine", "--engine functional")
+    expect("trax-sim by the default command", 0, "pass", "--emulator", SIM, "--only", "^rdsr$", "--machine",
+           "--engine functional")
     expect("a list", 0, r"(?m)^xor: xor: .*values \d+", "--list")
     expect("the table", 0, r"(?m)^\| `xor` \| \d+ \|", "--coverage")
     expect("no emulator", 2, "--emulator is needed", "--only", "^sub$")
@@ -113,23 +119,28 @@ with tempfile.TemporaryDirectory() as folder:
     expect("no pattern", 2, "--only: \\(: ", *right, "--only", "(")
     expect("no folder", 2, "none/suite.json: no suite", *right, "--suite", "none")
     expect("no emulator", 2, "./none: cannot be run", "--emulator", "./none", "--command", TEMPLATE, "--only", "^sub$")
-    expect("a bad template", 2, r"\{nothing\}: only", "--emulator", "./right", "--command", "{emulator} {nothing}", "--only", "^sub$")
+    expect("a bad template", 2, r"\{nothing\}: only", "--emulator", "./right", "--command", "{emulator} {nothing}",
+           "--only", "^sub$")
     expect("no jobs", 2, "--jobs and --timeout", *right, "--jobs", "0")
     expect("several jobs", 0, "pass", *right, "--only", "^and", "--jobs", "4")
     for word, status in ((None, 0), (0, 1), (1, 2), (253, 254), (254, 255), (255, 255), (1500, 255)):
         own_comparison(word, status)
-    subprocess.run(["cmake", "--install", BUILD, "--component", "isa-suite", "--prefix", "installed"], stdout=subprocess.DEVNULL, check=True)
-    done = subprocess.run(["installed/isa-suite/run", "--emulator", SIM, "--only", "^or$"], capture_output=True, text=True)
+    subprocess.run(["cmake", "--install", BUILD, "--component", "isa-suite", "--prefix", "installed"],
+                   stdout=subprocess.DEVNULL, check=True)
+    done = subprocess.run(["installed/isa-suite/run", "--emulator", SIM, "--only", "^or$"], capture_output=True,
+                          text=True)
     if done.returncode or "pass" not in done.stdout:
         fail("the installed suite", done.stdout, done.stderr)
     closed = subprocess.run(f"{RUN} --suite {SUITE} --coverage | head -1", shell=True, capture_output=True, text=True)
     if closed.stderr or not closed.stdout.startswith("#"):
         fail("nobody reads", closed.stderr)
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP) * 3:
-        interrupted = subprocess.Popen([RUN, "--suite", SUITE, "--emulator", "./hangs", "--command", TEMPLATE, "--timeout", "600"], stdout=subprocess.PIPE,
+        interrupted = subprocess.Popen([RUN, "--suite", SUITE, "--emulator", "./hangs", "--command", TEMPLATE,
+                                        "--timeout", "600"], stdout=subprocess.PIPE,
                                        stderr=subprocess.PIPE)
         until = time.monotonic() + 60
-        while not has_child(interrupted.pid) and time.monotonic() < until:  # an interpreter that starts does not catch signals yet
+        # An interpreter that starts does not catch signals yet.
+        while not has_child(interrupted.pid) and time.monotonic() < until:
             pass
         interrupted.send_signal(number)
         _, err = interrupted.communicate(timeout=60)

@@ -4,7 +4,8 @@ from program import Program
 
 
 def read_special(inst, constants):
-    """On 2 TMs of 3 TPs, so that no two of the numbers are the same. A thread writes a row of its own; thread 0 compares."""
+    """On 2 TMs of 3 TPs, so that no two of the numbers are the same. A thread writes a row of its own; thread 0
+    compares."""
     tms, tps, count = 2, 3, constants["TRAX_SR_COUNT"]
     constant_ones = [constants[f"TRAX_SR_{name}"] for name in ("THREAD", "TM", "TP", "THREADS")]
     cycle, cycle_high = constants["TRAX_SR_CYCLE"], constants["TRAX_SR_CYCLEH"]
@@ -36,9 +37,11 @@ def read_special(inst, constants):
     program.emit("addi r26, r27, 0", inst.text("r27", i=constants["TRAX_SR_TP"]), "addi r4, r27, 0", "addi r27, r26, 0")
     keep("r4")
     program.case("every rd")
-    # Time never goes back: not within a register, nor in the number that both make. Two reads are at least a cycle apart.
+    # Time never goes back: not within a register, nor in the number that both make. Two reads are at least a cycle
+    # apart.
     for _ in range(4):
-        program.emit(inst.text("r4", i=cycle_high), inst.text("r5", i=cycle), inst.text("r6", i=cycle_high), inst.text("r7", i=cycle))
+        program.emit(inst.text("r4", i=cycle_high), inst.text("r5", i=cycle), inst.text("r6", i=cycle_high),
+                     inst.text("r7", i=cycle))
         program.emit("sltu r8, r7, r5", "sltu r9, r6, r4", "slt r10, r6, r4", "or r8, r8, r9", "or r8, r8, r10")
         program.emit("sltu r10, r5, r7")
         keep("r8")
@@ -67,7 +70,8 @@ def read_special(inst, constants):
 
 def trapping(inst, constants):
     """Each code; those that end the thread or the machine have images of their own (faults.py has abort)."""
-    codes = {name: constants[f"TRAX_TRAP_{name}"] for name in ("EXIT", "PUTC", "ABORT", "RAYS", "ITEMS", "PUTS", "KINDS", "HOST")}
+    codes = {name: constants[f"TRAX_TRAP_{name}"] for name in ("EXIT", "PUTC", "ABORT", "RAYS", "ITEMS", "PUTS",
+                                                               "KINDS", "HOST")}
     if sorted(codes.values()) != list(range(constants["TRAX_TRAP_COUNT"])):
         raise ValueError("a trap has no test: add it to tests/isa/suite/system.py")
     program = Program(inst.mnemonic, inst.mnemonic)
@@ -106,7 +110,8 @@ def trapping(inst, constants):
     program.store("r5")
     program.store("r6")
     program.case("code host")
-    program.emit("sw r0, -24(r0)", "addi r4, r0, -24", inst.text(a="r4", i=codes["HOST"]), "lw r5, -24(r0)")  # the last words of local memory
+    # The last words of local memory.
+    program.emit("sw r0, -24(r0)", "addi r4, r0, -24", inst.text(a="r4", i=codes["HOST"]), "lw r5, -24(r0)")
     program.store("r5")
     program.case("code host")
     program.fill(lambda n: 0x01010101 * n)
@@ -149,8 +154,10 @@ def fencing(inst, constants):
         program.store_all()
         program.case("bystanders")
         program.address("r4", "word")
-        for before, after in (("sw r5, 0(r4)", "lw r6, 0(r4)"), ("swnt r5, 0(r4)", "lw r6, 0(r4)"), ("lw r6, 0(r4)", "sw r6, 4(r4)"),
-                              ("ainc r6, 0(r4)", "lw r7, 0(r4)"), ("ainc r0, 0(r4)", "lw r6, 0(r4)"), ("sw r5, -8(r0)", "lw r6, -8(r0)"),
+        for before, after in (("sw r5, 0(r4)", "lw r6, 0(r4)"), ("swnt r5, 0(r4)", "lw r6, 0(r4)"),
+                              ("lw r6, 0(r4)", "sw r6, 4(r4)"),
+                              ("ainc r6, 0(r4)", "lw r7, 0(r4)"), ("ainc r0, 0(r4)", "lw r6, 0(r4)"),
+                              ("sw r5, -8(r0)", "lw r6, -8(r0)"),
                               ("fdiv r6, r5, r7", "addi r7, r6, 1"), ("mul r6, r5, r7", "sw r6, 0(r4)")):
             if kind == constants["TRAX_FENCE_R"] and before.startswith("ainc r0"):
                 continue  # it waits for results

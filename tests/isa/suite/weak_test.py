@@ -9,7 +9,8 @@ import sys
 RUN, MODEL, SUITE = sys.argv[1:]
 SOURCE = os.path.join(os.path.dirname(os.path.realpath(__file__)), "weak_memory.c")
 COMMAND = "{emulator} --limit 4000000 --memory-mib {memory_mib} --tms {tms} --tps {tps} --signature {signature} {image}"
-ABOUT_MEMORY = "^(memory order|own accesses|atomic increment|results in order|reset state|local memory|image|.*of threads|l[bhw].*|s[bhw].*|ainc|fence|rdsr)$"
+ABOUT_MEMORY = ("^(memory order|own accesses|atomic increment|results in order|reset state|local memory|image|.*of "
+                "threads|l[bhw].*|s[bhw].*|ainc|fence|rdsr)$")
 SEEDS = range(6)
 ORDER = "^(memory order|own accesses|atomic increment)$"
 

@@ -1,8 +1,8 @@
 """Damages a file in many small ways and links each: usage damage.py LINKER FILE DIRECTORY [ARGUMENT...]
 
-The file is cut to every length that is a multiple of a step, and single bytes are inverted, set to 0, 0xff and other values, at
-every offset below 64 and then in steps; all by a fixed rule. Whatever the damage, the linker must end by itself with status 0
-or 1 and its own messages only; after status 1 it must have said why and left no file behind.
+The file is cut to every length that is a multiple of a step, and single bytes are inverted, set to 0, 0xff and other
+values, at every offset below 64 and then in steps; all by a fixed rule. Whatever the damage, the linker must end by
+itself with status 0 or 1 and its own messages only; after status 1 it must have said why and left no file behind.
 """
 
 import os

@@ -1,5 +1,5 @@
-"""frames.py PROGRAM DISASSEMBLY: every function's record in .stack_sizes covers what its instructions take: what the prologue subtracts
-from sp, or, where sp stays, the deepest store below it."""
+"""frames.py PROGRAM DISASSEMBLY: every function's record in .stack_sizes covers what its instructions take: what the
+prologue subtracts from sp, or, where sp stays, the deepest store below it."""
 
 import re
 import subprocess

@@ -1,4 +1,5 @@
-"""options_tested.py HELP DIRECTORY...: every option in the help text stands in a RUN, DEFINE or REDEFINE line of a test."""
+"""options_tested.py HELP DIRECTORY...: every option in the help text stands in a RUN, DEFINE or REDEFINE line of a
+test."""
 
 import pathlib
 import re
@@ -20,5 +21,6 @@ options = re.findall(r"^  (-{1,2}[\w-]+|@)", pathlib.Path(help_text).read_text()
 assert len(options) > 30, options
 # As -Wl, passes it, too; a value may be joined to an option of one letter.
 missing = [option for option in options
-           if not re.search(rf"(?<![\w-]){re.escape(option)}" + ("" if len(option.strip('-')) == 1 else r"(?![\w-])"), used)]
+           if not re.search(rf"(?<![\w-]){re.escape(option)}" + ("" if len(option.strip('-')) == 1 else r"(?![\w-])"),
+                            used)]
 sys.exit(f"no test uses {', '.join(missing)}" if missing else 0)

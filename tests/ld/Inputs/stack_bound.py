@@ -1,5 +1,5 @@
-"""stack_bound.py BIN STEM SOURCE...: each program, at two levels, runs on the stack that the linker says it takes at most: that of the
-path with indirect calls of any function whose address is taken, or of the only path."""
+"""stack_bound.py BIN STEM SOURCE...: each program, at two levels, runs on the stack that the linker says it takes at
+most: that of the path with indirect calls of any function whose address is taken, or of the only path."""
 
 import re
 import subprocess
@@ -15,7 +15,8 @@ def link(source, level, *options):
 
 
 def execute():
-    run = subprocess.run([f"{binaries}/trax-sim", "--quiet", "--engine", "fast", stem], capture_output=True, timeout=120, check=False)
+    run = subprocess.run([f"{binaries}/trax-sim", "--quiet", "--engine", "fast", stem], capture_output=True,
+                         timeout=120, check=False)
     return run.returncode, run.stdout
 
 
@@ -25,7 +26,8 @@ for source in sources:
         report = link(source, level, "-Wl,--print-stack")
         expected = execute()
         assert expected[0] == 0 and expected[1], f"{source} {level} does not run"
-        assert not re.search("recursion|variable size|unknown size", report), f"{source} {level} has no bound:\n{report}"
+        assert not re.search("recursion|variable size|unknown size",
+                             report), f"{source} {level} has no bound:\n{report}"
         bound = re.search(r"address is taken, (\d+) bytes", report) or re.search(r"at most (\d+) bytes", report)
         size = -(-int(bound[1]) // GRANULE) * GRANULE
         link(source, level, f"-mstack-size={size}", "-Wl,--stack-check=none")

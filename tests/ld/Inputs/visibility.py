@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Link every pair of mentions of a symbol, in both orders, with every pair of visibilities, and look at the executable's.
+"""Link every pair of mentions of a symbol, in both orders, with every pair of visibilities, and look at the
+executable's.
 
     visibility.py TRAX-LD YAML2OBJ LLVM-READELF YAML SCRATCH
 """
@@ -33,7 +34,8 @@ def main():
 
     def assemble(document, visibility="STV_DEFAULT", name="f"):
         path = f"{scratch}.{document}.{visibility}.{name}.o"
-        subprocess.run([yaml2obj, f"--docnum={document}", source, f"-DVISIBILITY={visibility}", f"-DNAME={name}", "-o", path],
+        subprocess.run([yaml2obj, f"--docnum={document}", source, f"-DVISIBILITY={visibility}", f"-DNAME={name}", "-o",
+                        path],
                        check=True)
         return path
 
@@ -45,7 +47,8 @@ def main():
     def check(inputs, visibilities, name="f", option=None):
         for relocatable in [False, True] if name == "f" and not option else [False]:
             output = f"{scratch}.{len(linked)}.out"
-            command = [linker, *(["-r"] if relocatable else []), *([option] if option else []), start, *inputs, "-o", output]
+            command = [linker, *(["-r"] if relocatable else []), *([option] if option else []), start, *inputs, "-o",
+                       output]
             subprocess.run(command, check=True)
             expected = min(visibilities, key=ORDER.index)
             linked.append((output, name, expected, expected in ORDER[:2] and not relocatable, command))

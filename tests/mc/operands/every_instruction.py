@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Every operand of every instruction is refused when it is wrong, with the message of its kind at its place: the cases and the
-messages follow from the description.
+"""Every operand of every instruction is refused when it is wrong, with the message of its kind at its place: the cases
+and the messages follow from the description.
 
   every_instruction.py DESCRIPTION MC    from llvm-tblgen --dump-json isa/Isa.td; the assembler
 """

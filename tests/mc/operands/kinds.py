@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Every kind of operand that the description's instructions have is tested with wrong operands: a file KIND-invalid.s beside
-this one, with a comment line for each mistake that the kind can have, followed by cases. Prints what is missing.
+"""Every kind of operand that the description's instructions have is tested with wrong operands: a file KIND-invalid.s
+beside this one, with a comment line for each mistake that the kind can have, followed by cases. Prints what is missing.
 
   kinds.py DESCRIPTION    from llvm-tblgen --dump-json isa/Isa.td
 """

@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 """The accuracy of the binary32 functions and what they cost, as docs/results/functions.md has it.
 
-    accuracy.py --measure   measures what measured.csv does not have or what has changed (trax-accuracy, half an hour on two cores from
+    accuracy.py --measure   measures what measured.csv does not have or what has changed (trax-accuracy, half an hour on
+                            two cores from
                             nothing), then does what --update does
-    accuracy.py --update    writes the table of docs/results/functions.md from measured.csv, with cycles and bytes measured now (seconds)
+    accuracy.py --update    writes the table of docs/results/functions.md from measured.csv, with cycles and bytes
+                            measured now (seconds)
     accuracy.py --check     exit status 1 if the table's errors are not those of measured.csv
 
-Cycles are those of cost.c on one TP with the latencies of the paper, and with caches that hold all. Bytes are those of code and constants
-that a program gets by calling the function, compiled with -O2.
+Cycles are those of cost.c on one TP with the latencies of the paper, and with caches that hold all. Bytes are those of
+code and constants that a program gets by calling the function, compiled with -O2.
 """
 
 import argparse
@@ -84,8 +86,10 @@ def measured_columns(row):
     count = int(row["operands"])
     at = ", ".join(f"{int(word, 16):08X}" for word in row["at"].split())
     tried = "all" if count == 2**32 else f"2^{count.bit_length() - 1}"
-    return (f"| `{row['function']}` | {tried} | {float(row['max_ulp']):.4f} | {at} | {share(int(row['not_rounded_correctly']), count)} | "
-            f"{row['beyond_1_ulp']} | {row['wrong_special_values']} | {row['wrong_order']} |")
+    return (
+        f"| `{row['function']}` | {tried} | {float(row['max_ulp']):.4f} | {at} | "
+        f"{share(int(row['not_rounded_correctly']), count)} | "
+        f"{row['beyond_1_ulp']} | {row['wrong_special_values']} | {row['wrong_order']} |")
 
 
 def update(options):
@@ -94,12 +98,17 @@ def update(options):
         scratch = pathlib.Path(folder)
         cost = cycles(options.bin, scratch)
         size = sizes(options.bin, scratch, [row["function"] for row in rows])
-    lines = ["| function | operands | greatest error, ulp | at | not rounded correctly | beyond 1 ulp | wrong special values | wrong order | "
-             "cycles: least, mean, greatest | bytes |", "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"]
+    lines = [
+        "| function | operands | greatest error, ulp | at | not rounded correctly | beyond 1 ulp | wrong special "
+        "values | wrong order | "
+        "cycles: least, mean, greatest | bytes |", "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"]
     for row in rows:
         least, mean, greatest = cost[row["function"]]
         same = least == greatest
-        lines.append(f"{measured_columns(row)} {least if same else f'{least}, {float(mean):.0f}, {greatest}'} | {size[row['function']]:,} |")
+        lines.append(
+            f"{measured_columns(row)} {least if same else f'{least}, {float(mean):.0f}, {greatest}'} | "
+            f"{size[row['function']]:,} |"
+        )
     page = PAGE.read_text(encoding="utf-8")
     if BEGIN not in page or END not in page:
         sys.exit(f"accuracy.py: {PAGE}: the marks of the table are missing")
@@ -114,11 +123,14 @@ def check():
     table = page[page.index(BEGIN) : page.index(END)]
     missing = [row["function"] for row in measured_rows() if measured_columns(row) not in table]
     if missing or table.count("\n| `") != len(measured_rows()):
-        sys.exit(f"accuracy.py: docs/results/functions.md differs from measured.csv for {' '.join(missing) or 'some functions'}: run accuracy.py --update")
+        sys.exit(
+            f"accuracy.py: docs/results/functions.md differs from measured.csv for "
+            f"{' '.join(missing) or 'some functions'}: run accuracy.py --update"
+        )
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     what = parser.add_mutually_exclusive_group(required=True)
     what.add_argument("--measure", action="store_true", help="measure what is missing, then --update")
     what.add_argument("--update", action="store_true", help="write the table of docs/results/functions.md")

@@ -1,19 +1,22 @@
 #!/usr/bin/env python3
-"""What a less precise FPDIV/iSQRT unit costs in accuracy and saves in time, for each special.precision_bits from 1 to 24.
+"""What a less precise FPDIV/iSQRT unit costs in accuracy and saves in time, for each special.precision_bits from 1 to
+24.
 
-    precision.py --output DIR [--scenes DIR]     the whole report: DIR/precision.csv, precision.md and precision.png; some minutes
-    precision.py --page docs/results/precision.md --output DIR     puts the tables and the plot of such a report into the page
+    precision.py --output DIR [--scenes DIR]     the whole report: DIR/precision.csv, precision.md and precision.png;
+                                                 some minutes
+    precision.py --page docs/results/precision.md --output DIR     puts the tables and the plot of such a report into
+    the page
     precision.py --check                         a short run that must end, and end with what holds at every precision
 
-For each precision b: the errors of frsqrt and fdiv themselves (precision-units), of the library's sqrtf and of normalised vectors
-(loops.c on the emulator), and of pictures of the ray tracer against those of b = 24, with its cycles; once at the latency of
-a unit that produces four bits a cycle, once at that of a unit that multiplies:
+For each precision b: the errors of frsqrt and fdiv themselves (precision-units), of the library's sqrtf and of
+normalised vectors (loops.c on the emulator), and of pictures of the ray tracer against those of b = 24, with its
+cycles; once at the latency of a unit that produces four bits a cycle, once at that of a unit that multiplies:
 
     digits   four bits a cycle
     newton   a table and Newton's iteration
 
-emulator/include/trax/special_latency.h defines both, and both give the paper's 8 cycles for 24 bits. The bunny of Debian's glmark2-data is
-rendered, and conference if --scenes is given.
+emulator/include/trax/special_latency.h defines both, and both give the paper's 8 cycles for 24 bits. The bunny of
+Debian's glmark2-data is rendered, and conference if --scenes is given.
 """
 
 import argparse
@@ -50,7 +53,8 @@ LATENCIES = {}  # {(model, bits): cycles}, from precision-units
 
 def run(command):
     try:
-        done = subprocess.run([str(c) for c in command], stdout=subprocess.PIPE, stdin=subprocess.DEVNULL, timeout=TIME_LIMIT, check=False)
+        done = subprocess.run([str(c) for c in command], stdout=subprocess.PIPE, stdin=subprocess.DEVNULL,
+                              timeout=TIME_LIMIT, check=False)
     except subprocess.TimeoutExpired:
         fail(f"{' '.join(map(str, command))} did not end in {TIME_LIMIT} s")
     if done.returncode != 0:
@@ -62,7 +66,8 @@ def unit_errors(bin_directory, stride):
     """{(operation, bits): {column: number}}; LATENCIES is filled too."""
     rows = list(csv.DictReader(run([bin_directory / "../tests/bin/precision-units", stride]).splitlines()))
     LATENCIES.update({(model, int(r["bits"])): int(r[model]) for r in rows for model in MODELS})
-    return {(r["operation"], int(r["bits"])): {k: float(v) for k, v in r.items() if k not in ("operation", *MODELS)} for r in rows}
+    return {(r["operation"], int(r["bits"])): {k: float(v) for k,
+                                               v in r.items() if k not in ("operation", *MODELS)} for r in rows}
 
 
 def special(bits, model):
@@ -93,16 +98,19 @@ def loops(bin_directory, program, bits, model, scratch):
                 f"results={dump}", program])
     sqrt_cycles, normalise_cycles, divide_cycles, others = text.split()
     values = array.array("f", dump.read_bytes())
-    error = max(abs(s - math.sqrt(x)) / 2.0 ** (math.frexp(math.sqrt(x))[1] - 24) for s, x in zip(values, loop_operands()))
+    error = max(abs(s - math.sqrt(x)) / 2.0 ** (math.frexp(math.sqrt(x))[1] - 24) for s,
+                x in zip(values, loop_operands()))
     length = max(abs(math.sqrt(v) - 1) for v in values[COUNT : 2 * COUNT])
     return {"sqrtf_cycles": int(sqrt_cycles) / COUNT, "normalise_cycles": int(normalise_cycles) / COUNT,
-            "divide_cycles": int(divide_cycles) / COUNT, "sqrtf_max_ulp": error, "length_error": length, "others": others}
+            "divide_cycles": int(divide_cycles) / COUNT, "sqrtf_max_ulp": error, "length_error": length,
+            "others": others}
 
 
 def render(bin_directory, meshes, bits, model, size, chip, scratch):
     """Statistics of a rendering, and the picture's file."""
     picture, stats = scratch / f"{bits}.png", scratch / "stats.json"
-    run([bin_directory / "trax-render", *meshes, "--config", chip, *special(bits, model), "--size", size, "--quiet", "--stats", stats,
+    run([bin_directory / "trax-render", *meshes, "--config", chip, *special(bits, model), "--size", size, "--quiet",
+         "--stats", stats,
          "-o", picture])
     return json.loads(stats.read_text()), picture
 
@@ -121,10 +129,12 @@ def compare(exact, other):
     square = sum((a - b) ** 2 for p, q in zip(exact, other) for a, b in zip(p, q))
     holes = sum(q == BACKGROUND != p for p, q in zip(exact, other))
     grown = sum(p == BACKGROUND != q for p, q in zip(exact, other))
-    both = [(sum(p), sum(q), max(abs(a - b) for a, b in zip(p, q))) for p, q in zip(exact, other) if BACKGROUND not in (p, q)]
+    both = [(sum(p), sum(q), max(abs(a - b) for a, b in zip(p, q))) for p,
+            q in zip(exact, other) if BACKGROUND not in (p, q)]
     dark = sum(q < p and most > WRONG for p, q, most in both)
     bright = sum(q > p and most > WRONG for p, q, most in both)
-    return {"rmse": math.sqrt(square / (3 * len(exact))), "holes": holes, "grown": grown, "dark": dark, "bright": bright,
+    return {"rmse": math.sqrt(square / (3 * len(exact))), "holes": holes, "grown": grown, "dark": dark,
+            "bright": bright,
             "wrong_percent": 100 * (holes + grown + dark + bright) / len(exact)}
 
 
@@ -183,11 +193,13 @@ def measure(options, scratch):
                     exact.setdefault(name, pixels)
                     row |= {f"{name}_{k}": v for k, v in compare(exact[name], pixels).items()}
                     row[f"{name}_unit_use"] = stats["special"]["utilisation"]
-                    row[f"{name}_unit_stalls"] = (stats["causes"]["special_conflict"] + stats["causes"]["wait_special"]) / stats["thread_cycles"]
+                    row[f"{name}_unit_stalls"] = (stats["causes"]["special_conflict"] +
+                                                  stats["causes"]["wait_special"]) / stats["thread_cycles"]
                 done += 1
                 if sys.stderr.isatty():
                     left = (time.monotonic() - start) * (steps / done - 1)
-                    print(f"\r{bits:2} bits, {name:12} {100 * done / steps:3.0f} %, {left:4.0f} s left ", end="", file=sys.stderr)
+                    print(f"\r{bits:2} bits, {name:12} {100 * done / steps:3.0f} %, {left:4.0f} s left ", end="",
+                          file=sys.stderr)
         rows.append(row)
     if sys.stderr.isatty():
         print("\r" + " " * 60 + "\r", end="", file=sys.stderr)
@@ -196,34 +208,47 @@ def measure(options, scratch):
 
 def tables(rows, options):
     """The report's tables, as Markdown."""
-    lines = ["| b | frsqrt: greatest, mean ulp | relative | fdiv: greatest, mean ulp | relative | `sqrtf`, ulp | \\|v\\| - 1 |",
-             "| --- | --- | --- | --- | --- | --- | --- |"]
+    lines = [
+        "| b | frsqrt: greatest, mean ulp | relative | fdiv: greatest, mean ulp | relative | `sqrtf`, ulp | \\|v\\| - "
+        "1 |",
+        "| --- | --- | --- | --- | --- | --- | --- |"]
     for r in rows:
-        lines.append(f"| {r['bits']} | {r['frsqrt_max_ulp']:.7g}, {r['frsqrt_mean_ulp']:.4g} | 2^{math.log2(r['frsqrt_max_relative']):.1f} | "
-                     f"{r['fdiv_max_ulp']:.7g}, {r['fdiv_mean_ulp']:.4g} | 2^{math.log2(r['fdiv_max_relative']):.1f} | "
-                     f"{r['sqrtf_max_ulp']:.3g} | {r['length_error']:.2g} |")
+        lines.append(
+            f"| {r['bits']} | {r['frsqrt_max_ulp']:.7g}, {r['frsqrt_mean_ulp']:.4g} | "
+            f"2^{math.log2(r['frsqrt_max_relative']):.1f} | "
+            f"{r['fdiv_max_ulp']:.7g}, {r['fdiv_mean_ulp']:.4g} | 2^{math.log2(r['fdiv_max_relative']):.1f} | "
+            f"{r['sqrtf_max_ulp']:.3g} | {r['length_error']:.2g} |")
     for name in SCENES:
         if f"{name}_rmse" not in rows[0]:
             continue
-        lines += ["", f"{name}, {options.size}, {options.config}; cycles against those of b = 24:", "",
-                  "| b | latency: digits, newton | cycles: digits, newton | RMSE of 255 | wrong pixels | holes | grown | dark | bright | unit in use | its stalls |",
-                  "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"]
+        lines += [
+            "", f"{name}, {options.size}, {options.config}; cycles against those of b = 24:", "",
+            "| b | latency: digits, newton | cycles: digits, newton | RMSE of 255 | wrong pixels | holes | grown | "
+            "dark | bright | unit in use | its stalls |",
+            "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"]
         for r in rows:
-            change = [f"{r[f'{name}_{m}_cycles'] / rows[0][f'{name}_{m}_cycles'] - 1:+.1%}" if r["bits"] < 24 else f"{r[f'{name}_{m}_cycles']:,}"
-                      for m in MODELS]
-            lines.append(f"| {r['bits']} | {r['digits_latency']}, {r['newton_latency']} | {', '.join(change)} | {r[f'{name}_rmse']:.2f} | "
-                         f"{r[f'{name}_wrong_percent']:.2f} % | {r[f'{name}_holes']} | {r[f'{name}_grown']} | {r[f'{name}_dark']} | "
-                         f"{r[f'{name}_bright']} | {r[f'{name}_unit_use']:.0%} | {r[f'{name}_unit_stalls']:.1%} |")
+            change = [
+                f"{r[f'{name}_{m}_cycles'] / rows[0][f'{name}_{m}_cycles'] - 1:+.1%}"
+                if r["bits"] < 24 else f"{r[f'{name}_{m}_cycles']:,}" for m in MODELS]
+            lines.append(
+                f"| {r['bits']} | {r['digits_latency']}, {r['newton_latency']} | {', '.join(change)} | "
+                f"{r[f'{name}_rmse']:.2f} | "
+                f"{r[f'{name}_wrong_percent']:.2f} % | {r[f'{name}_holes']} | {r[f'{name}_grown']} | "
+                f"{r[f'{name}_dark']} | "
+                f"{r[f'{name}_bright']} | {r[f'{name}_unit_use']:.0%} | {r[f'{name}_unit_stalls']:.1%} |")
     return "\n".join(lines) + "\n"
 
 
 def plot(rows, output):
     """The plot by gnuplot: errors to the left, run time to the right, over b."""
     names = [n for n in SCENES if f"{n}_rmse" in rows[0]]
-    data = "\n".join(" ".join(str(v) for v in [r["bits"], r["frsqrt_max_ulp"], r["fdiv_max_ulp"]]
-                              + [x for n in names for x in (max(r[f"{n}_rmse"], 1e-3), 100 * r[f"{n}_digits_cycles"] / rows[0][f"{n}_digits_cycles"],
-                                                            100 * r[f"{n}_newton_cycles"] / rows[0][f"{n}_newton_cycles"])]) for r in rows)
-    curves = ["$d using 1:2 with linespoints noenhanced title 'frsqrt, ulp'", "$d using 1:3 with linespoints title 'fdiv, ulp'"]
+    data = "\n".join(" ".join(
+        str(v) for v in [r["bits"], r["frsqrt_max_ulp"], r["fdiv_max_ulp"]] + [
+            x for n in names
+            for x in (max(r[f"{n}_rmse"], 1e-3), 100 * r[f"{n}_digits_cycles"] / rows[0][f"{n}_digits_cycles"],
+                      100 * r[f"{n}_newton_cycles"] / rows[0][f"{n}_newton_cycles"])]) for r in rows)
+    curves = ["$d using 1:2 with linespoints noenhanced title 'frsqrt, ulp'",
+              "$d using 1:3 with linespoints title 'fdiv, ulp'"]
     for i, n in enumerate(names):
         curves += [f"$d using 1:{4 + 3 * i} with linespoints title '{n}: RMSE of 255'",
                    f"$d using 1:{5 + 3 * i} axes x1y2 with lines dashtype 2 title '{n}: cycles, digits'",
@@ -261,7 +286,8 @@ def report(options):
     options.output.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as folder:
         rows = measure(options, pathlib.Path(folder))
-    lines = [",".join(rows[0])] + [",".join(f"{v:.9g}" if isinstance(v, float) else str(v) for v in r.values()) for r in rows]
+    lines = [",".join(rows[0])] + [
+        ",".join(f"{v:.9g}" if isinstance(v, float) else str(v) for v in r.values()) for r in rows]
     write(options.output / "precision.csv", "\n".join(lines) + "\n")
     write(options.output / "precision.md", tables(rows, options))
     plot(rows, options.output / "precision.png")
@@ -281,7 +307,8 @@ def check(options):
     """At every precision: the units round to b bits, sqrtf is as good as them, and the ray tracer ends."""
     units = unit_errors(options.bin, 101)
     for (operation, bits), error in units.items():
-        bound = 0.5 if bits == 24 else 2 ** (23 - bits) + 0.5  # half of the last place of b bits, after half of that of 24
+        # Half of the last place of b bits, after half of that of 24.
+        bound = 0.5 if bits == 24 else 2 ** (23 - bits) + 0.5
         if not bound * 0.9 < error["max_ulp"] <= bound:
             fail(f"{operation} at {bits} bits is {error['max_ulp']} units off, not {bound}")
     with tempfile.TemporaryDirectory() as folder:
@@ -301,14 +328,18 @@ def check(options):
                 fail(f"normalised vectors at {bits} bits are {figures['length_error']} too long or short")
         box = HERE.parents[1] / "render"
         for bits in (24, 12, 6, 3, 2, 1):
-            stats, picture = render(options.bin, [box / "box.obj", "--view", box / "box.view"], bits, "digits", "48x27", "1x32", scratch)
+            stats, picture = render(options.bin, [box / "box.obj", "--view", box / "box.view"], bits, "digits", "48x27",
+                                    "1x32", scratch)
             if stats["items"] != 48 * 27:
                 fail(f"the ray tracer at {bits} bits rendered {stats['items']} pixels")
-            print(f"{bits:2} bits: {stats['cycles']} cycles, {compare(read_png(scratch / '24.png'), read_png(picture))['wrong_percent']:.2f} % of the pixels wrong")
+            print(
+                f"{bits:2} bits: {stats['cycles']} cycles, "
+                f"{compare(read_png(scratch / '24.png'), read_png(picture))['wrong_percent']:.2f} % of the pixels wrong"
+            )
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("--output", type=pathlib.Path)
     parser.add_argument("--scenes", type=pathlib.Path, help="the directory of conference.ply.xz")
     parser.add_argument("--page", type=pathlib.Path, help="put the report in --output into this page")

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """The greatest errors of the binary64 functions, as docs/results/functions.md has them.
 
-    worst.py --measure [--count N] [--seed N]   searches (math64-worst; a few minutes on two idle cores), starting from the operands in
+    worst.py --measure [--count N] [--seed N]   searches (math64-worst; a few minutes on two idle cores), starting from
+                                                the operands in
                                                 found.csv, writes found.csv, then does what --update does
     worst.py --update                           writes the table of docs/results/functions.md from found.csv
     worst.py --check                            exit status 1 if the table is not that of found.csv
@@ -36,10 +37,12 @@ def functions():
 
 
 def measure(options):
-    command = [options.bin / "../tests/bin/math64-worst", "--count", str(options.count), "--seed", str(options.seed), "--start", FOUND]
+    command = [options.bin / "../tests/bin/math64-worst", "--count", str(options.count), "--seed", str(options.seed),
+               "--start", FOUND]
 
     def search(name):
-        return subprocess.run([*command, name], stdout=subprocess.PIPE, stdin=subprocess.DEVNULL, check=True).stdout.decode()
+        return subprocess.run([*command, name], stdout=subprocess.PIPE, stdin=subprocess.DEVNULL,
+                              check=True).stdout.decode()
 
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         replace(FOUND, "".join(pool.map(search, functions())))
@@ -51,7 +54,8 @@ def row(line):
     if not worst:
         return f"| {name} | 0 |  | 0 |"
     error, *operand = worst[0].split()
-    return f"| {name} | {error} | {', '.join(operand)} | {share} % |" if float(share) else f"| {name} | {error} | {', '.join(operand)} | 0 |"
+    return f"| {name} | {error} | {', '.join(operand)} | {share} % |" if float(
+        share) else f"| {name} | {error} | {', '.join(operand)} | 0 |"
 
 
 def table():
@@ -68,12 +72,13 @@ def parts():
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     what = parser.add_mutually_exclusive_group(required=True)
     what.add_argument("--measure", action="store_true", help="search, then --update")
     what.add_argument("--update", action="store_true", help="write the table of docs/results/functions.md")
     what.add_argument("--check", action="store_true", help="compare the table with found.csv")
-    parser.add_argument("--count", type=int, default=10_000_000, help="operands of each function (default: %(default)s)")
+    parser.add_argument("--count", type=int, default=10_000_000,
+                        help="operands of each function (default: %(default)s)")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=2, help="functions at a time (default: %(default)s)")
     parser.add_argument("--bin", type=pathlib.Path, default=ROOT / "build/bin")

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Takes one precaution at a time out of the device program, in a copy, and says which cases of the extreme suite notice.
+"""Takes one precaution at a time out of the device program, in a copy, and says which cases of the extreme suite
+notice.
 
     mutants.py SCRATCH [--build build] [--only NAME]
 
@@ -24,17 +25,20 @@ MUTANTS = [
     ("last-of-equals", "triangle.h", "!comes_first(triangle, hit->triangle)", "false", "duplicates"),
     ("shear", "triangle.h", "- ray->origin.x - ray->shear_u * w;", "- ray->origin.x - ray->shear_v * w;", "soup"),
     ("direction-of-zero", "ray.h", "* 0x1p-30f", "* 0", "axis-plus-zero"),
-    ("far-planes", "nodes_binary.h", "far_origin = minus(origin, margin)", "far_origin = plus(origin, margin)", "closed-globe"),
+    ("far-planes", "nodes_binary.h", "far_origin = minus(origin, margin)", "far_origin = plus(origin, margin)",
+     "closed-globe"),
     ("length-of-direction", "ray.h", "return bits_float(larger(0x7F000000 - exponent, 0x00800000))",
      "return exponent ? 1.0f : 1.0f", "directions-10^-20"),
     ("stack-dropped", "traverse.h", "top->enter >= limit", "top->enter >= 0", "soup"),
     ("no-offset", "shade.h", "times(bound * inverse_length, n)", "times(0 * inverse_length, n)", "grazing-shadows"),
-    ("no-step-back", "shade.h", "bits_float(0x7E800000 - far) * bound", "bits_float(0x7E800000 - far) * 0", "corners-dark"),
+    ("no-step-back", "shade.h", "bits_float(0x7E800000 - far) * bound", "bits_float(0x7E800000 - far) * 0",
+     "corners-dark"),
     ("exact-bound", "exact.h", "* 0x1p-17f + 0x1p-38f", "* 0", "tiny-1e16"),
     ("exact-scale", "exact.h", "bits_float(0x7F000000 - (size & 0x7F800000))", "1.0f", "tiny-1e18"),
     ("exact-borrow", "exact.h", "carry = turned ? *at != 0 : both == 0;", "carry = 0;", "room-1e18"),
     ("exact-order", "exact.h", "sign ^ odd << 31", "sign", "room-1e9"),
-    ("exact-side", "exact.h", "exactly_turned(&direction.x, v0)", "~float_bits(dot(n, minus(a, eye))) & SIGN_BIT", "oblique"),
+    ("exact-side", "exact.h", "exactly_turned(&direction.x, v0)", "~float_bits(dot(n, minus(a, eye))) & SIGN_BIT",
+     "oblique"),
     ("exact-point", "exact.h", "bound = way_bound, base = eye, inside = way", "bound = bound", "picture-both"),
     ("exact-way", "exact.h", "#define aim_at_light aim_at_light_exactly\n", "", "tiny-lit"),
     ("far-start", "exact.h", "OFFSET_PER_WAY 0x1p-19f", "OFFSET_PER_WAY 0x1p-12f", "both"),
@@ -68,8 +72,11 @@ def make(folder, build):
 
 def said(folder, case):
     """What the suite says of the case."""
-    run = subprocess.run([folder / "render-extreme", "--program-directory", folder, "--case", case], capture_output=True, text=True, timeout=600)
-    return sorted({line.split(": ", 2)[2] for line in run.stderr.splitlines() if line.startswith(("FAILED: ", "render-extreme: error: "))})
+    run = subprocess.run([folder / "render-extreme", "--program-directory", folder, "--case", case],
+                         capture_output=True, text=True, timeout=600)
+    return sorted({
+        line.split(": ", 2)[2]
+        for line in run.stderr.splitlines() if line.startswith(("FAILED: ", "render-extreme: error: "))})
 
 
 if __name__ == "__main__":

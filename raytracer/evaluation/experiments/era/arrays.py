@@ -1,4 +1,5 @@
-"""The plain arrays (trax/plain_scene.h) otherwise, in the folder of a program's inputs. Words are little endian, as is the host (x86-64)."""
+"""The plain arrays (trax/plain_scene.h) otherwise, in the folder of a program's inputs. Words are little endian, as is
+the host (x86-64)."""
 
 import array
 import json

@@ -1,14 +1,20 @@
 #!/usr/bin/env python3
-"""Makes other nodes of the binary ones that a specialised program reads: nodes.py quantised8|wide|wide-quantised|wide-quantised8
+"""Makes other nodes of the binary ones that a specialised program reads: nodes.py
+quantised8|wide|wide-quantised|wide-quantised8
 
-Run in the folder that trax-render --prepare has written, on scene.trax. Scenes of `wide` must have binary nodes, those of the others quantised ones.
+Run in the folder that trax-render --prepare has written, on scene.trax. Scenes of `wide` must have binary nodes, those
+of the others quantised ones.
 
-Wide nodes have up to four children: two pairs of two boxes and two references, one pair behind the other. Children that are not there have the reference 0 and stand behind the others;
-their boxes are turned inside out. Of the binary tree the largest child gives way to its own two until there are four. Wide nodes stand in the order of the binary ones that they begin with.
+Wide nodes have up to four children: two pairs of two boxes and two references, one pair behind the other. Children that
+are not there have the reference 0 and stand behind the others; their boxes are turned inside out. Of the binary tree
+the largest child gives way to its own two until there are four. Wide nodes stand in the order of the binary ones that
+they begin with.
 
-Nodes with frames (quantised8, wide-quantised8) begin with three words, an axis each. Planes are numbers of 8 bits in this frame: 256 at equal distances, a power of two times the cells of
-the scene's grid. A word is the binary32 number FRAME_BIAS + p, where p is the first plane's place in cells, with FRAME_EXPONENT + e in its last nine bits, if planes are 2^e cells apart:
-p is what both together make it. So the traversal takes the word as a float as it is. The frame is the one of least e, and of these of greatest p, that has room for all boxes."""
+Nodes with frames (quantised8, wide-quantised8) begin with three words, an axis each. Planes are numbers of 8 bits in
+this frame: 256 at equal distances, a power of two times the cells of the scene's grid. A word is the binary32 number
+FRAME_BIAS + p, where p is the first plane's place in cells, with FRAME_EXPONENT + e in its last nine bits, if planes
+are 2^e cells apart: p is what both together make it. So the traversal takes the word as a float as it is. The frame is
+the one of least e, and of these of greatest p, that has room for all boxes."""
 
 import array
 import math
@@ -25,12 +31,12 @@ FRAME_EXPONENT, FRAME_LEAST, FRAME_BITS = 149, -7, 0x47800000  # the bits of 655
 
 
 def plain(reference):
-    """Of those that a specialised program reads, the ones that lead to leaves are negated."""
+    """Decodes a reference. A specialised program reads those that lead to leaves negated."""
     return -reference & 0xFFFFFFFF if reference >> 31 else reference
 
 
 class Scene:
-    """What the device has (trax/scene_format.h), little endian as the host is."""
+    """The device's scene (trax/scene_format.h), little endian as the host."""
 
     def __init__(self, path):
         self.data = path.read_bytes()
@@ -62,7 +68,8 @@ class Scene:
         return cells
 
     def fine_box(self, reference, coarse, cells):
-        """A leaf's box in cells, rounded outwards to FINEST_CELL: of its triangles, as far as they are in the one that is stored."""
+        """A leaf's box in cells, rounded outwards to FINEST_CELL: of its triangles, as far as they are in the one that
+        is stored."""
         first = reference - self.base - (reference & 7)
         corners = struct.unpack_from("<" + "9f4x" * (reference & 7), self.data, first)
         box = []
@@ -84,10 +91,12 @@ def half_area(box, units):
 
 
 class Tree:
-    """The scene's nodes by number: children as (box, reference), boxes of whole nodes, and how many nodes are on the longest way down."""
+    """The scene's nodes by number: children as (box, reference), boxes of whole nodes, and how many nodes are on the
+    longest way down."""
 
     def __init__(self, scene, fine):
-        self.scene, self.children, self.boxes, self.heights = scene, [None] * scene.count, [None] * scene.count, [0] * scene.count
+        self.scene, self.children, self.boxes, self.heights = scene, [None] * scene.count, [None] * scene.count, [
+            0] * scene.count
         cells = scene.cells()
         self.units = [1] * 3 if scene.layout == BINARY else [cell for _, cell in cells]
         pending = [scene.root]
@@ -160,7 +169,8 @@ def record(name, children, box):
         frames, plane = [frame(box[axis], box[3 + axis]) for axis in range(3)], "B"
         data = struct.pack("<3I", *(word for word, _, _ in frames))
         children = [([math.floor((child[axis] - first) / step) for axis, (_, first, step) in enumerate(frames)]
-                     + [math.ceil((child[3 + axis] - first) / step) for axis, (_, first, step) in enumerate(frames)], reference) for child, reference in children]
+                     + [math.ceil((child[3 + axis] - first) / step) for axis, (_, first, step) in enumerate(frames)],
+                     reference) for child, reference in children]
     for pair in range(0, width, 2):
         (first, left), (second, right) = children[pair : pair + 2]
         data += struct.pack(f"<12{plane}2I", *first, *second, left, right)
@@ -174,7 +184,10 @@ def convert(path, name):
     if not scene.root or scene.root >> 31:
         sys.exit("nodes.py: error: the scene has no nodes")
     if scene.words[5] > ENTRIES:
-        sys.exit(f"nodes.py: error: the tree is {scene.words[5]} nodes deep; the stack has {ENTRIES} entries (trax-scene --depth)")
+        sys.exit(
+            f"nodes.py: error: the tree is {scene.words[5]} nodes deep; the stack has {ENTRIES} entries (trax-scene "
+            f"--depth)"
+        )
     tree = Tree(scene, name.endswith("8"))
     nodes = dict(enumerate(tree.children)) if name == "quantised8" else tree.widen()
     if name != "quantised8":
@@ -195,7 +208,8 @@ def convert(path, name):
         boxes = [box for box, _ in children]
         data += record(name, [(box, moved(reference)) for box, reference in children], around(boxes))
     data += b"\0" * (-len(data) % LINE) + scene.data[scene.triangles :]
-    sections = [[offset + shift, *rest] if offset > scene.nodes else [offset, *rest] for offset, *rest in scene.sections]
+    sections = [[offset + shift, *rest] if offset > scene.nodes else [offset, *rest] for offset,
+                *rest in scene.sections]
     sections[0] = [scene.nodes, length, len(nodes), size]
     struct.pack_into("<I", data, 8, len(data))
     struct.pack_into("<I", data, 16, moved(scene.root))

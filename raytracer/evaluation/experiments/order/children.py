@@ -1,4 +1,5 @@
-"""Sorts the children of a specialised program's nodes, in the folder of its inputs: children.py axis|box|surface|likelier"""
+"""Sorts the children of a specialised program's nodes, in the folder of its inputs: children.py
+axis|box|surface|likelier"""
 
 import math
 import pathlib
@@ -14,7 +15,8 @@ def box_area(box):
 
 
 class Below:
-    """What is below a child: its box's and its triangles' areas, and what a visit costs on the average, where a node and a triangle cost 1."""
+    """Returns the areas of a child's box and of its triangles, and the mean cost of a visit, where a node and a
+    triangle cost 1."""
 
     def __init__(self, box, surface, cost):
         self.area, self.surface, self.cost = box_area(box) or 1e-30, surface, cost
@@ -55,7 +57,8 @@ def larger_box_first(scene):
 
 
 def larger_surface_first(scene):
-    """In the manner of Nah and Manocha, "SATO: Surface Area Traversal Order for Shadow Ray Tracing" (Computer Graphics Forum 33(6), 2014)."""
+    """Orders children after Nah and Manocha, "SATO: Surface Area Traversal Order for Shadow Ray Tracing" (Computer
+    Graphics Forum 33(6), 2014)."""
     sort_children(scene, lambda child: child.surface)
 
 
@@ -65,7 +68,8 @@ def likelier_per_cost_first(scene):
 
 
 def axis_in_reference(scene):
-    """The axis along which the children's middles are farthest apart in bits 3 and 4 of a node's reference, and the child first that is lower along it."""
+    """The axis along which the children's middles are farthest apart in bits 3 and 4 of a node's reference, and the
+    child first that is lower along it."""
     axes = []
     for node in range(scene.node_count):
         middles = [[low + high for low, high in zip(*box)] for box in scene.boxes(node)]
@@ -75,12 +79,14 @@ def axis_in_reference(scene):
             scene.swap(node)
 
     def marked(references):
-        return [reference if reference & 7 else reference | axes[scene.node_of(reference)] << 3 for reference in references]
+        return [
+            reference if reference & 7 else reference | axes[scene.node_of(reference)] << 3 for reference in references]
 
     scene.references(marked)
     scene.words[4], = marked([scene.words[4]])
 
 
 scene = Scene()
-{"axis": axis_in_reference, "box": larger_box_first, "surface": larger_surface_first, "likelier": likelier_per_cost_first}[sys.argv[1]](scene)
+{"axis": axis_in_reference, "box": larger_box_first, "surface": larger_surface_first,
+ "likelier": likelier_per_cost_first}[sys.argv[1]](scene)
 scene.write()

@@ -1,4 +1,5 @@
-"""Other triangles for a specialised program, in the folder of its inputs: triangles.py apart|few-lines|48|64|shared|edges|transforms"""
+"""Other triangles for a specialised program, in the folder of its inputs: triangles.py
+apart|few-lines|48|64|shared|edges|transforms"""
 
 import array
 import pathlib
@@ -15,7 +16,8 @@ def dense(size):
 
 def padded(size):
     def change(scene):
-        old, new = scene.words[scene.triangles:scene.triangles + scene.triangle_count * TRIANGLE], array.array("I", [0]) * (scene.triangle_count * size)
+        old, new = scene.words[scene.triangles:scene.triangles +
+                               scene.triangle_count * TRIANGLE], array.array("I", [0]) * (scene.triangle_count * size)
         for word in range(TRIANGLE):
             new[word::size] = old[word::TRIANGLE]
         scene.replace_triangles(dense(size), new)
@@ -24,7 +26,8 @@ def padded(size):
 
 
 def at_even_words(scene, size, word_of):
-    """Leaves of triangles of `size` words, each from an even word on; materials apart, found by the triangle's place in steps of a power of two."""
+    """Leaves of triangles of `size` words, each from an even word on; materials apart, found by the triangle's place in
+    steps of a power of two."""
     step = 1 << size.bit_length() - 1
     words, places, materials = array.array("I"), {}, {}
     for first, count in scene.leaves():
@@ -90,11 +93,12 @@ def edges(scene):
 
 
 def unit_transforms(scene):
-    """Rows of the affine transform that brings the corners to (0, 0, 0), (1, 0, 0) and (0, 1, 0): that of the height first. Zeros if it is none in binary32. Then
-    the triangles as they were, at the same distances."""
+    """Rows of the affine transform that brings the corners to (0, 0, 0), (1, 0, 0) and (0, 1, 0): that of the height
+    first. Zeros if it is none in binary32. Then the triangles as they were, at the same distances."""
     transforms, records, none = array.array("f"), array.array("I", [0]) * (scene.triangle_count * 12), [0.0] * 12
     for word in range(TRIANGLE):
-        records[word::12] = scene.words[scene.triangles + word:scene.triangles + scene.triangle_count * TRIANGLE:TRIANGLE]
+        records[word::12] = scene.words[scene.triangles + word:scene.triangles +
+                                        scene.triangle_count * TRIANGLE:TRIANGLE]
     for number in range(scene.triangle_count):
         a, b, c = scene.floats(number)
         e, f = minus(b, a), minus(c, a)
@@ -112,5 +116,6 @@ def unit_transforms(scene):
 
 
 scene = Scene()
-{"apart": materials_apart, "few-lines": in_few_lines, "48": padded(12), "64": padded(16), "shared": indexed, "edges": edges, "transforms": unit_transforms}[sys.argv[1]](scene)
+{"apart": materials_apart, "few-lines": in_few_lines, "48": padded(12), "64": padded(16), "shared": indexed,
+ "edges": edges, "transforms": unit_transforms}[sys.argv[1]](scene)
 scene.write()
