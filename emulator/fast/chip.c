@@ -111,7 +111,7 @@ static enum trax_advance advance(void *context, uint64_t *t, uint64_t until) {
   }
   for (unsigned cycles = 0; cycles < CYCLES && *t < until && !chip->end; cycles++) {
     if (chip->epochs && !chip->alone && trax_epochs_advance(chip->epochs, t, until))
-      return TRAX_GOES_ON;
+      break;
     if (run_ahead(chip, t, until))
       continue;
     const uint64_t before = *t;
@@ -122,8 +122,8 @@ static enum trax_advance advance(void *context, uint64_t *t, uint64_t until) {
     *t = *t < until ? *t : until;
     chip->machine->fast_path.single_cycles += chip->tms > 1 && !chip->alone ? *t - before : 0;
   }
-  if (chip->alone && *t >= until)
-    commit(chip);
+  if (*t >= until)
+    commit(chip); /* a watch may see memory and output */
   if (!chip->end)
     return TRAX_GOES_ON;
   /* Only the last transfers are under way. */

@@ -50,6 +50,8 @@ struct trax_epochs {
   uint8_t *snapshot; /* all sections, one after the other */
   struct undo *undo; /* [undo_count]: writes to global memory since the snapshot */
   size_t undo_count, undo_capacity;
+  char *printed; /* [printed_count]: characters printed since the snapshot */
+  size_t printed_count, printed_capacity;
 
   uint64_t cautious_from, cautious_until; /* these cycles are simulated one by one */
   uint64_t pause;
@@ -79,6 +81,14 @@ static bool record_sections(struct trax_epochs *epochs) {
   return epochs->sections;
 }
 
+/* Writes what the program has printed, since the chip does not go back beyond it any more. */
+static void print(struct trax_epochs *epochs) {
+  FILE *const output = epochs->chip->tm->output; /* of all TMs */
+  if (output && epochs->printed_count)
+    fwrite(epochs->printed, 1, epochs->printed_count, output);
+  epochs->printed_count = 0;
+}
+
 static void take_snapshot(struct trax_epochs *epochs, uint64_t t) {
   uint8_t *to = epochs->snapshot;
   for (size_t i = 0; i < epochs->section_count; i++) {
@@ -87,6 +97,7 @@ static void take_snapshot(struct trax_epochs *epochs, uint64_t t) {
       memcpy(to, section->bytes, section->size * section->count);
     to += section->size * section->count;
   }
+  print(epochs);
   epochs->has_snapshot = true;
   trax_transfer_log_release(&epochs->chip->transfers);
   epochs->chip->transfers.holds = true;
@@ -97,6 +108,7 @@ static void take_snapshot(struct trax_epochs *epochs, uint64_t t) {
 static void roll_back(struct trax_epochs *epochs) {
   struct trax_chip *chip = epochs->chip;
   trax_transfer_log_discard(&chip->transfers);
+  epochs->printed_count = 0;
   const uint8_t *from = epochs->snapshot;
   for (size_t i = 0; i < epochs->section_count; i++) {
     const struct trax_section *section = &epochs->sections[i];
@@ -111,6 +123,7 @@ static void roll_back(struct trax_epochs *epochs) {
 }
 
 void trax_epochs_commit(struct trax_epochs *epochs) {
+  print(epochs);
   epochs->has_snapshot = false;
   trax_transfer_log_release(&epochs->chip->transfers);
   epochs->chip->transfers.holds = false;
@@ -132,14 +145,25 @@ static const struct trax_map_entry *record_writer(struct trax_epochs *epochs, ui
   return writer;
 }
 
-/* Performs a store of a TM, or prepares the block of an atomic increment. False: the epoch must be given up, since a
-   burst has loaded from the block, or the controller has incremented the word too early, or memory ran out. */
+static bool hold_character(struct trax_epochs *epochs, uint32_t character) {
+  if (!trax_grow((void **)&epochs->printed, epochs->printed_count, &epochs->printed_capacity, 1))
+    return false;
+  epochs->printed[epochs->printed_count++] = (char)character;
+  return true;
+}
+
+/* Performs a store of a TM or holds its output, or prepares the block of an atomic increment. False: the epoch must be
+   given up, since a burst has loaded from the block, or the controller has incremented the word too early, or memory
+   ran out. */
 static bool perform(struct trax_epochs *epochs, const struct trax_store_buffer_write *write, uint32_t tm) {
   struct trax_chip *chip = epochs->chip;
+  if (write->bytes == TRAX_PRINT)
+    return hold_character(epochs, write->value);
   if (trax_fast_is_loaded(&chip->blocks, write->address))
     return false;
-  trax_fast_set_written(&chip->blocks, write->address, write->bytes ? TRAX_BLOCK_WRITTEN : TRAX_BLOCK_SHARED);
-  if (!write->bytes)
+  const bool increments = write->bytes == TRAX_INCREMENT;
+  trax_fast_set_written(&chip->blocks, write->address, increments ? TRAX_BLOCK_SHARED : TRAX_BLOCK_WRITTEN);
+  if (increments)
     return true;
   const struct trax_map_entry *writer = record_writer(epochs, write->address, tm);
   if (!writer || writer->value & EARLY)
@@ -352,6 +376,7 @@ void trax_epochs_destroy(struct trax_epochs *epochs) {
   free(epochs->sections);
   free(epochs->snapshot);
   free(epochs->undo);
+  free(epochs->printed);
   trax_map_free(&epochs->writers);
   free(epochs->next_write);
   free(epochs->next_request);

@@ -68,6 +68,10 @@ void trax_store_buffer_increment(struct trax_store_buffer *buffer, uint64_t t, u
   record_write(buffer, (struct trax_store_buffer_write){.cycle = t, .address = address});
 }
 
+void trax_store_buffer_print(struct trax_store_buffer *buffer, uint64_t t, uint32_t character) {
+  record_write(buffer, (struct trax_store_buffer_write){.cycle = t, .value = character, .bytes = TRAX_PRINT});
+}
+
 void trax_store_buffer_request(struct trax_store_buffer *buffer, uint64_t t) {
   if (grow(buffer, (void **)&buffer->requests, buffer->request_count, &buffer->request_capacity,
            sizeof *buffer->requests))

@@ -12,8 +12,9 @@
 struct trax_store_buffer_write {
   uint64_t cycle;
   uint32_t address, value;
-  uint32_t bytes; /* 0: no store, but an atomic increment, which the controller will perform */
+  uint32_t bytes; /* or TRAX_INCREMENT, which the controller will perform, or TRAX_PRINT: a character of the output */
 };
+enum { TRAX_INCREMENT = 0, TRAX_PRINT = 8 };
 
 /* A word of global memory as the TM's own stores have changed it: `mask` has the bits that they wrote. */
 struct trax_store_buffer_word {
@@ -46,6 +47,8 @@ void trax_store_buffer_store(struct trax_store_buffer *buffer, uint64_t t, uint3
                              unsigned bytes);
 /* Records the issue of an atomic increment. */
 void trax_store_buffer_increment(struct trax_store_buffer *buffer, uint64_t t, uint32_t address);
+/* Records a character that the program prints. */
+void trax_store_buffer_print(struct trax_store_buffer *buffer, uint64_t t, uint32_t character);
 /* Records a request, which has taken a place in the memory queue. */
 void trax_store_buffer_request(struct trax_store_buffer *buffer, uint64_t t);
 

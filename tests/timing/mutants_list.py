@@ -436,4 +436,7 @@ MUTANTS = [
     ("fast/chip.c", "  if (chip->alone) /* bursts may have stored */\n    trax_fast_roll_back(chip);", ""),
     ("fast/chip.c", "return !increments;", "return true;"),
     ("fast/chip.c", "transfer < until ? transfer : until", "until"),
+    # --- Output ---
+    ("fast/epochs.c", "  trax_transfer_log_discard(&chip->transfers);\n  epochs->printed_count = 0;", "  trax_transfer_log_discard(&chip->transfers);"),
+    ("fast/epochs.c", "  print(epochs);\n  epochs->has_snapshot = true;", "  epochs->has_snapshot = true;"),
 ]

@@ -73,8 +73,12 @@ static bool trap(struct trax_tm *tm, unsigned number, uint32_t value, int32_t co
     trax_tm_end_thread(tm, number, t + 1, (int32_t)value);
     return true;
   }
-  if (tm->buffer && (code == TRAX_TRAP_PUTC || code == TRAX_TRAP_PUTS || code == TRAX_TRAP_HOST)) {
-    tm->buffer->stop = true; /* the order of output and host calls among all threads is only known cycle by cycle */
+  if (tm->buffer && code == TRAX_TRAP_PUTC) {
+    trax_store_buffer_print(tm->buffer, t, value);
+    return true;
+  }
+  if (tm->buffer && (code == TRAX_TRAP_PUTS || code == TRAX_TRAP_HOST)) {
+    tm->buffer->stop = true; /* what they read and write depends on the order of all threads, cycle by cycle */
     return true;
   }
   const trax_fault_kind fault = trax_trap(tm->machine, tm->tp[number].local, tm->stats, tm->output, value, code);
