@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 void trax_mesh_release(struct trax_mesh *mesh) {
   free(mesh->vertices);
@@ -66,6 +67,8 @@ static trax_status read_mesh(struct trax_mesh *mesh, const char *path, const str
     if (scene_has_extension(name, readers[i].extension))
       read = readers[i].read;
   free(name);
+  if (!read && access(path, R_OK) != 0)
+    return trax_fail(error, "%s: cannot be read: %s", path, strerror(errno));
   return read ? read(mesh, path, options, report, error)
               : trax_fail(error,
                           "%s: not a mesh that can be read: its name ends in none of .ply, .obj, .gltf and .glb, with "
