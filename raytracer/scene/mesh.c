@@ -28,7 +28,7 @@ bool trax_mesh_is_generated(const char *path) {
 
 const struct trax_material trax_default_material = {.diffuse = {0.75f, 0.75f, 0.75f}, .ior = 1, .opacity = 1};
 
-/* What is made, not read: "forest" or "forest:SEED". */
+/* Generates the mesh of "forest" or "forest:SEED". */
 static trax_status generate(struct trax_mesh *mesh, const char *path, struct trax_import_report *report,
                             trax_error *error) {
   static const char name[] = "forest";
