@@ -66,7 +66,7 @@ static inline struct place sample_place(uint32_t sample) {
   return (struct place){(float)(int32_t)(x >> 8) * 0x1p-24f, (float)(int32_t)(y >> 8) * 0x1p-24f};
 }
 
-/* Of the ray through a place of the pixel. */
+/* The direction of the ray through a place of the pixel. */
 static inline struct vector camera_direction(const struct trax_render_params *frame, struct pixel pixel,
                                              struct place place) {
   float column = (float)(int32_t)pixel_x(pixel) + place.x, row = (float)(int32_t)pixel_y(pixel) + place.y;

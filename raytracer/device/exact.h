@@ -214,7 +214,7 @@ static inline __attribute__((always_inline)) bool may_hit_triangle(const struct 
   return sides != 3;
 }
 
-/* As hit_triangle. */
+/* The exact form of hit_triangle. */
 static inline __attribute__((always_inline)) bool
 hit_triangle_exactly(const struct exact_triangle_ray *ray, const char *triangle, bool any, struct hit *hit) {
   if (!HITS_ARE_EXACT)

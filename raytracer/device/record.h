@@ -53,7 +53,7 @@ static inline void record_pixel(const struct trax_render_params *run, struct pix
 }
 
 #define RECORD_HIT(run, pixel, sample, hit) record_hit(run, pixel, sample, hit)
-/* The same of a path's first surface that is no hole. */
+/* Records the first surface of a path that is no hole. */
 #define RECORD_SEEN(run, path, shadow, hit)                                                                            \
   ((shadow) || (path)->depth ? (void)0 : record_hit(run, (struct pixel){(path)->pixel}, (path)->sample, hit))
 #define RECORD_SHADOW(run, pixel, sample, blocked) record_shadow(run, pixel, sample, blocked)

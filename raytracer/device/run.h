@@ -1,4 +1,4 @@
-/* What the program knows of its run. The general program finds everything in its parameters. A specialised one is
+/* The parameters of the run. The general program finds everything in its parameters. A specialised one is
    compiled behind a file of constants (render/specialise.c writes it) that has
 
      TRAX_SPECIALISED_FEATURES   the features that the picture needs
@@ -71,7 +71,7 @@ extern struct trax_buffer scene, params, image;
 #define RUN_PARAMS ((const struct trax_render_params *)params.data)
 #define RUN_PATH(run) ((const struct trax_path_params *)((run) + 1))
 #define RUN_PALETTE(run) PALETTE_BEHIND(run)
-/* What comes of *run is loaded from here on, not kept in a register across what lies before. */
+/* Members of *run are loaded again from here on, not kept in registers across the code before. */
 #define LOAD_AGAIN(run) HIDE_ORIGIN(run)
 #endif
 #define PALETTE_BEHIND(params) ((const struct trax_palette_entry *)((params) + 1))
@@ -100,7 +100,7 @@ static inline trax_scene_ref leaf_of(trax_scene_ref reference) {
 
 #define NO_LEAF leaf_of(1) /* where the scene's header is */
 
-/* What a reference leads to, without its low three bits. */
+/* The address of a node or triangle, from a reference without its low three bits. */
 static inline const char *scene_at(const char *scene_bytes, uint32_t offset) {
 #ifdef TRAX_SPECIALISED_FEATURES
   (void)scene_bytes;

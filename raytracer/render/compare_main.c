@@ -14,7 +14,7 @@ struct arguments {
   bool json, quiet;
 };
 
-/* From 0 to the row's `most`. */
+/* Parses a number from 0 to the row's `most`. */
 static trax_status take_number(void *target, const trax_option *option, const char *value, trax_error *error) {
   char *end;
   double *number = (double *)((char *)target + option->offset);

@@ -1,4 +1,4 @@
-/* What each pixel cost, as false colours and as numbers. */
+/* The cost of each pixel, as false colours and as numbers. */
 #include "render.h"
 #include "trax/explain.h"
 #include "trax/output.h"

@@ -1,4 +1,4 @@
-/* What embree*.c share. Hits are Embree's, or found without error. */
+/* Declarations shared by embree*.c. Hits are Embree's, or found without error. */
 #ifndef TRAX_RENDER_EMBREE_H
 #define TRAX_RENDER_EMBREE_H
 
@@ -65,7 +65,7 @@ struct embree_arrival {
 };
 /* False: out of memory. */
 bool embree_prepare_lights(struct embree *embree);
-/* What arrives from a light, x and y choosing a point of it; false: nothing. */
+/* Samples a point of a light by x and y; false: no light arrives. */
 bool embree_light_at(const struct embree *embree, uint32_t number, struct double3 point, double x, double y,
                      struct embree_arrival *arrival);
 /* The emitter of a part, from 0 to 1, of all power. */
@@ -78,7 +78,7 @@ double embree_towards(struct double3 point, struct double3 target, struct double
 /* The triangle's unit normal on the side of v0, v1, v2 counterclockwise. */
 struct double3 embree_winding_normal(const struct trax_triangle *triangle);
 
-/* Of a ray from the eye: the nearest hit that is no hole. */
+/* Finds the nearest hit of a ray from the eye that is no hole. */
 bool embree_seen(const struct embree *embree, struct double3 eye, struct double3 direction, struct exact_hit *hit);
 
 /* embree_material.c: what surfaces do with light, in the formulas of the publications. Directions are of unit length

@@ -212,7 +212,7 @@ static bool light_reaches(const struct sample *sample, struct double3 origin, st
 
 /* --- lights --- */
 
-/* What one light of the view sends to the eye by way of the surface. */
+/* The light of one light of the view that the surface reflects. */
 static struct double3 lit_by(const struct sample *sample, const struct surface *surface, uint32_t number,
                              struct two place) {
   const struct double3 nothing = {0, 0, 0};
@@ -229,7 +229,7 @@ static struct double3 lit_by(const struct sample *sample, const struct surface *
                                                                                     : nothing;
 }
 
-/* What an emitter does, weighted by the balance heuristic. */
+/* The same of a sampled emitter, weighted by the balance heuristic. */
 static struct double3 lit_by_emitter(const struct sample *sample, const struct surface *surface, uint32_t pick,
                                      struct two place) {
   const struct double3 nothing = {0, 0, 0};
@@ -267,7 +267,7 @@ static struct double3 lit_at_random(const struct sample *sample, const struct su
   return scaled(choices, lit_by(sample, surface, number, place));
 }
 
-/* How far rays of ambient occlusion go: a part of the diagonal of the scene's box. */
+/* The length of occlusion rays: a part of the diagonal of the scene's box. */
 static double reach_of(const struct trax_frame *frame) {
   const float *low = frame->scene->header->bounds_min, *high = frame->scene->header->bounds_max;
   const struct double3 diagonal = minus(from(high), from(low));

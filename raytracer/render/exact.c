@@ -139,7 +139,7 @@ static void rational_set(struct rational_triangle *r, const struct trax_triangle
   rational_volume(r, r->scaled, &r->vertex[0], &r->vertex[2], &r->vertex[1]);
 }
 
-/* As exact_triangle. */
+/* The same as exact_triangle. */
 static bool rational_triangle(const struct trax_triangle *triangle, struct double3 origin, struct double3 direction,
                               struct exact_hit *hit, mpq_t distance) {
   struct rational_triangle r;
@@ -232,7 +232,7 @@ static void bounds(const struct RTCBoundsFunctionArguments *arguments) {
   }
 }
 
-/* As device/triangle.h has it. */
+/* The same order as in device/triangle.h. */
 static bool comes_first(const struct trax_triangle *triangle, const struct trax_triangle *other) {
   uint32_t words[9], other_words[9];
   memcpy(words, triangle, sizeof words);

@@ -1,4 +1,4 @@
-/* What trax-render reads and writes, compared before it begins (trax/files.h). */
+/* Lists the inputs and outputs of trax-render, which are compared before it begins (trax/files.h). */
 #include "files.h"
 
 #include "prepare.h"

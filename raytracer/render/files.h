@@ -1,4 +1,4 @@
-/* What trax-render reads and writes. */
+/* The inputs and outputs of trax-render. */
 #ifndef TRAX_RENDER_FILES_H
 #define TRAX_RENDER_FILES_H
 

@@ -16,7 +16,7 @@ void trax_hits_release(struct trax_hits *hits) {
   *hits = (struct trax_hits){0};
 }
 
-/* What the watertight test computes of one triangle, with bounds on the errors that it makes. */
+/* The results of the watertight test for one triangle, with bounds on their errors. */
 struct bounds {
   double edge[3], edge_error[3];
   double determinant, determinant_error;
@@ -93,7 +93,7 @@ struct ray {
   struct double3 eye, direction;
 };
 
-/* Of exact hits. */
+/* Is another answer of exact hits explained by equal distances? */
 static bool exact_is_explained(const struct trax_scene *scene, uint32_t answer, uint32_t right, struct ray ray) {
   struct exact_hit own, nearest;
   return answer != TRAX_NO_TRIANGLE && right != TRAX_NO_TRIANGLE &&

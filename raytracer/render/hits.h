@@ -13,7 +13,7 @@ struct trax_hits {
    unless run->holes. */
 trax_status trax_hits_native(struct trax_hits *hits, const struct trax_frame *frame, unsigned threads,
                              struct trax_render_run *run, trax_error *error);
-/* By Embree 3 in robust mode; embree.c. */
+/* Finds hits by Embree in robust mode; embree.c. */
 trax_status trax_hits_embree(struct trax_hits *hits, const struct trax_frame *frame, struct trax_render_run *run,
                              trax_error *error);
 /* Without error (exact.h); embree.c. */
@@ -42,7 +42,7 @@ struct trax_hits_difference {
 void trax_hits_judge(struct trax_hits_difference *difference, const struct trax_hits *answers,
                      const struct trax_hits *exact, const struct trax_frame *frame);
 
-/* How many pixels have the same triangle. */
+/* The number of pixels that have the same triangle. */
 uint64_t trax_hits_same(const struct trax_hits *a, const struct trax_hits *b, const struct trax_frame *frame);
 
 /* A picture of numbers: R + 256 G + 65536 B is the triangle's number among those that were imported, plus 1; 0: none.

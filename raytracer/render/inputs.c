@@ -107,7 +107,7 @@ static trax_status load_view(struct inputs *inputs, const struct options *option
   return status == TRAX_OK && options->view ? take_camera(view, inputs, options, camera, error) : status;
 }
 
-/* What single options say takes the place of the view's. */
+/* Replaces values of the view by those of single options. */
 static trax_status change_view(struct trax_view *view, const struct camera_options *camera, trax_error *error) {
   const float up[3] = {view->up[0], view->up[1], view->up[2]};
   if (camera->eye.given)

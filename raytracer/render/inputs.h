@@ -1,4 +1,4 @@
-/* What the command line asks to render. */
+/* Scene and views of the command line. */
 #ifndef TRAX_RENDER_INPUTS_H
 #define TRAX_RENDER_INPUTS_H
 
@@ -18,7 +18,7 @@ struct inputs {
 
 trax_status inputs_load(struct inputs *inputs, const struct options *options, trax_progress_line *progress,
                         trax_error *error);
-/* Of the turntable's picture `number`, from 0. */
+/* Sets the view of the turntable's picture `number`, from 0. */
 void inputs_view(struct trax_view *view, const struct inputs *inputs, const struct options *options, unsigned number);
 void inputs_release(struct inputs *inputs);
 

@@ -16,7 +16,7 @@ struct trax_layers {
 trax_status trax_layers_init(struct trax_picture *picture, const struct trax_frame *frame, trax_error *error);
 /* The size of trax/record.h's records. */
 uint64_t trax_record_bytes(const struct trax_render_params *params);
-/* From these: layers, and the linear floats of the paper's workload. */
+/* Makes layers and the linear floats of the paper's workload from records. */
 trax_status trax_layers_take(struct trax_picture *picture, const struct trax_frame *frame, const void *record,
                              trax_error *error);
 /* Numbers in the meshes, depth and normal. The frame's scene was scaled by 2^scaled. */

@@ -1,10 +1,10 @@
-/* What frame.c puts behind the parameters of a picture with one of TRAX_PATH_FEATURES. */
+/* The tables behind the parameters of a picture with one of TRAX_PATH_FEATURES. */
 #ifndef TRAX_RENDER_LIGHTING_H
 #define TRAX_RENDER_LIGHTING_H
 
 #include "render.h"
 
-/* What materials in use have, as features.c asks. */
+/* Properties of the materials in use, for features.c. */
 enum trax_scene_trait {
   HAS_TEXTURE = 1,
   HAS_HOLES = 2,

@@ -6,7 +6,7 @@
 
 #include <stdlib.h>
 
-/* By enum engine. */
+/* The names of enum engine. */
 static const char *const engines[] = {"fast", "reference", "native", "embree", "exact", NULL};
 
 #define FIELD(member) TRAX_OPTION_FIELD(struct options, member)
@@ -15,7 +15,7 @@ static const char *const engines[] = {"fast", "reference", "native", "embree", "
 #define WRITTEN .file = TRAX_OPTION_WRITTEN
 #define OUTPUT(member, endings_) FIELD(member), .file = TRAX_OPTION_OUTPUT, .endings = (endings_)
 
-/* What the table's texts say in numbers. */
+/* The numbers in the table's texts. */
 _Static_assert(TRAX_RENDER_MAX_SIDE == 16384 && TRAX_RENDER_MAX_SAMPLES == 4096 && TRAX_RENDER_MAX_DEPTH == 64 &&
                    TRAX_RENDER_MAX_OCCLUSION == 64,
                "");

@@ -14,7 +14,7 @@ struct setting {
   const char *value;
 };
 
-/* What takes the place of the view's values. */
+/* Values that replace the view's. */
 struct camera_options {
   struct point {
     float at[3];

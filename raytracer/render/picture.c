@@ -91,7 +91,7 @@ static void encode(png_structp png, png_infop info, FILE *file, const struct tra
   png_write_end(png, info);
 }
 
-/* Without linear floats, those that the pixels stand for. */
+/* A picture without linear floats gets those that its pixels show. */
 static trax_status write_floats(const struct trax_picture *picture, const char *path,
                                 trax_status (*encode)(struct trax_bytes *, const struct trax_picture *, const char *,
                                                       trax_error *),
@@ -238,12 +238,12 @@ trax_status trax_picture_read(struct trax_picture *picture, const char *path, tr
   return status;
 }
 
-/* As it is seen, gamma 2. */
+/* The shown value, gamma 2. */
 static double root_of(float value) {
   return copysign(sqrt(fabs((double)value)), (double)value);
 }
 
-/* In parts of 255 of a root; above white, in parts of the brighter one. */
+/* The difference of roots in parts of 255; above white, relative to the brighter one. */
 static double float_distance(float a, float b) {
   const double x = root_of(a), y = root_of(b);
   if (memcmp(&a, &b, sizeof a) == 0 || x == y)

@@ -104,7 +104,7 @@ static void note_block(struct model *model, double now) {
   model->noted++;
 }
 
-/* That a queue hands out its slot `number` now. */
+/* A queue hands out its slot `number` now. */
 static void hand_out(struct model *model, struct queue *queue, uint32_t number, double now) {
   while (model->noted * TRAX_PREDICTION_BLOCK <= model->place + (number - queue->handed_out)) {
     const uint32_t more = model->noted * TRAX_PREDICTION_BLOCK - model->place;
@@ -280,7 +280,7 @@ static void end_slot(struct trax_access_log *log, uint32_t slot, uint32_t rays) 
   model->begin = end;
 }
 
-/* What is behind the last pixels. */
+/* Hands out the slots behind the last pixels. */
 static void end_blocks(struct model *model) {
   const uint32_t slots = model->slots, tile = 1u << model->tile_bits, tiles = slots >> model->tile_bits;
   for (uint32_t i = 0; i < model->queue_count; i++) {
@@ -392,7 +392,7 @@ trax_status trax_predict(struct trax_prediction *prediction, struct trax_picture
   return status;
 }
 
-/* What the model knows of: cores, lines, the bus and its latency. */
+/* The parts of the machine that the model has: cores, lines, the bus and its latency. */
 static bool is_modelled(const char *key) {
   static const char *const modelled[] = {"chip.",           "dcache.bytes",         "dcache.line_bytes",
                                          "dcache.ways",     "dcache.replacement",   "memory.bandwidth_gbps",

@@ -1,4 +1,4 @@
-/* How large a program for the TPs is. */
+/* The size of a program for the TPs. */
 #include "render.h"
 
 #include <fcntl.h>
@@ -16,7 +16,7 @@ struct function {
   enum { UNSEEN, UNDER_WAY, SEEN } state;
 };
 
-/* What is read of a program. */
+/* The parts of a program that are read. */
 struct contents {
   struct function *functions; /* by address */
   size_t count;

@@ -121,7 +121,7 @@ static trax_status append_seal(const char *path, const char *key, trax_error *er
   return written ? TRAX_OK : trax_fail(error, "%s: %s", path, strerror(reason));
 }
 
-/* In the place of a folder, too, which moves into the work folder: it is not ours to remove unless it is empty. */
+/* If the entry's name is a folder, that is moved into the work folder, and removed only if it is empty. */
 static bool move(const struct cache_work *work, const char *from, const char *to) {
   if (rename(from, to) == 0)
     return true;
@@ -175,7 +175,7 @@ static void remove_unfinished(const char *cache, const char *name) {
     cache_end(&work);
 }
 
-/* What another process removes at the same time is gone all the same. Transient programs go first, but not while they
+/* Another process may remove entries at the same time. Transient programs go first, but not while they
    may be about to be loaded. */
 void cache_prune(const char *cache, const char *key) {
   DIR *folder = opendir(cache);

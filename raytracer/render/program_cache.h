@@ -13,7 +13,7 @@ bool cache_make_folders(const char *path);
 
 enum cache_entry { CACHE_GOOD, CACHE_ABSENT, CACHE_BAD };
 
-/* What path has under this key. A good one is marked as used just now, or, if it is transient, as used never. */
+/* Looks up the key at `path`. Sets a valid entry's time of use to now, or to 0 if it is transient. */
 enum cache_entry cache_find(const char *path, const char *key, bool transient);
 
 /* A folder of this process's own within the cache, in which a program is made: KEY.h and KEY.elf. */

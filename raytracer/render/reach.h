@@ -1,4 +1,4 @@
-/* How far binary32 reaches. */
+/* The limits of binary32. */
 #ifndef TRAX_RENDER_REACH_H
 #define TRAX_RENDER_REACH_H
 

@@ -53,7 +53,7 @@ struct trax_frame {
  */
 trax_status trax_normalise(struct trax_scene *scene, struct trax_view *view, int *exponent, trax_error *error);
 
-/* By 2^exponent, as of a scene that was scaled before. */
+/* Scales the view by 2^exponent, for a scene that was scaled before. */
 void trax_scale_view(struct trax_view *view, int exponent);
 
 /* scene and view as trax_normalise left them; scene must outlive the frame. */
@@ -63,7 +63,7 @@ trax_status trax_frame_init(struct trax_frame *frame, const struct trax_scene *s
    picture is smaller; 0: row by row. */
 void trax_frame_set_tiles(struct trax_render_params *params, uint32_t log2_side);
 void trax_frame_release(struct trax_frame *frame);
-/* Of the device program's buffer `image`. */
+/* The size of the device program's buffer `image`. */
 uint32_t trax_frame_image_bytes(const struct trax_frame *frame);
 
 /* features.c: the features that the picture needs, a bit each. */
@@ -140,17 +140,17 @@ struct trax_picture {
 
 trax_status trax_picture_init(struct trax_picture *picture, uint32_t width, uint32_t height, trax_error *error);
 void trax_picture_release(struct trax_picture *picture);
-/* Of what the device program has left in `image`. */
+/* Makes a picture of the device program's buffer `image`. */
 trax_status trax_picture_take(struct trax_picture *picture, const struct trax_frame *frame, const void *image,
                               trax_error *error);
 
-/* By the ending of the path: linear floats for .pfm and .exr, else a PNG of 8-bit RGB with the gamma of the palette
+/* Writes linear floats for .pfm and .exr, else a PNG of 8-bit RGB with the gamma of the palette
    (2); aside and renamed. */
 trax_status trax_picture_write(const struct trax_picture *picture, const char *path, trax_error *error);
 bool trax_picture_is_float(const char *path);
 /* A PNG, brought to 8-bit RGBA without touching its gamma, or a PFM or EXR (radiance.h), by its first bytes. */
 trax_status trax_picture_read(struct trax_picture *picture, const char *path, trax_error *error);
-/* The same of a file in memory. */
+/* Reads the same from memory. */
 trax_status trax_picture_decode(struct trax_picture *picture, const uint8_t *bytes, size_t size, const char *name,
                                 trax_error *error);
 
@@ -161,7 +161,7 @@ struct trax_difference {
   uint64_t beyond;  /* pixels with a channel that differs by more than `within` */
   uint32_t x, y;    /* the first pixel with the largest difference */
   double rmse;      /* root of the mean square of the differences of R, G and B, 0 to 255 */
-  /* Of two pictures with linear floats: */
+  /* if both pictures have linear floats: */
   bool floats;
   double radiance_rmse;   /* of the channels that are finite in both */
   double root_rmse;       /* of the same channels' roots, in parts of 255 */
@@ -171,13 +171,13 @@ struct trax_difference {
   double most;            /* the largest of these differences, in the same parts */
 };
 
-/* Of two pictures of one size, alpha included. */
+/* Compares two pictures of one size, alpha included. */
 void trax_picture_compare(struct trax_difference *difference, const struct trax_picture *a,
                           const struct trax_picture *b, unsigned within);
 /* The mean of the light, linear: of the floats if there are any, else of what the pixels show, 0 to 1. */
 double trax_picture_light(const struct trax_picture *picture);
 double trax_difference_percent(const struct trax_difference *difference); /* of pixels not beyond */
-/* Of pixels whose floats are not beyond; where there are no floats, that of the pixels. */
+/* The same by floats; without floats, that of the pixels. */
 double trax_difference_floats_percent(const struct trax_difference *difference);
 
 /* --- renderers --- */
@@ -223,7 +223,7 @@ struct trax_cost_summary {
   uint64_t white;                    /* one in a hundred costs more; what the picture shows white */
 };
 
-/* What a name counts; an error if it counts nothing. */
+/* Finds the quantity of a name; an error if there is none. */
 trax_status trax_cost_find(const char *name, unsigned *what, trax_error *error);
 trax_status trax_costs_init(struct trax_costs *costs, uint32_t width, uint32_t height, const char *name,
                             trax_error *error);
@@ -275,7 +275,7 @@ struct trax_simulated_options {
   bool is_twin;                               /* the program visits the nodes and triangles that the twin does */
 };
 
-/* What the program's buffer `paths` takes on this machine; 0: nothing uses it. */
+/* The size of the program's buffer `paths` on this machine; 0: nothing uses it. */
 uint32_t trax_path_bytes(const trax_machine *machine, const struct trax_frame *frame);
 /* Whether the loaded program has the symbol. */
 bool trax_program_has(const trax_machine *machine, const char *symbol);

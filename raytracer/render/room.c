@@ -168,7 +168,8 @@ static bool choose_eye(const struct room *room, const struct spot **eye, struct 
   return best > 0;
 }
 
-/* Of places that reach equally much the highest, but not the eye's, from where no shadow is seen. */
+/* Chooses the place from which most of the picture is lit, and the highest of several. The eye is no such place: from
+   there no shadow is seen. */
 static struct double3 choose_light(const struct room *room, const struct spot *eye, const struct trax_view *view,
                                    float aspect) {
   struct double3 seen[COLUMNS * ROWS], light = eye->at;

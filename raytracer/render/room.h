@@ -1,4 +1,4 @@
-/* Where to look from into a scene that is a closed room, of which one sees nothing but walls from outside. */
+/* Finds a view from inside of a scene that is a closed room: from outside only its walls would be seen. */
 #ifndef TRAX_RENDER_ROOM_H
 #define TRAX_RENDER_ROOM_H
 

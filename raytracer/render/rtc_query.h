@@ -6,7 +6,7 @@
 
 #include <rtcore.h>
 
-/* From origin to origin + far * direction. */
+/* A ray from origin to origin + far * direction. */
 static inline struct RTCRay rtc_ray(struct double3 origin, struct double3 direction, float far) {
   return (struct RTCRay){.org_x = (float)origin.x,
                          .org_y = (float)origin.y,

@@ -62,7 +62,7 @@ static trax_status relocate(trax_machine *machine, trax_error *error) {
   return TRAX_OK;
 }
 
-/* What a program that records fills (trax/record.h). */
+/* Binds the buffer that a program fills which records (trax/record.h). */
 static trax_status bind_record(trax_machine *machine, const struct trax_render_params *params, trax_error *error) {
   const uint64_t size = trax_record_bytes(params);
   if (size > UINT32_MAX)

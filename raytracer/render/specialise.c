@@ -169,7 +169,7 @@ static trax_status hash_folder(XXH3_state_t *state, const char *folder, trax_err
   return status;
 }
 
-/* Of the compiler's library, which is large and the distribution's, size and date stand for the content. */
+/* Size and date stand for the content of the compiler's library, which is large and the distribution's. */
 static void hash_library(XXH3_state_t *state, const char *path) {
   struct stat status = {0};
   stat(path, &status);

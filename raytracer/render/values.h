@@ -1,4 +1,4 @@
-/* What values of trax-render's options mean: parsers for rows of its table (trax/options.h). */
+/* Parsers of option values, for rows of trax-render's table (trax/options.h). */
 #ifndef TRAX_RENDER_VALUES_H
 #define TRAX_RENDER_VALUES_H
 
@@ -16,7 +16,7 @@ PARSER(take_percent);  /* the same, from per cent */
 PARSER(take_colour);   /* uint32_t, a pixel */
 PARSER(take_source_folder); /* struct trax_explain_options */
 PARSER(take_cost);     /* const char * that trax_cost_find knows */
-/* Of several members of struct options. */
+/* These set several members of struct options. */
 PARSER(take_setting);
 PARSER(take_queues);
 PARSER(take_prepare);

@@ -1,4 +1,4 @@
-/* How many nodes and triangles each pixel's rays visit, by the native twin. */
+/* Counts the nodes and triangles that each pixel's rays visit, by the native twin. */
 #include "../device/camera.h"
 #include "render.h"
 

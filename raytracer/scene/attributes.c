@@ -1,4 +1,4 @@
-/* What belongs to the corners of a mesh's triangles: normals and texture coordinates. */
+/* Attributes of the corners of a mesh's triangles: normals and texture coordinates. */
 #include "internal.h"
 
 #include <math.h>

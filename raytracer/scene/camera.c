@@ -34,7 +34,7 @@ bool scene_make_perpendicular(float up[3], const float direction[3]) {
 
 /* --- automatic framing --- */
 
-/* By the smallest rotation that takes the y axis to `up`, of unit length. */
+/* Turns v by the smallest rotation that takes the y axis to `up`, of unit length. */
 static void turn_up(float v[3], const float up[3]) {
   if (up[1] < -0.9999f) { /* half a turn, around the z axis of all */
     v[0] = -v[0], v[1] = -v[1];

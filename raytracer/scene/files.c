@@ -69,7 +69,7 @@ trax_status scene_load_file(struct scene_bytes *bytes, const char *path, struct 
   *bytes = (struct scene_bytes){0};
   trax_input input;
   trax_status result = trax_input_open(&input, path, error);
-  /* Of a pipe or a device nobody knows how much will come, as of packed data. */
+  /* The size of a pipe's or a device's data is unknown, as that of packed data. */
   const size_t limit = input.is_regular || limits.plain < limits.unpacked ? limits.plain : limits.unpacked;
   /* In steps, between which a signal ends it: a regular file is read without waiting. */
   for (size_t wanted = 0; result == TRAX_OK && input.size == wanted && wanted <= limit && input.expected <= limit;) {

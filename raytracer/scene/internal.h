@@ -1,4 +1,4 @@
-/* What the files of the scene library share. */
+/* Declarations shared by the files of the scene library. */
 #ifndef TRAX_SCENE_INTERNAL_H
 #define TRAX_SCENE_INTERNAL_H
 
@@ -8,10 +8,10 @@
 /* Larger coordinates are treated as infinite: Embree takes none beyond 1.844e18. */
 #define SCENE_MAX_COORDINATE 0x1.8p60f
 
-/* Of the file or the step that is named. */
+/* what: the file or the step. */
 trax_status scene_out_of_memory(trax_error *error, const char *what);
 
-/* What takes longer than a tenth of a second on a large scene asks now and then, and between its steps. */
+/* Loops that take longer than 0.1 s on a large scene ask this now and then. */
 static inline bool scene_is_interrupted(const volatile int *interrupt) {
   return interrupt && *interrupt;
 }
@@ -23,17 +23,17 @@ struct scene_bytes {
   size_t size;
 };
 
-/* Of a file, in bytes: as it is, and unpacked or from a pipe or a device. */
+/* The most bytes of a file: as it is, and unpacked or from a pipe or a device. */
 struct scene_limits {
   size_t plain, unpacked;
 };
 
-/* Of meshes, scenes and images. Nothing beyond 4 GiB makes a scene that 32-bit offsets can address. */
+/* The limits of meshes, scenes and images. Nothing beyond 4 GiB makes a scene that 32-bit offsets can address. */
 static inline struct scene_limits scene_limits_of(size_t unpack_limit) {
   return (struct scene_limits){(size_t)4 << 30, unpack_limit ? unpack_limit : TRAX_DEFAULT_UNPACK_LIMIT};
 }
 
-/* Of what people write. */
+/* The limits of files that people write. */
 #define SCENE_TEXT_LIMITS ((struct scene_limits){TRAX_TEXT_LIMIT, TRAX_TEXT_LIMIT})
 
 /* Reads a whole file, unpacking it if it begins as an .xz or .gz file does. */
@@ -59,7 +59,7 @@ trax_status scene_terminate(struct scene_bytes *bytes);
    out of memory. */
 bool scene_grow(void *array, size_t record_size, uint32_t count, size_t *capacity);
 
-/* Where a file is that `referrer` refers to as `name`, to be freed; NULL when out of memory. Relative names are
+/* The path of a file that `referrer` calls `name`, to be freed; NULL when out of memory. Relative names are
    relative to the referrer's folder, with either slash. Absolute ones come from another computer as a rule: of them the
    last part counts, in the referrer's folder. */
 char *scene_referred_path(const char *referrer, const char *name);
@@ -189,7 +189,7 @@ struct scene_polygon_work {
   const volatile int *interrupt;
 };
 
-/* What the polygons of a file may take together: seconds. */
+/* The most steps for all polygons of a file: seconds. */
 #define SCENE_POLYGON_STEPS ((uint64_t)1 << 29)
 
 /* Cuts a simple polygon, convex or not, into count - 2 triangles over its own corners, from 0; *triangles is valid
@@ -244,7 +244,7 @@ struct scene_tree;
    the same unit. */
 struct scene_box scene_box_as_stored(enum trax_node_layout layout, const struct trax_scene_grid *grid,
                                      const struct scene_box *box);
-/* What contains both. */
+/* The least box that contains both. */
 struct scene_box scene_box_around(const struct scene_box boxes[2]);
 /* A node around such boxes. */
 void scene_node_write(void *node, enum trax_node_layout layout, const struct scene_box boxes[2],

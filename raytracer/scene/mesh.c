@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 void trax_mesh_release(struct trax_mesh *mesh) {
   free(mesh->vertices);
@@ -27,7 +28,7 @@ bool trax_mesh_is_generated(const char *path) {
 
 const struct trax_material trax_default_material = {.diffuse = {0.75f, 0.75f, 0.75f}, .ior = 1, .opacity = 1};
 
-/* What is made, not read: "forest" or "forest:SEED". */
+/* Generates the mesh of "forest" or "forest:SEED". */
 static trax_status generate(struct trax_mesh *mesh, const char *path, struct trax_import_report *report,
                             trax_error *error) {
   static const char name[] = "forest";
@@ -66,6 +67,8 @@ static trax_status read_mesh(struct trax_mesh *mesh, const char *path, const str
     if (scene_has_extension(name, readers[i].extension))
       read = readers[i].read;
   free(name);
+  if (!read && access(path, R_OK) != 0)
+    return trax_fail(error, "%s: cannot be read: %s", path, strerror(errno));
   return read ? read(mesh, path, options, report, error)
               : trax_fail(error,
                           "%s: not a mesh that can be read: its name ends in none of .ply, .obj, .gltf and .glb, with "

@@ -83,7 +83,7 @@ static trax_status read_value(const struct library *library, const char *keyword
   return TRAX_OK;
 }
 
-/* How many words follow an option of a map, at most; those that are not numbers end it. */
+/* The most words that follow an option of a map; a word that is not a number ends it. */
 static unsigned option_words(const char *option, bool *numbers) {
   static const struct {
     const char *name;

@@ -47,7 +47,7 @@ static struct direction face_of(const float v0[3], const float v1[3], const floa
   return (struct direction){e.y * f.z - e.z * f.y, e.z * f.x - e.x * f.z, e.x * f.y - e.y * f.x};
 }
 
-/* Of length 1; +z where a face has no direction. */
+/* Returns a vector of length 1; +z if a face has no direction. */
 static struct direction unit(struct direction v) {
   double length = sqrt(dot(v, v));
   return length > 0 ? (struct direction){v.x / length, v.y / length, v.z / length} : (struct direction){0, 0, 1};

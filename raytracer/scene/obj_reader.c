@@ -101,7 +101,7 @@ static trax_status read_attribute(struct obj_reader *reader, char *rest, struct 
   return TRAX_OK;
 }
 
-/* From 1; negative counts back from the last one so far. *rest moves behind it. */
+/* Reads an index, from 1; a negative one counts back from the last so far. Moves *rest behind it. */
 static trax_status read_index(const struct obj_reader *reader, const char *word, const char **rest, uint32_t count,
                               const char *kind, uint32_t *index) {
   char *end;

@@ -12,7 +12,7 @@ static const unsigned char type_sizes[] = {0, 1, 1, 2, 2, 4, 4, 4, 8};
 
 enum { max_elements = 32, max_properties = 256, max_name = 32 };
 
-/* What a property is to us. */
+/* The use of a property. */
 enum role {
   skipped,
   coordinate_x,

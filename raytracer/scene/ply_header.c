@@ -140,7 +140,7 @@ static trax_status read_property(struct ply_reader *reader) {
   return TRAX_OK;
 }
 
-/* What a comment names as texture: the rest of the line. */
+/* The name of a texture in a comment: the rest of the line. */
 static void read_comment(struct ply_reader *reader) {
   char word[max_name];
   if (!next_word(reader, word) || strcmp(word, "TextureFile") != 0)

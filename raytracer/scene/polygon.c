@@ -142,7 +142,7 @@ static bool is_empty(const struct grid *grid, uint32_t before, uint32_t at, uint
   return true;
 }
 
-/* As is_ear. */
+/* The same as is_ear. */
 static bool is_ear_in(const struct grid *grid, uint32_t at, uint64_t *steps) {
   const uint32_t before = grid->before[at], after = grid->after[at];
   ++*steps;

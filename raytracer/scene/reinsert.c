@@ -14,7 +14,7 @@
 
 enum { MOST_FOCI = 8, FOCUS_STEP = 4, LEAST_OF_TRIANGLES = 16 };
 
-/* Where everything overlaps everything a search would end nowhere. */
+/* Bounds a search in trees whose boxes all overlap. */
 enum { MOST_LOOKED_AT = 1000 };
 
 struct focus {
@@ -112,7 +112,7 @@ static struct place pop(struct search *search) {
 
 /* --- the tree --- */
 
-/* What follows from the children, from here up to the root. */
+/* Refits boxes and heights from here up to the root. */
 static void refit(struct scene_link *nodes, uint32_t index) {
   for (; index != SCENE_NO_LINK; index = nodes[index].parent) {
     const struct scene_link *a = &nodes[nodes[index].child[0]], *b = &nodes[nodes[index].child[1]];
@@ -121,7 +121,7 @@ static void refit(struct scene_link *nodes, uint32_t index) {
   }
 }
 
-/* As a child of what old is a child of, or as the root if old is that. */
+/* Makes `new` the child of old's parent, or the root if old is that. */
 static void take_place_of(struct scene_links *links, uint32_t index, uint32_t old) {
   const uint32_t parent = links->nodes[old].parent;
   links->nodes[index].parent = parent;

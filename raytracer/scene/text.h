@@ -31,7 +31,7 @@ static inline char *next_word(char **rest) {
   return word;
 }
 
-/* What is left of the line without blanks around it: a name, which may hold spaces and '#'. */
+/* Returns the rest of the line without blanks around it: a name, which may have spaces and '#'. */
 static inline char *remainder_of(char *rest) {
   rest = skip_blanks(rest);
   size_t length = strlen(rest);
@@ -90,7 +90,7 @@ uint32_t scene_find_material(const struct trax_mesh *mesh, const char *name);
 /* SCENE_NO_MATERIAL when out of memory. */
 uint32_t scene_add_material(struct scene_material_list *list, const char *name);
 
-/* What cannot be read is noted in textures->report. */
+/* Images that cannot be read are noted in textures->report. */
 trax_status scene_read_mtl(struct scene_material_list *list, struct scene_textures *textures, const char *path,
                            trax_error *error);
 

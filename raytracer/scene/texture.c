@@ -17,7 +17,7 @@ static double fifth_root(double x) {
   return root;
 }
 
-/* Of sRGB (IEC 61966-2-1): 0 to 255 in linear light. */
+/* sRGB (IEC 61966-2-1), 0 to 255, in linear light. */
 static const float *linear_table(void) {
   static float table[256];
   static bool made;
@@ -68,7 +68,7 @@ static uint32_t source_of(const struct axis *axis, int64_t tap) {
 /* R, G and B times alpha, alpha, and R, G and B alone for what is all transparent. */
 enum { CHANNELS = 7 };
 
-/* What the texels of a row take from those of the image. */
+/* The shares of the image's texels in those of a row. */
 struct shares {
   uint32_t *firsts; /* of each texel, and behind the last one, into the following */
   struct share {
@@ -198,7 +198,7 @@ trax_status scene_add_image(struct scene_textures *textures, const struct scene_
 
 /* --- the files of one mesh --- */
 
-/* What is missing or damaged is noted; the material goes without. *good: there is an image. */
+/* Notes a missing or damaged image; the material then has none. *good: there is one. */
 static trax_status load_image(const struct scene_textures *textures, struct scene_image *image, const char *referrer,
                               const char *name, bool *good, trax_error *error) {
   *good = false;

@@ -28,7 +28,7 @@ static trax_status take_crease(void *target, const trax_option *option, const ch
 #define NUMBER(member, least_, most_) FIELD(member), .least = (least_), .most = (most_)
 #define OUTPUT(member) FIELD(member), .file = TRAX_OPTION_OUTPUT
 
-/* What the table's texts say in numbers. */
+/* The numbers in the table's texts. */
 _Static_assert(1 << TRAX_TEXTURE_MAX_LOG2 == 4096 && TRAX_SCENE_MAX_LEAF == 7 && TRAX_SCENE_MAX_DEPTH == 62, "");
 _Static_assert(TRAX_DEFAULT_CREASE == 60 && TRAX_DEFAULT_PASSES == 2 && TRAX_SCENE_MAX_PASSES == 16, "");
 

@@ -77,7 +77,7 @@ static trax_status read_vector(const struct group *group, const char *key, float
   return result == TRAX_OK ? read_three(group, setting, key, vector) : result;
 }
 
-/* What may be left out; *value is then as it was. */
+/* Reads an optional value; *value stays if there is none. */
 static trax_status read_optional(const struct group *group, const char *key, float least, float most, float *value) {
   const config_setting_t *setting = config_setting_get_member(group->setting, key);
   if (!setting || (read_number(setting, value) && *value >= least && *value <= most))

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Every feature of the ray tracer with every other, by the emulated machine: the program for all pictures and the one for this
-# picture render the same bits, and so does the native twin; the reference agrees.
+# picture render the same bits, and so does the native twin; Embree agrees.
 # Usage: features_test.sh BIN, the folder of the programs
 . "$(dirname "$0")/head.sh"
 

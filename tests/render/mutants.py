@@ -3,7 +3,7 @@
 
     mutants.py SCRATCH [--build build] [--only NAME]
 
-Needs a finished build, which is not changed. The reference stays as it is. Exit status 0 if every mutant is noticed.
+Needs a finished build, which is not changed. Embree's pictures stay as they are. Exit status 0 if every mutant is noticed.
 """
 
 import subprocess

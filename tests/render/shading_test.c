@@ -1,4 +1,4 @@
-/* Pictures with more than the paper's workload: against the reference, and against what physics says of them. */
+/* Pictures with more than the paper's workload: against Embree's, and against what physics says of them. */
 #include "gallery.h"
 
 #include <math.h>
@@ -16,18 +16,15 @@ static const struct trax_frame_options plain = {.width = 96,
                                                 .samples = 1,
                                                 .shadows = true};
 
-static bool by_reference; /* which of the two renderers the laws below are asked of */
+static bool by_embree; /* which of the two renderers the laws below are asked of */
 
-/* Writes nonsense over the tables that the host has prepared for the device program. */
-static void spoil_tables(const struct trax_frame *frame) {
-  struct trax_path_params *path = (struct trax_path_params *)(frame->params + 1);
-  const size_t tables = path->materials;
-  memset((char *)path + tables, 0x41, frame->params_size - sizeof *frame->params - tables);
-  path->light_count = path->emitter_count = path->choices = 1;
+/* Damages what the host prepares for paths of the device program. */
+static void spoil_tables(struct trax_frame *frame) {
+  memset(frame->params + 1, 0x41, frame->params_size - sizeof *frame->params);
 }
 
 static struct trax_picture shoot_frame(const struct trax_scene *scene, const struct trax_view *view,
-                                       const struct trax_frame_options *options, bool reference, unsigned threads,
+                                       const struct trax_frame_options *options, bool embree, unsigned threads,
                                        bool spoiled) {
   struct trax_frame frame = {0};
   struct trax_picture picture = {0};
@@ -37,8 +34,8 @@ static struct trax_picture shoot_frame(const struct trax_scene *scene, const str
   if (status == TRAX_OK && spoiled)
     spoil_tables(&frame);
   if (status == TRAX_OK)
-    status = reference ? trax_render_embree(&picture, &frame, &run, &error)
-                       : trax_render_twin(&picture, &frame, threads, &run, &error);
+    status = embree ? trax_render_embree(&picture, &frame, &run, &error)
+                    : trax_render_twin(&picture, &frame, threads, &run, &error);
   if (status != TRAX_OK) {
     fprintf(stderr, "shoot: %s\n", error.message);
     abort();
@@ -49,8 +46,8 @@ static struct trax_picture shoot_frame(const struct trax_scene *scene, const str
 }
 
 static struct trax_picture shoot(const struct trax_scene *scene, const struct trax_view *view,
-                                 const struct trax_frame_options *options, bool reference, unsigned threads) {
-  return shoot_frame(scene, view, options, reference, threads, false);
+                                 const struct trax_frame_options *options, bool embree, unsigned threads) {
+  return shoot_frame(scene, view, options, embree, threads, false);
 }
 
 static size_t count_of(const struct trax_picture *picture) {
@@ -101,9 +98,9 @@ static void test_combinations(void **state) {
     struct trax_scene scene = {0};
     build_gallery(&scene, parts);
     struct trax_picture twin = shoot(&scene, &view, &options, false, 2);
-    struct trax_picture reference = shoot(&scene, &view, &options, true, 0);
+    struct trax_picture other = shoot(&scene, &view, &options, true, 0);
     struct trax_difference difference;
-    trax_picture_compare(&difference, &twin, &reference, 2);
+    trax_picture_compare(&difference, &twin, &other, 2);
     if (difference.beyond > 5) /* of 5184 pixels: 99.9 % */
       print_error("row %u: %llu pixels beyond 2/255, worst %u at (%u, %u)\n", row,
                   (unsigned long long)difference.beyond, difference.largest, difference.x, difference.y);
@@ -111,25 +108,25 @@ static void test_combinations(void **state) {
     assert_int_equal(twin.radiance != NULL, options.floats);
     assert_true(difference.floats == options.floats && difference.floats_beyond <= 5);
     if (options.floats)
-      assert_true(fabs(mean_of(&twin) / mean_of(&reference) - 1) < 1e-3);
+      assert_true(fabs(mean_of(&twin) / mean_of(&other) - 1) < 1e-3);
     trax_picture_release(&twin);
-    trax_picture_release(&reference);
+    trax_picture_release(&other);
 
     /* The same with paths: of the same random numbers, so nearly all pixels are alike, too. */
     options.paths = 1 + row % 5;
     options.seed = row;
     options.floats = true;
     twin = shoot(&scene, &view, &options, false, 2);
-    reference = shoot(&scene, &view, &options, true, 0);
-    trax_picture_compare(&difference, &twin, &reference, 2);
-    const double light = mean_of(&twin) / mean_of(&reference) - 1;
+    other = shoot(&scene, &view, &options, true, 0);
+    trax_picture_compare(&difference, &twin, &other, 2);
+    const double light = mean_of(&twin) / mean_of(&other) - 1;
     if (difference.floats_beyond > 26 || fabs(light) >= 1e-3)
       print_error("row %u, paths: %llu pixels beyond 2/255, light %+g\n", row,
                   (unsigned long long)difference.floats_beyond, light);
     assert_true(difference.floats_beyond <= 26); /* 0.5 %: some paths take another turn at a last place */
     assert_true(fabs(light) < 1e-3);
     trax_picture_release(&twin);
-    trax_picture_release(&reference);
+    trax_picture_release(&other);
     trax_scene_release(&scene);
   }
 }
@@ -223,12 +220,12 @@ static void test_lights_add_up(void **state) {
   struct trax_frame_options options = plain;
   options.floats = true, options.ambient = 0, options.background = 0xFF000000u;
   const struct trax_view all = gallery_view(3);
-  struct trax_picture sum = shoot(&scene, &all, &options, by_reference, 2);
+  struct trax_picture sum = shoot(&scene, &all, &options, by_embree, 2);
   for (int light = 0; light < 3; light++) {
     struct trax_view view = all;
     view.light_count = 1;
     view.lights[0] = all.lights[light];
-    struct trax_picture one = shoot(&scene, &view, &options, by_reference, 2);
+    struct trax_picture one = shoot(&scene, &view, &options, by_embree, 2);
     const double least[] = {0.07, 0.016, 0.007}; /* measured: 0.0706, 0.0165, 0.00715 */
     assert_true(mean_of(&one) > least[light]);
     for (size_t i = 0; i < count_of(&sum); i++)
@@ -284,7 +281,7 @@ static void test_furnace_from_inside(void **state) {
   options.floats = true, options.samples = 16;
   for (uint32_t depth = 1; depth <= 16; depth *= 2) {
     options.paths = depth;
-    struct trax_picture picture = shoot(&scene, &view, &options, by_reference, 2);
+    struct trax_picture picture = shoot(&scene, &view, &options, by_embree, 2);
     for (int channel = 0; channel < 3; channel++) {
       const double r = (double)material.diffuse[channel], e = (double)material.emission[channel];
       double mean = 0, exact = 0;
@@ -324,7 +321,7 @@ static void test_furnace_from_outside(void **state) {
       struct trax_frame_options options = plain;
       options.floats = true, options.samples = 16, options.paths = 32, options.background = 0xFFFFFFFFu;
       options.smooth = smooth;
-      struct trax_picture picture = shoot(&scene, dark_view(), &options, by_reference, 2);
+      struct trax_picture picture = shoot(&scene, dark_view(), &options, by_embree, 2);
       double mean = 0;
       unsigned seen = 0;
       for (uint32_t y = 0; y < options.height; y++)
@@ -353,15 +350,15 @@ static void test_one_side(void **state) {
   struct trax_view view = view_from(0, 0, 3, 0, 0, -1, 60, 2, 3, 4);
   struct trax_frame_options options = plain;
   struct trax_difference difference;
-  struct trax_picture both = shoot(&scene, &view, &options, by_reference, 2);
+  struct trax_picture both = shoot(&scene, &view, &options, by_embree, 2);
   options.one_sided = true;
-  struct trax_picture one = shoot(&scene, &view, &options, by_reference, 2);
+  struct trax_picture one = shoot(&scene, &view, &options, by_embree, 2);
   trax_picture_compare(&difference, &both, &one, 1);
   assert_true(difference.beyond <= 5 && background_pixels(&one) < one.width * one.height - 500);
   trax_picture_release(&both);
   trax_picture_release(&one);
   view.eye[2] = 0;
-  one = shoot(&scene, &view, &options, by_reference, 2);
+  one = shoot(&scene, &view, &options, by_embree, 2);
   assert_int_equal(background_pixels(&one), one.width * one.height);
   trax_picture_release(&one);
   trax_scene_release(&scene);
@@ -385,14 +382,14 @@ static void test_bent_surfaces(void **state) {
     struct trax_frame_options options = plain;
     options.smooth = true;
     struct trax_picture twin = shoot(&scene, &view, &options, false, 2);
-    struct trax_picture reference = shoot(&scene, &view, &options, true, 0);
+    struct trax_picture other = shoot(&scene, &view, &options, true, 0);
     struct trax_difference difference;
-    trax_picture_compare(&difference, &twin, &reference, 2);
+    trax_picture_compare(&difference, &twin, &other, 2);
     if (difference.beyond > 5)
       print_error("kind %u: %llu pixels beyond 2/255\n", kind, (unsigned long long)difference.beyond);
     assert_true(difference.beyond <= 5);
     trax_picture_release(&twin);
-    trax_picture_release(&reference);
+    trax_picture_release(&other);
     trax_scene_release(&scene);
     trax_mesh_release(&mesh);
   }
@@ -445,7 +442,7 @@ static void test_rectangles_and_lamps(void **state) {
     options.floats = true, options.ambient = 0, options.background = 0xFF000000u;
     options.samples = way == 3 ? 512 : 64;
     options.paths = way > 0;
-    struct trax_picture picture = shoot(&scene, &view, &options, by_reference, 2);
+    struct trax_picture picture = shoot(&scene, &view, &options, by_embree, 2);
     mean_of(&picture);
     double sum = 0;
     for (uint32_t y = options.height / 2; y < options.height; y++) /* below the lamp itself */
@@ -481,9 +478,9 @@ static void test_holes_are_nothing(void **state) {
     struct trax_view view = view_from(0, 0.9f, 2.9f, 0, -0.5f, -1, 40, 1, 2, 1);
     struct trax_frame_options options = plain;
     options.floats = true;
-    pictures[0][leaves] = shoot(&scene, &view, &options, by_reference, 2);
+    pictures[0][leaves] = shoot(&scene, &view, &options, by_embree, 2);
     options.paths = 3, options.samples = 16;
-    pictures[1][leaves] = shoot(&scene, &view, &options, by_reference, 2);
+    pictures[1][leaves] = shoot(&scene, &view, &options, by_embree, 2);
     trax_scene_release(&scene);
     trax_mesh_release(&mesh);
   }
@@ -530,7 +527,7 @@ static struct trax_picture near_lamp(float width, int lamp, const struct trax_fr
                                       {.strength = 0}};
   view.light_count = lamp > 0;
   view.lights[0] = lights[lamp];
-  struct trax_picture picture = shoot(&scene, &view, options, by_reference, 2);
+  struct trax_picture picture = shoot(&scene, &view, options, by_embree, 2);
   trax_scene_release(&scene);
   trax_mesh_release(&mesh);
   return picture;
@@ -569,7 +566,7 @@ static void test_exact_hits(void **state) {
   const struct trax_view view = view_from(0, 5, 0, 0, -1, -0.01f, 1, 0, 1, 0);
   struct trax_frame_options options = plain;
   options.ambient = 0;
-  struct trax_picture picture = shoot(&scene, &view, &options, by_reference, 2);
+  struct trax_picture picture = shoot(&scene, &view, &options, by_embree, 2);
   for (size_t i = 0; i < (size_t)options.width * options.height; i++)
     assert_in_range(picture.pixels[i] & 255, 190, 191); /* the root of 0.5625 */
   trax_picture_release(&picture);
@@ -577,15 +574,16 @@ static void test_exact_hits(void **state) {
   trax_mesh_release(&mesh);
 }
 
-/* The reference makes its lights of view and scene; what the host prepares for the device program does not matter. */
-static void test_reference_has_its_own_lights(void **state) {
+/* Embree's picture takes lights, depth, reach, seed and background from view, scene and options. */
+static void test_embree_has_its_own_parameters(void **state) {
   (void)state;
   struct trax_scene scene = {0};
   build_gallery(&scene, GALLERY_ALL);
-  for (uint32_t paths = 0; paths < 4; paths += 3) {
+  for (int kind = 0; kind < 3; kind++) {
     const struct trax_view view = gallery_view(3);
     struct trax_frame_options options = plain;
-    options.floats = true, options.paths = paths, options.samples = 2;
+    options.floats = true, options.samples = 2, options.seed = 5;
+    options.paths = kind == 1 ? 3 : 0, options.occlusion = kind == 2 ? 4 : 0;
     struct trax_picture picture = shoot_frame(&scene, &view, &options, true, 0, false);
     struct trax_picture other = shoot_frame(&scene, &view, &options, true, 0, true);
     assert_memory_equal(picture.radiance, other.radiance, count_of(&picture) * sizeof(float));
@@ -639,15 +637,15 @@ static void test_hostile_materials(void **state) {
                                            .falloff = round & 1 ? 1000 : 0};
     struct trax_frame_options options = plain;
     options.floats = true, options.smooth = round & 2;
-    struct trax_picture direct = shoot(&scene, &view, &options, by_reference, 2);
-    struct trax_picture other = shoot(&scene, &view, &options, !by_reference, 2);
+    struct trax_picture direct = shoot(&scene, &view, &options, by_embree, 2);
+    struct trax_picture other = shoot(&scene, &view, &options, !by_embree, 2);
     struct trax_difference difference;
     trax_picture_compare(&difference, &direct, &other, 2);
     assert_true(difference.beyond <= 100); /* of 5184 pixels; a light on a vertex is before its triangles or behind */
     assert_true(mean_of(&direct) > 0 && mean_of(&other) > 0);
     trax_picture_release(&other);
     options.paths = TRAX_RENDER_MAX_DEPTH, options.samples = 2, options.seed = (uint32_t)round;
-    struct trax_picture picture = shoot(&scene, &view, &options, by_reference, 2);
+    struct trax_picture picture = shoot(&scene, &view, &options, by_embree, 2);
     assert_true(mean_of(&picture) > 0);
     trax_picture_release(&direct);
     trax_picture_release(&picture);
@@ -660,7 +658,7 @@ int main(void) {
   const struct CMUnitTest pictures[] = {
       cmocka_unit_test(test_combinations),  cmocka_unit_test(test_floats_are_the_picture),
       cmocka_unit_test(test_scale),         cmocka_unit_test(test_paths_of_any_number_of_threads),
-      cmocka_unit_test(test_bent_surfaces), cmocka_unit_test(test_reference_has_its_own_lights),
+      cmocka_unit_test(test_bent_surfaces), cmocka_unit_test(test_embree_has_its_own_parameters),
   };
   const struct CMUnitTest laws[] = {
       cmocka_unit_test(test_lights_add_up),        cmocka_unit_test(test_furnace_from_inside),
@@ -671,6 +669,6 @@ int main(void) {
   };
   int failures = cmocka_run_group_tests_name("both renderers", pictures, NULL, NULL);
   failures += cmocka_run_group_tests_name("laws, the twin", laws, NULL, NULL);
-  by_reference = true;
-  return failures + cmocka_run_group_tests_name("laws, the reference", laws, NULL, NULL);
+  by_embree = true;
+  return failures + cmocka_run_group_tests_name("laws, Embree", laws, NULL, NULL);
 }

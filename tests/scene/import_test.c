@@ -751,7 +751,7 @@ static void test_gltf_primitives(void **state) {
     snprintf(
         json, sizeof json,
         "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0},{\"mesh\":0,\"translation\":[0,0,7],"
-        "\"rotation\":[0,0,1,0],\"scale\":[2,2,2]}],"
+        "\"rotation\":[0,0,1,1],\"scale\":[2,2,2]}],"
         "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1,\"mode\":%d}]}],"
         "\"accessors\":[{\"bufferView\":0,\"componentType\":5121,\"normalized\":true,\"count\":16,\"type\":\"VEC3\"},"
         "{\"bufferView\":1,\"byteOffset\":2,\"componentType\":5121,\"count\":6,\"type\":\"SCALAR\"}],"
@@ -768,7 +768,7 @@ static void test_gltf_primitives(void **state) {
         const uint32_t index = (t ? modes[i].second : modes[i].first)[corner];
         const float x = (float)index / 255, y = (float)(index * index) / 255, z = (float)(255 - index) / 255;
         assert_corner(&mesh, t, corner, x, y, z);
-        assert_corner(&mesh, modes[i].triangles + t, corner, -2 * x, -2 * y, (float)(2 * (double)z + 7));
+        assert_corner(&mesh, modes[i].triangles + t, corner, -2 * y, 2 * x, (float)(2 * (double)z + 7));
       }
     trax_mesh_release(&mesh);
   }
@@ -803,6 +803,9 @@ static void test_bad_files(void **state) {
   const char *path = test_path("nowhere.ply");
   assert_int_equal(trax_mesh_import(&mesh, &path, 1, NULL, NULL, &error), TRAX_ERROR);
   assert_contains(error.message, "nowhere.ply: cannot be read: No such file");
+  path = test_path("nowhere");
+  assert_int_equal(trax_mesh_import(&mesh, &path, 1, NULL, NULL, &error), TRAX_ERROR);
+  assert_contains(error.message, "nowhere: cannot be read: No such file");
   path = test_path("folder.obj");
   assert_int_equal(mkdir(path, 0700), 0);
   assert_int_equal(trax_mesh_import(&mesh, &path, 1, NULL, NULL, &error), TRAX_ERROR);

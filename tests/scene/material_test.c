@@ -650,6 +650,7 @@ static void test_gltf(void **state) {
   import_good(&mesh, test_file("kinds.glb", bytes, size), &report);
   assert_int_equal(report.missing_files, 0);
   assert_int_equal(report.bad_images, 0);
+  assert_int_equal(report.turned_normals, 0);
   assert_int_equal(mesh.triangle_count, 7);
 
   const struct trax_material *m = surface(&mesh, "inner");

@@ -140,16 +140,16 @@ extern const struct trax_material trax_default_material;
 bool trax_mesh_is_generated(const char *path);
 
 /* Reads and merges the files: PLY, OBJ with MTL, glTF, GLB, plain or compressed as .xz or .gz; or "generate:forest", see
-   docs/scene-file.md. Node transforms are applied and polygons cut into triangles, in the order of the files. report may
-   be NULL. Errors: a file that cannot be read or is no mesh, indices out of range, vertices that are
-   not finite (unless dropped), overrides that match no material. A mesh without triangles is no error here. */
+   docs/scene-file.md. Node transforms are applied and polygons cut into triangles, in the order of the files. report
+   may be NULL. Errors: a file that cannot be read or is no mesh, indices out of range, vertices that are not finite
+   (unless dropped), overrides that match no material. A mesh without triangles is no error here. */
 trax_status trax_mesh_import(struct trax_mesh *mesh, const char *const *paths, size_t path_count,
                              const struct trax_import_options *options, struct trax_import_report *report,
                              trax_error *error);
 void trax_mesh_release(struct trax_mesh *mesh);
 
-/* From now on each file that is read for an import or a build is listed in the file of this descriptor: a line as of `xxhsum -H2`, or one that begins with "-" for a file that cannot be read. 0: no more.
- */
+/* From now on each file that is read for an import or a build is listed in the file of this descriptor: a line as of
+   `xxhsum -H2`, or one that begins with "-" for a file that cannot be read. 0: no more. */
 void trax_scene_list_files(int descriptor);
 
 /* --- scenes --- */
