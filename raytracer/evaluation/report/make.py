@@ -155,97 +155,102 @@ def configurations(results):
     return join(blocks), of_run
 
 
-def page(results, paper, base, folder):
-    programs = results.programs()
-    judged = claims(results, paper, programs)
-    drawn = {figure.identity: draw(figure) for figure in (*all_figures(results, paper), *rays.figures(results, paper))}
-    listed, of_run = configurations(results)
+class Page:
+    """The page of one file of results. folder: where it is to be; base: where the results are."""
+    def __init__(self, results, paper, base, folder):
+        self.results, self.paper, self.base, self.folder = results, paper, base, folder
+        self.programs = results.programs()
+        figures = (*all_figures(results, paper), *rays.figures(results, paper))
+        self.drawn = {figure.identity: draw(figure) for figure in figures}
 
-    def figures(prefix):
-        return el("div", *(shown for identity, shown in drawn.items() if identity.startswith(prefix)), class_="figures")
+    def figures(self, prefix):
+        shown = (figure for identity, figure in self.drawn.items() if identity.startswith(prefix))
+        return el("div", *shown, class_="figures")
 
-    sampled = estimates.every(results)
-    sections = [
-        ("summary", "Summary",
-         [summary(results, paper, judged),
-          table(tables.claims_table(judged, programs)) if programs else None]),
-        ("tables", "The paper's tables",
-         map(table, [
-             tables.table1(results, paper), *(tables.table2(results, paper, program) for program in programs),
-             tables.table3(results, paper)
-         ])),
-        ("scaling", "Scaling", [
-            el("p",
-               "Speed-up over the same program on 1x32. Where chips have as many threads, each is a mark of its own."),
-            figures("scaling-"),
-            el(
-                "details", el("summary", "As tables"),
-                *(table(make(results, paper, program)) for make in (tables.speedups, tables.table1_scenes)
-                  for program in programs))
-        ]),
-        ("stalls", "Where the time goes",
-         [el("p", "Every thread is charged every cycle to one cause (docs/timing.md)."),
-          figures("stalls-")]),
-        ("units", "Hardware and bandwidth",
-         [figures("memory-"),
-          table(tables.hardware(results, paper)),
-          table(tables.described(results, paper))]),
-        ("error", "Error and run time", [figures("error-"), table(sampled) if sampled else None])
-    ]
-    if rays.groups(results):
-        sections.insert(2, ("rays", "What MIMD gains as rays lose coherence", [
-            el("p", rays.EXPLAINED),
-            figures("rays-"),
-            table(rays.gain_table(results)),
-            el("details", el("summary", "Every kind of ray on every machine"), table(rays.kinds_table(results)))
-        ]))
-    if results.series:
-        text = ("Shares of the thread-cycles of each interval. fetch_refused is the share of instruction fetches that "
-                "a bank conflict refused.")
-        sections.append(("time", "Over time", [el("p", text), figures("series-")]))
-    shown = []
-    for index, sweep in enumerate(results.sweeps):
-        if sweep.get("name") in ("table1", "table2", "table3"):
-            continue  # they are above
-        parts = [
-            el("h3", str(sweep.get("title") or sweep.get("name") or f"sweep {index}")),
-            el("p", str(sweep["claim"])) if sweep.get("claim") else None,
-            drawn.get("lockstep" if sweep.get("name") == "lockstep" else f"sweep-{index}"),
-            el("details", el("summary", "As a table"),
-               *(table(made, f"sweep-{index}-") for made in tables.of_sweep(results, paper, sweep)))
+    def of_programs(self, make):
+        return [table(make(self.results, self.paper, program)) for program in self.programs]
+
+    def sections(self):
+        """Yields (identity, title, content)."""
+        results, paper = self.results, self.paper
+        judged = claims(results, paper, self.programs)
+        verdicts = table(tables.claims_table(judged, self.programs)) if self.programs else None
+        yield "summary", "Summary", [summary(results, paper, judged), verdicts]
+        yield "tables", "The paper's tables", [
+            table(tables.table1(results, paper)), *self.of_programs(tables.table2), table(tables.table3(results, paper))
         ]
-        shown.append(el("section", *(part for part in parts if part is not None), class_="sweep"))
-    if shown:
-        sections.append(("sweeps", "Sweeps", [el("div", *shown, class_="sweeps")]))
-    sections += [("pictures", "Pictures", [pictures(results, base)]),
-                 ("all-runs", "Runs", [table(tables.run_table(results, paper, linker(base, folder), of_run))]),
-                 ("configurations", "Configurations", [listed])]
+        if rays.groups(results):
+            yield "rays", "What MIMD gains as rays lose coherence", [
+                el("p", rays.EXPLAINED), self.figures("rays-"), table(rays.gain_table(results)),
+                el("details", el("summary", "Every kind of ray on every machine"), table(rays.kinds_table(results)))
+            ]
+        text = "Speed-up over the same program on 1x32. Where chips have as many threads, each is a mark of its own."
+        yield "scaling", "Scaling", [
+            el("p", text), self.figures("scaling-"),
+            el("details", el("summary", "As tables"), *self.of_programs(tables.speedups),
+               *self.of_programs(tables.table1_scenes))
+        ]
+        text = "Every thread is charged every cycle to one cause (docs/timing.md)."
+        yield "stalls", "Where the time goes", [el("p", text), self.figures("stalls-")]
+        yield "units", "Hardware and bandwidth", [
+            self.figures("memory-"), table(tables.hardware(results, paper)), table(tables.described(results, paper))
+        ]
+        sampled = estimates.every(results)
+        yield "error", "Error and run time", [self.figures("error-"), table(sampled) if sampled else None]
+        if results.series:
+            text = ("Shares of the thread-cycles of each interval. fetch_refused is the share of instruction fetches "
+                    "that a bank conflict refused.")
+            yield "time", "Over time", [el("p", text), self.figures("series-")]
+        if shown := list(self.sweeps()):
+            yield "sweeps", "Sweeps", [el("div", *shown, class_="sweeps")]
+        yield "pictures", "Pictures", [pictures(results, self.base)]
+        listed, of_run = configurations(results)
+        runs = tables.run_table(results, paper, linker(self.base, self.folder), of_run)
+        yield "all-runs", "Runs", [table(runs)]
+        yield "configurations", "Configurations", [listed]
 
-    about = [
-        el("code",
-           results.text("command") or "trax-eval"), f"trax {results.text('trax')}" if results.text("trax") else None,
-        results.text("created") or None
-    ]
-    host = results.document.get("host")
-    if isinstance(host, dict):
-        about.append(", ".join(f"{key}: {value}" for key, value in host.items()
-                               if isinstance(value, (str, int, float))))
-    style, script = ((HERE / name).read_text(encoding="utf-8") for name in ("page.css", "page.js"))
-    head = el("head", el("meta", charset="utf-8"),
-              el("meta", name="viewport", content="width=device-width, initial-scale=1"),
-              el("meta", name="color-scheme", content="light dark"), el("title", "Evaluation of trax"),
-              el("style", Html(style)))
-    body = el(
-        "body", el("svg", shapes(), width="0", height="0", aria_hidden="true", class_="shapes"),
-        el(
-            "header", el("h1", "A mobile accelerator for ray tracing: our figures beside the paper's"),
-            el("p", join([part for part in about if part], " · "), class_="about"),
-            el("nav", *(el("a", SHORT.get(identity, title), href="#" + identity) for identity, title, _ in sections),
-               el("button", "Light or dark", type="button", id="theme"))),
-        el("main",
-           *(el("section", el("h2", title), join(content), id=identity) for identity, title, content in sections)),
-        el("script", Html(script)))
-    return "<!DOCTYPE html>\n" + el("html", head, body, lang="en") + "\n"
+    def sweeps(self):
+        """A section for each sweep; the paper's tables have their own."""
+        for index, sweep in enumerate(self.results.sweeps):
+            name = sweep.get("name")
+            if name in ("table1", "table2", "table3"):
+                continue
+            made = tables.of_sweep(self.results, self.paper, sweep)
+            parts = [
+                el("h3", str(sweep.get("title") or name or f"sweep {index}")),
+                el("p", str(sweep["claim"])) if sweep.get("claim") else None,
+                self.drawn.get("lockstep" if name == "lockstep" else f"sweep-{index}"),
+                el("details", el("summary", "As a table"), *(table(one, f"sweep-{index}-") for one in made))
+            ]
+            yield el("section", *(part for part in parts if part is not None), class_="sweep")
+
+    def about(self):
+        """The command, the version, the day and the host."""
+        results = self.results
+        yield el("code", results.text("command") or "trax-eval")
+        yield f"trax {results.text('trax')}" if results.text("trax") else None
+        yield results.text("created")
+        host = results.document.get("host")
+        if isinstance(host, dict):
+            yield ", ".join(f"{key}: {value}" for key, value in host.items() if isinstance(value, (str, int, float)))
+
+    def html(self):
+        style, script = ((HERE / name).read_text(encoding="utf-8") for name in ("page.css", "page.js"))
+        head = el("head", el("meta", charset="utf-8"),
+                  el("meta", name="viewport", content="width=device-width, initial-scale=1"),
+                  el("meta", name="color-scheme", content="light dark"), el("title", "Evaluation of trax"),
+                  el("style", Html(style)))
+        sections = list(self.sections())
+        links = (el("a", SHORT.get(identity, title), href="#" + identity) for identity, title, _ in sections)
+        body = el(
+            "body", el("svg", shapes(), width="0", height="0", aria_hidden="true", class_="shapes"),
+            el("header", el("h1", "A mobile accelerator for ray tracing: our figures beside the paper's"),
+               el("p", join([part for part in self.about() if part], " · "), class_="about"),
+               el("nav", *links, el("button", "Light or dark", type="button", id="theme"))),
+            el("main",
+               *(el("section", el("h2", title), join(content), id=identity) for identity, title, content in sections)),
+            el("script", Html(script)))
+        return "<!DOCTYPE html>\n" + el("html", head, body, lang="en") + "\n"
 
 
 def new_parser():
@@ -274,7 +279,7 @@ def main(arguments=None):
         check_files([options.results], [output])
         results, paper = read_results(options.results), Paper(options.paper)
         folder = output.absolute().parent
-        text = page(results, paper, options.results.absolute().parent, folder)
+        text = Page(results, paper, options.results.absolute().parent, folder).html()
         write_output(output, text.encode("utf-8", errors="backslashreplace"), foreign=True)
     except (Problem, IsInput) as error:
         complain("trax-eval report", error)

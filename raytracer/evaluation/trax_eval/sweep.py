@@ -248,63 +248,67 @@ def quick_size(text, mode):
     return f"{round(width * scale)}x{max(1, round(height * scale))}", mode
 
 
-def read_sweep(path, *, size=None, mode=None, programs=None, chips=None, only_scenes=None, only_variants=None):
-    """The sweep in a file. size, mode, programs and chips: what the command line says instead of the file; programs are
-    names, and Programs that take the place of the sweep's. only_scenes, only_variants: the others are left out, but for
-    the reference. With the mode "quick" pictures are smaller, if the command line does not say their size."""
-    reader = Reader(path, read_json(path, TEXT_LIMIT), KEYS)
-    value = reader.value
-    name = reader.name()
-    missing = [key for key in ("scenes", "chips") if key not in value]
-    if missing:
+def used_programs(programs, variants):
+    return list(dict.fromkeys([*programs, *(program for _, program, _ in variants if program)]))
+
+
+def check_programs(reader, used, rays, measured):
+    """Refuses programs that cannot do what the sweep asks for."""
+    if rays and (unfit := [program for program in used if not program.rays]):
         reader.fail(
-            None,
-            f"it is no sweep without {' and '.join(map(quoted, ([key] for key in missing)))}: what is rendered, and on "
-            f"which chips"
-        )
+            "programs", f'workloads and ray_kinds need programs with "rays": true, which {unfit[0].file} has not: they '
+            "take workloads, and tell where rays begin")
+    if measured and (unfit := [program for program in used if not program.specialised or program.convert]):
+        reader.fail(
+            "programs",
+            f'error and hits need programs that are "specialised", without "convert", which {unfit[0].file} is not')
+
+
+def mode_of(reader, mode, needs_exact):
+    """The mode: the command line's or the sweep's, but "exact" if every cycle is needed or the run is not trax-render's
+    own."""
+    chosen = mode or reader.strings("mode", "exact", MODES)[0]
+    if needs_exact and chosen != "exact" and "mode" in reader.value and not mode:
+        reader.fail(
+            "mode", "series, lockstep, ray_kinds, workloads, error, hits and programs that are compiled or converted "
+            'need "exact"')
+    return "exact" if needs_exact else chosen
+
+
+def read_sweep(path, *, size=None, mode=None, programs=None, chips=None, only_scenes=None, only_variants=None):
+    """The sweep in a file. size, mode, programs and chips replace those of the file; programs are names, and Programs
+    that take the place of the sweep's. only_scenes, only_variants: the others are left out, but for the reference. With
+    the mode "quick" pictures are smaller, unless size is given."""
+    reader = Reader(path, read_json(path, TEXT_LIMIT), KEYS)
+    value, name = reader.value, reader.name()
+    if missing := [key for key in ("scenes", "chips") if key not in value]:
+        reader.fail(
+            None, f"it is no sweep without {' and '.join(map(quoted, ([key] for key in missing)))}: what is rendered, "
+            "and on which chips")
     chosen_size = reader.text("size", size or "1280x720")
     if not parse_size(chosen_size):
         reader.fail("size", f'expected "WIDTHxHEIGHT", each 1 to 16384, is "{chosen_size}"')
-    chosen_mode = mode or reader.strings("mode", "exact", MODES)[0]
     series = value.get("series", 0)
     if type(series) is not int or not 0 <= series <= 10**9:
         reader.fail("series",
                     f"expected the cycles of an interval, 1 to 1000000000, or 0 for no series, is {canonical(series)}")
-    lockstep, ray_kinds, workloads = reader.flag("lockstep"), reader.flag("ray_kinds"), reader.workloads()
-    error, hits = reader.flag("error"), reader.flag("hits")
+    lockstep, ray_kinds, error, hits = map(reader.flag, ("lockstep", "ray_kinds", "error", "hits"))
+    workloads = reader.workloads()
     rays = ray_kinds or list(workloads) != [PAPER]
     chosen_programs, variants = reader.programs(rays), reader.variants()
-    reference, named = reader.text("reference",
-                                   ""), list(dict.fromkeys(variant[0] for variant in variants if variant[0]))
+    named = list(dict.fromkeys(variant[0] for variant in variants if variant[0]))
+    reference = reader.text("reference", "")
     if only_variants is not None:
-        variants = [
-            variant for variant in variants if variant[0] in (*only_variants, *([reference] if reference else []))
-        ]
+        variants = [variant for variant in variants if variant[0] in only_variants or variant[0] == reference != ""]
     if programs is not None:
         own = [program for program in programs if isinstance(program, Program)]
         chosen_programs = own + [program for program in chosen_programs if program.name in programs]
         variants = [(label, program, settings) for label, program, settings in variants
                     if not program or program.name in programs]
-    used = list(dict.fromkeys([*chosen_programs, *(program for _, program, _ in variants if program)]))
-    if rays and (unfit := [program for program in used if not program.rays]):
-        reader.fail(
-            "programs",
-            f'workloads and ray_kinds need programs with "rays": true, which {unfit[0].file} has not: they take '
-            f'workloads, and tell where rays begin'
-        )
-    if (error or hits) and (unfit := [program for program in used if not program.specialised or program.convert]):
-        reader.fail(
-            "programs",
-            f'error and hits need programs that are "specialised", without "convert", which {unfit[0].file} is not')
-    if series or lockstep or rays or error or hits or not all(
-            program.plain for program in used):  # every cycle is needed, or the run is not trax-render's own
-        if "mode" in value and chosen_mode != "exact" and not mode:
-            reader.fail(
-                "mode",
-                'series, lockstep, ray_kinds, workloads, error, hits and programs that are compiled or converted need '
-                '"exact"'
-            )
-        chosen_mode = "exact"
+    used = used_programs(chosen_programs, variants)
+    check_programs(reader, used, rays, error or hits)
+    needs_exact = bool(series or lockstep or rays or error or hits) or not all(program.plain for program in used)
+    chosen_mode = mode_of(reader, mode, needs_exact)
     if mode == "quick" and not size and not ray_kinds:
         chosen_size, chosen_mode = quick_size(chosen_size, chosen_mode)
     scenes = {name: scene for name, scene in reader.scenes().items() if only_scenes is None or name in only_scenes}
@@ -328,8 +332,8 @@ def read_sweep(path, *, size=None, mode=None, programs=None, chips=None, only_sc
     table = value.get("table")
     try:
         descriptions({"name": name, "table": table})
-    except Problem as error:
-        reader.fail(None, str(error))
+    except Problem as problem:
+        reader.fail(None, str(problem))
     return Sweep(name, reader.text("title", name), reader.text("claim", ""), reader.text("x", "threads"),
                  reader.text("y", "mrps"), reader.text("y_per", ""), str(path), scenes, used, points, workloads, named,
                  reference, table, reader.flag("all", True), mode == "quick")
