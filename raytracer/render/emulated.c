@@ -203,7 +203,7 @@ static void print_note(const char *text) {
 
 /* A program that records takes more cycles: nobody is told them. */
 static const char *engine_of(const struct options *options) {
-  return options->layers ? "functional" : options->engine == ENGINE_REFERENCE ? "reference" : "fast";
+  return options->layers ? "functional" : options->engine == ENGINE_REFERENCE ? "reference" : NULL; /* the machine's */
 }
 
 /* One picture by one program. */

@@ -1,0 +1,107 @@
+/* docs/simt.md, "Choice". */
+#include "simt/simt.h"
+
+enum { PARTS = 16 }; /* of simt.patience: a turn, and the cost of an instruction with which threads wait */
+
+static uint32_t part_of_patience(const struct trax_simt_tm *tm) {
+  const uint32_t part = tm->ref->config->simt.patience / PARTS;
+  return part ? part : 1;
+}
+
+static uint64_t running(const struct trax_simt_tm *tm, const struct trax_simt_warp *warp) {
+  uint64_t running = 0;
+  for (uint64_t set = warp->lanes; set;) {
+    const uint32_t i = trax_simt_take(&set);
+    if (!tm->ref->tp[i].ended)
+      running |= trax_simt_bit(i);
+  }
+  return running;
+}
+
+static uint64_t lanes_at(const struct trax_simt_tm *tm, uint64_t running, uint32_t pc) {
+  uint64_t lanes = 0;
+  while (running) {
+    const uint32_t i = trax_simt_take(&running);
+    if (tm->ref->tp[i].pc == pc)
+      lanes |= trax_simt_bit(i);
+  }
+  return lanes;
+}
+
+/* Gives the turn to the lane that has waited longest, if it has waited long enough. */
+static void give_turn(const struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint64_t running) {
+  uint32_t longest = trax_simt_take(&running);
+  while (running) {
+    const uint32_t i = trax_simt_take(&running);
+    if (tm->lane[i].waited > tm->lane[longest].waited)
+      longest = i;
+  }
+  if (tm->lane[longest].waited >= tm->ref->config->simt.patience) {
+    warp->turns_lane = longest;
+    warp->turns_left = part_of_patience(tm);
+  }
+}
+
+/* Whether lane a comes before lane b: greatest depth, then least pc. */
+static bool is_before(const struct trax_simt_tm *tm, uint32_t a, uint32_t b) {
+  if (tm->lane[a].depth != tm->lane[b].depth)
+    return tm->lane[a].depth > tm->lane[b].depth;
+  return tm->ref->tp[a].pc < tm->ref->tp[b].pc;
+}
+
+static uint32_t first_in_order(const struct trax_simt_tm *tm, uint64_t running) {
+  uint32_t first = trax_simt_take(&running);
+  while (running) {
+    const uint32_t i = trax_simt_take(&running);
+    if (is_before(tm, i, first))
+      first = i;
+  }
+  return first;
+}
+
+void trax_simt_choose(struct trax_simt_tm *tm) {
+  for (uint32_t i = 0; i < tm->warps; i++) {
+    struct trax_simt_warp *warp = &tm->warp[i];
+    const uint64_t lanes = warp->group ? 0 : running(tm, warp);
+    if (!lanes)
+      continue;
+    if (!(lanes & trax_simt_bit(warp->turns_lane)))
+      warp->turns_left = 0;
+    if (!warp->turns_left)
+      give_turn(tm, warp, lanes);
+    const uint32_t chosen = warp->turns_left ? warp->turns_lane : first_in_order(tm, lanes);
+    warp->group = lanes_at(tm, lanes, tm->ref->tp[chosen].pc);
+  }
+}
+
+/* Whether threads wait for others with it. */
+static bool may_wait(const struct trax_ref_tp *tp) {
+  return tp->inst.op == TRAX_OP_FENCE || trax_ref_is(tp, TRAX_IS_ATOMIC) ||
+         (trax_ref_is(tp, TRAX_IS_NONTEMPORAL) && !trax_ref_is(tp, TRAX_IS_STORE));
+}
+
+static int32_t deeper(const struct trax_ref_tp *tp) {
+  enum { RA = 1 };
+  const trax_inst *inst = &tp->inst;
+  if ((inst->op == TRAX_OP_JAL || inst->op == TRAX_OP_JALR) && inst->rd == RA)
+    return 1;
+  return inst->op == TRAX_OP_JALR && inst->rd == 0 && inst->ra == RA ? -1 : 0;
+}
+
+void trax_simt_dissolve(struct trax_simt_tm *tm, struct trax_simt_warp *warp) {
+  const struct trax_ref_tp *first = trax_simt_first(tm, warp->group);
+  const uint32_t cost = may_wait(first) ? part_of_patience(tm) : 1;
+  const int32_t calls = deeper(first);
+  for (uint64_t set = warp->lanes; set;) {
+    const uint32_t i = trax_simt_take(&set);
+    struct trax_simt_lane *lane = &tm->lane[i];
+    if (warp->group & trax_simt_bit(i)) {
+      lane->waited = 0;
+      lane->depth += calls;
+    } else {
+      lane->waited += cost;
+    }
+  }
+  warp->turns_left -= warp->turns_left > 0;
+  warp->group = 0;
+}

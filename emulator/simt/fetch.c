@@ -1,0 +1,102 @@
+/* docs/simt.md, "Fetch": step 1. */
+#include "simt/simt.h"
+
+/* Lanes of the group take the instruction that their first lane holds. */
+static void take(struct trax_simt_tm *tm, struct trax_simt_warp *warp) {
+  const struct trax_ref_tp *first = trax_simt_first(tm, warp->group);
+  if (!first->holds || warp->left)
+    return;
+  warp->left = warp->group;
+  for (uint64_t set = warp->group; set;) {
+    struct trax_ref_tp *lane = &tm->ref->tp[trax_simt_take(&set)];
+    lane->inst = first->inst;
+    lane->holds = true;
+  }
+}
+
+static bool in_bubble(const struct trax_simt_tm *tm, uint64_t group) {
+  while (group)
+    if (tm->ref->tp[trax_simt_take(&group)].charged)
+      return true;
+  return false;
+}
+
+/* Returns the first lanes of the groups that ask. Those whose pc is no text fault. */
+static uint64_t collect(struct trax_simt_tm *tm, uint64_t t) {
+  uint64_t asks = 0;
+  for (uint32_t i = 0; i < tm->warps; i++) {
+    struct trax_simt_warp *warp = &tm->warp[i];
+    if (!warp->group)
+      continue;
+    struct trax_ref_tp *first = trax_simt_first(tm, warp->group);
+    take(tm, warp); /* its line may have arrived */
+    if (warp->left || first->awaits_line || in_bubble(tm, warp->group))
+      continue;
+    uint32_t word;
+    const trax_fault_kind kind = trax_ref_text(tm->ref, first->pc, &word);
+    if (kind)
+      trax_ref_fault(tm->ref, first, t, kind, first->pc);
+    else
+      asks |= trax_simt_bit(first->number);
+  }
+  return asks;
+}
+
+static uint32_t icache_of(const struct trax_simt_tm *tm, uint32_t lane) {
+  return lane / tm->ref->config->icache.tps_per_cache;
+}
+
+static uint32_t bank_of(const struct trax_simt_tm *tm, uint32_t lane) {
+  return tm->ref->tp[lane].pc / 4 % tm->ref->config->icache.banks;
+}
+
+/* Those of the set that ask for the same bank as the lane. */
+static uint64_t rivals(const struct trax_simt_tm *tm, uint64_t set, uint32_t lane) {
+  uint64_t same = 0;
+  while (set) {
+    const uint32_t i = trax_simt_take(&set);
+    if (icache_of(tm, i) == icache_of(tm, lane) && bank_of(tm, i) == bank_of(tm, lane))
+      same |= trax_simt_bit(i);
+  }
+  return same;
+}
+
+/* Returns the lanes that win their banks. */
+static uint64_t grant_banks(struct trax_simt_tm *tm, uint64_t asks) {
+  const struct trax_config *config = tm->ref->config;
+  const uint32_t size = config->icache.tps_per_cache;
+  uint64_t won = 0;
+  while (asks) {
+    const uint32_t lane = (uint32_t)__builtin_ctzll(asks), first = icache_of(tm, lane) * size;
+    uint64_t same = rivals(tm, asks, lane);
+    asks &= ~same;
+    for (uint32_t port = 0; same && port < config->icache.ports_per_bank; port++) {
+      const uint64_t winner =
+          trax_simt_arbitrate(&tm->ref->icache[icache_of(tm, lane)].bank[bank_of(tm, lane)], same, first,
+                              first + size < tm->ref->tps ? size : tm->ref->tps - first);
+      same &= ~winner;
+      won |= winner;
+    }
+  }
+  return won;
+}
+
+void trax_simt_fetch(struct trax_simt_tm *tm, uint64_t t) {
+  const uint64_t asks = collect(tm, t), won = grant_banks(tm, asks);
+  for (uint64_t set = won; set;)
+    trax_ref_look_up(tm->ref, &tm->ref->tp[trax_simt_take(&set)], t);
+  for (uint32_t i = 0; i < tm->warps; i++) {
+    struct trax_simt_warp *warp = &tm->warp[i];
+    if (!warp->group || warp->left)
+      continue;
+    take(tm, warp);
+    const struct trax_ref_tp *first = trax_simt_first(tm, warp->group);
+    const uint64_t bit = trax_simt_bit(first->number);
+    if (first->awaits_line)
+      trax_simt_charge(tm, warp->group, t, TRAX_CAUSE_ICACHE_MISS);
+    else if (asks & ~won & bit)
+      trax_simt_charge(tm, warp->group, t, TRAX_CAUSE_ICACHE_BANK);
+    else if (won & bit && first->charged)
+      trax_simt_charge(tm, warp->group, t, TRAX_CAUSE_MEMORY_QUEUE);
+  }
+}
