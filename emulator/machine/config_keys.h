@@ -35,7 +35,7 @@
   END(tp)                                                                                                                                  \
   BEGIN(simt)                                                                                                                              \
   COUNT(simt, width, 1, 1, TRAX_MAX_TPS_PER_TM, "TPs", PAPER, "neighbouring TPs of a warp, which execute together; 1: every TP by itself") \
-  COUNT(simt, patience, 1024, 1, 1000000, "instructions", OURS, "that a warp issues without a lane before the lane has its turn")          \
+  COUNT(simt, patience, 65536, 1, 1000000, "instructions", OURS, "that a warp issues without a lane before the lane has its turn")          \
   END(simt)                                                                                                                                \
   BEGIN(icache)                                                                                                                            \
   POWER(icache, bytes, 4096, 64, 1u << 24, "bytes", PAPER, "size of an instruction cache")                                                 \

@@ -30,11 +30,12 @@ static void wait_for_all_registers(struct trax_ref_tm *tm, struct trax_ref_tp *t
       trax_ref_charge(tm, tp, t, tp->scoreboard[rd].cause);
 }
 
-void trax_ref_check_operands_of(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
-  if (trax_ref_active(tp) && (tp->inst.op == TRAX_OP_ILLEGAL || trax_lacks_unit(tp->inst.op, tm->config)))
-    trax_ref_fault(tm, tp, t, TRAX_FAULT_ILLEGAL, 0);
-  if (trax_ref_active(tp))
-    (tp->inst.op == TRAX_OP_FENCE ? wait_for_all_registers : wait_for_registers)(tm, tp, t);
+bool trax_ref_is_illegal(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp) {
+  return tp->inst.op == TRAX_OP_ILLEGAL || trax_lacks_unit(tp->inst.op, tm->config);
+}
+
+void trax_ref_check_registers(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
+  (tp->inst.op == TRAX_OP_FENCE ? wait_for_all_registers : wait_for_registers)(tm, tp, t);
   if (trax_ref_active(tp) && trax_ref_accesses_memory(tp)) {
     tp->address = tp->reg[tp->inst.ra] + (uint32_t)tp->inst.imm;
     const trax_fault_kind kind = trax_ref_check_access(tm, tp);
@@ -44,6 +45,11 @@ void trax_ref_check_operands_of(struct trax_ref_tm *tm, struct trax_ref_tp *tp, 
 }
 
 void trax_ref_check_operands(struct trax_ref_tm *tm, uint64_t t) {
-  for (uint32_t i = 0; i < tm->tps; i++)
-    trax_ref_check_operands_of(tm, &tm->tp[i], t);
+  for (uint32_t i = 0; i < tm->tps; i++) {
+    struct trax_ref_tp *tp = &tm->tp[i];
+    if (trax_ref_active(tp) && trax_ref_is_illegal(tm, tp))
+      trax_ref_fault(tm, tp, t, TRAX_FAULT_ILLEGAL, 0);
+    if (trax_ref_active(tp))
+      trax_ref_check_registers(tm, tp, t);
+  }
 }

@@ -216,7 +216,9 @@ uint32_t trax_ref_lines_drop(struct trax_ref_lines *lines);
 
 /* --- Operands: operands.c --- */
 void trax_ref_check_operands(struct trax_ref_tm *tm, uint64_t t);
-void trax_ref_check_operands_of(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t);
+bool trax_ref_is_illegal(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp);
+/* The rest of step 2 of an active TP: its registers, then its access. */
+void trax_ref_check_registers(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t);
 /* The destination register of the TP's instruction is usable from `cycle` on. */
 void trax_ref_result(struct trax_ref_tp *tp, uint64_t cycle, trax_cause cause);
 
@@ -241,6 +243,8 @@ bool trax_ref_write_run(struct trax_ref_tm *tm, struct trax_ref_tp *tp);
 /* --- Memory queue: queue.c --- */
 void trax_ref_arrivals(struct trax_ref_tm *tm, uint64_t t);
 void trax_ref_grant_places(struct trax_ref_tm *tm, uint64_t t);
+/* The turn of an active TP. */
+void trax_ref_take_turn(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t);
 /* Takes a place for the request. False: there is none. */
 bool trax_ref_request(struct trax_ref_tm *tm, struct trax_ref_request request);
 /* The number of lines of that kind that are on their way. */
@@ -287,6 +291,8 @@ bool trax_ref_buses_idle(const struct trax_ref_chip *chip, uint64_t t);
 
 /* --- Issue, step 5: issue.c --- */
 void trax_ref_issue(struct trax_ref_tm *tm, uint64_t t);
+/* The issue of an active TP. */
+void trax_ref_issue_of(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t);
 
 /* --- Faults: faults.c --- */
 /* Ends the thread in cycle t with a fault, which is recorded if it is the cycle's first in (TM, TP) order. */

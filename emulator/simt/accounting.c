@@ -1,15 +1,18 @@
-/* docs/simt.md, "Accounting", and the ends of groups. */
+/* docs/simt.md, "Accounting", and step 5 of "A cycle". */
 #include "simt/simt.h"
 
 uint64_t trax_simt_arbitrate(trax_ref_pointer *pointer, uint64_t asks, uint32_t first, uint32_t n) {
-  bool positions[MOST];
-  for (uint32_t i = 0; i < n; i++)
-    positions[i] = asks & trax_simt_bit(first + i);
-  const int winner = trax_ref_arbitrate(pointer, positions, n);
-  return winner < 0 ? 0 : trax_simt_bit(first + (uint32_t)winner);
+  if (!asks)
+    return 0;
+  const uint64_t before = trax_simt_bit(first + *pointer) - 1;
+  const uint32_t winner = trax_simt_first(asks & ~before ? asks & ~before : asks);
+  *pointer = (winner - first + 1) % n;
+  return trax_simt_bit(winner);
 }
 
-void trax_simt_charge(struct trax_simt_tm *tm, uint64_t set, uint64_t t, trax_cause cause) {
+void trax_simt_charge(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint64_t set, uint64_t t,
+                      trax_cause cause) {
+  warp->active &= ~set;
   while (set) {
     struct trax_ref_tp *lane = &tm->ref->tp[trax_simt_take(&set)];
     if (!lane->charged)
@@ -17,28 +20,58 @@ void trax_simt_charge(struct trax_simt_tm *tm, uint64_t set, uint64_t t, trax_ca
   }
 }
 
-/* The lanes of the set that have not issued the instruction. */
-static uint64_t not_issued(const struct trax_simt_tm *tm, uint64_t set) {
-  uint64_t lanes = 0;
-  while (set) {
-    const struct trax_ref_tp *lane = &tm->ref->tp[trax_simt_take(&set)];
-    if (lane->holds && !lane->ended)
-      lanes |= trax_simt_bit(lane->number);
-  }
-  return lanes;
+void trax_simt_charge_bubbles(struct trax_simt_tm *tm, uint64_t t) {
+  for (uint32_t i = 0; i < tm->warps; i++)
+    for (uint64_t set = tm->warp[i].group; set;) {
+      struct trax_ref_tp *lane = &tm->ref->tp[trax_simt_take(&set)];
+      lane->charged = false;
+      if (t < lane->bubble_ends)
+        trax_ref_charge(tm->ref, lane, t, TRAX_CAUSE_BRANCH);
+    }
 }
 
-void trax_simt_account(struct trax_simt_tm *tm, uint64_t t) {
+static void charge_cycles(const struct trax_simt_tm *tm, uint32_t lane, trax_cause cause, uint64_t since,
+                          uint64_t cycles) {
+  struct trax_machine *machine = tm->ref->machine;
+  machine->tp_stats[tm->ref->number * tm->ref->tps + lane].cycles[cause] += cycles;
+  if (cycles && machine->observer && machine->observer->charge)
+    machine->observer->charge(machine->observer->context, tm->ref->number, lane, cause, since, cycles);
+}
+
+void trax_simt_catch_up(struct trax_simt_tm *tm, uint32_t lane, uint64_t t) {
+  const struct trax_ref_tp *tp = &tm->ref->tp[lane];
+  const uint64_t since = tm->lane[lane].charged, ends = tp->ended ? 0 : tp->bubble_ends;
+  const uint64_t bubble = ends <= since ? since : ends < t ? ends : t;
+  charge_cycles(tm, lane, TRAX_CAUSE_BRANCH, since, bubble - since);
+  charge_cycles(tm, lane, tp->ended ? TRAX_CAUSE_HALTED : TRAX_CAUSE_DIVERGENCE, bubble, t - bubble);
+  tm->lane[lane].charged = t;
+}
+
+/* Issues the instruction on the lanes of the warp that were granted all they asked for. */
+static void issue(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint64_t t) {
+  for (uint64_t set = warp->active; set;) {
+    struct trax_ref_tp *lane = &tm->ref->tp[trax_simt_take(&set)];
+    const uint64_t bit = trax_simt_bit(lane->number);
+    trax_ref_issue_of(tm->ref, lane, t);
+    if (!lane->holds) {
+      warp->left &= ~bit;
+      tm->ref->stats->broadcast_loads += (tm->broadcast & bit) != 0;
+    }
+    if (lane->ended)
+      warp->running &= ~bit;
+  }
+  warp->active = 0;
+}
+
+void trax_simt_issue(struct trax_simt_tm *tm, uint64_t t) {
   for (uint32_t i = 0; i < tm->warps; i++) {
     struct trax_simt_warp *warp = &tm->warp[i];
-    trax_simt_charge(tm, warp->group, t, TRAX_CAUSE_LOCKSTEP);
-    trax_simt_charge(tm, warp->lanes, t, TRAX_CAUSE_DIVERGENCE);
-    if (!warp->left)
+    if (!warp->group)
       continue;
-    const uint64_t left = not_issued(tm, warp->left);
-    tm->ref->stats->broadcast_loads += trax_simt_count(tm->broadcast & warp->left & ~left);
-    warp->left = left;
-    if (!left)
-      trax_simt_dissolve(tm, warp);
+    const bool is_held = warp->left;
+    issue(tm, warp, t);
+    trax_simt_charge(tm, warp, warp->group, t, TRAX_CAUSE_LOCKSTEP);
+    if (is_held && !warp->left)
+      trax_simt_dissolve(tm, warp, t);
   }
 }

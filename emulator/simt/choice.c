@@ -8,16 +8,6 @@ static uint32_t part_of_patience(const struct trax_simt_tm *tm) {
   return part ? part : 1;
 }
 
-static uint64_t running(const struct trax_simt_tm *tm, const struct trax_simt_warp *warp) {
-  uint64_t running = 0;
-  for (uint64_t set = warp->lanes; set;) {
-    const uint32_t i = trax_simt_take(&set);
-    if (!tm->ref->tp[i].ended)
-      running |= trax_simt_bit(i);
-  }
-  return running;
-}
-
 static uint64_t lanes_at(const struct trax_simt_tm *tm, uint64_t running, uint32_t pc) {
   uint64_t lanes = 0;
   while (running) {
@@ -29,7 +19,8 @@ static uint64_t lanes_at(const struct trax_simt_tm *tm, uint64_t running, uint32
 }
 
 /* Gives the turn to the lane that has waited longest, if it has waited long enough. */
-static void give_turn(const struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint64_t running) {
+static void give_turn(const struct trax_simt_tm *tm, struct trax_simt_warp *warp) {
+  uint64_t running = warp->running;
   uint32_t longest = trax_simt_take(&running);
   while (running) {
     const uint32_t i = trax_simt_take(&running);
@@ -59,18 +50,19 @@ static uint32_t first_in_order(const struct trax_simt_tm *tm, uint64_t running) 
   return first;
 }
 
-void trax_simt_choose(struct trax_simt_tm *tm) {
+void trax_simt_choose(struct trax_simt_tm *tm, uint64_t t) {
   for (uint32_t i = 0; i < tm->warps; i++) {
     struct trax_simt_warp *warp = &tm->warp[i];
-    const uint64_t lanes = warp->group ? 0 : running(tm, warp);
-    if (!lanes)
+    if (warp->group || !warp->running)
       continue;
-    if (!(lanes & trax_simt_bit(warp->turns_lane)))
+    if (!(warp->running & trax_simt_bit(warp->turns_lane)))
       warp->turns_left = 0;
     if (!warp->turns_left)
-      give_turn(tm, warp, lanes);
-    const uint32_t chosen = warp->turns_left ? warp->turns_lane : first_in_order(tm, lanes);
-    warp->group = lanes_at(tm, lanes, tm->ref->tp[chosen].pc);
+      give_turn(tm, warp);
+    const uint32_t chosen = warp->turns_left ? warp->turns_lane : first_in_order(tm, warp->running);
+    warp->group = lanes_at(tm, warp->running, tm->ref->tp[chosen].pc);
+    for (uint64_t set = warp->group; set;)
+      trax_simt_catch_up(tm, trax_simt_take(&set), t);
   }
 }
 
@@ -88,20 +80,18 @@ static int32_t deeper(const struct trax_ref_tp *tp) {
   return inst->op == TRAX_OP_JALR && inst->rd == 0 && inst->ra == RA ? -1 : 0;
 }
 
-void trax_simt_dissolve(struct trax_simt_tm *tm, struct trax_simt_warp *warp) {
-  const struct trax_ref_tp *first = trax_simt_first(tm, warp->group);
-  const uint32_t cost = may_wait(first) ? part_of_patience(tm) : 1;
-  const int32_t calls = deeper(first);
-  for (uint64_t set = warp->lanes; set;) {
-    const uint32_t i = trax_simt_take(&set);
-    struct trax_simt_lane *lane = &tm->lane[i];
-    if (warp->group & trax_simt_bit(i)) {
-      lane->waited = 0;
-      lane->depth += calls;
-    } else {
-      lane->waited += cost;
-    }
+void trax_simt_dissolve(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint64_t t) {
+  const struct trax_ref_tp *speaker = trax_simt_speaker(tm, warp->group);
+  const uint32_t cost = may_wait(speaker) ? part_of_patience(tm) : 1;
+  const int32_t calls = deeper(speaker);
+  for (uint64_t set = warp->group; set;) {
+    struct trax_simt_lane *lane = &tm->lane[trax_simt_take(&set)];
+    lane->waited = 0;
+    lane->depth += calls;
+    lane->charged = t + 1;
   }
+  for (uint64_t set = warp->running & ~warp->group; set;)
+    tm->lane[trax_simt_take(&set)].waited += cost;
   warp->turns_left -= warp->turns_left > 0;
   warp->group = 0;
 }

@@ -3,7 +3,7 @@
 
 /* Lanes of the group take the instruction that their first lane holds. */
 static void take(struct trax_simt_tm *tm, struct trax_simt_warp *warp) {
-  const struct trax_ref_tp *first = trax_simt_first(tm, warp->group);
+  const struct trax_ref_tp *first = trax_simt_speaker(tm, warp->group);
   if (!first->holds || warp->left)
     return;
   warp->left = warp->group;
@@ -26,9 +26,9 @@ static uint64_t collect(struct trax_simt_tm *tm, uint64_t t) {
   uint64_t asks = 0;
   for (uint32_t i = 0; i < tm->warps; i++) {
     struct trax_simt_warp *warp = &tm->warp[i];
-    if (!warp->group)
+    if (!warp->group || warp->left)
       continue;
-    struct trax_ref_tp *first = trax_simt_first(tm, warp->group);
+    struct trax_ref_tp *first = trax_simt_speaker(tm, warp->group);
     take(tm, warp); /* its line may have arrived */
     if (warp->left || first->awaits_line || in_bubble(tm, warp->group))
       continue;
@@ -67,7 +67,7 @@ static uint64_t grant_banks(struct trax_simt_tm *tm, uint64_t asks) {
   const uint32_t size = config->icache.tps_per_cache;
   uint64_t won = 0;
   while (asks) {
-    const uint32_t lane = (uint32_t)__builtin_ctzll(asks), first = icache_of(tm, lane) * size;
+    const uint32_t lane = trax_simt_first(asks), first = icache_of(tm, lane) * size;
     uint64_t same = rivals(tm, asks, lane);
     asks &= ~same;
     for (uint32_t port = 0; same && port < config->icache.ports_per_bank; port++) {
@@ -90,13 +90,13 @@ void trax_simt_fetch(struct trax_simt_tm *tm, uint64_t t) {
     if (!warp->group || warp->left)
       continue;
     take(tm, warp);
-    const struct trax_ref_tp *first = trax_simt_first(tm, warp->group);
+    const struct trax_ref_tp *first = trax_simt_speaker(tm, warp->group);
     const uint64_t bit = trax_simt_bit(first->number);
     if (first->awaits_line)
-      trax_simt_charge(tm, warp->group, t, TRAX_CAUSE_ICACHE_MISS);
+      trax_simt_charge(tm, warp, warp->group, t, TRAX_CAUSE_ICACHE_MISS);
     else if (asks & ~won & bit)
-      trax_simt_charge(tm, warp->group, t, TRAX_CAUSE_ICACHE_BANK);
+      trax_simt_charge(tm, warp, warp->group, t, TRAX_CAUSE_ICACHE_BANK);
     else if (won & bit && first->charged)
-      trax_simt_charge(tm, warp->group, t, TRAX_CAUSE_MEMORY_QUEUE);
+      trax_simt_charge(tm, warp, warp->group, t, TRAX_CAUSE_MEMORY_QUEUE);
   }
 }

@@ -3,13 +3,19 @@
 
 void trax_simt_check_operands(struct trax_simt_tm *tm, uint64_t t) {
   for (uint32_t i = 0; i < tm->warps; i++) {
-    bool refused = false;
-    for (uint64_t set = tm->warp[i].left; set;) {
+    struct trax_simt_warp *warp = &tm->warp[i];
+    if (!warp->left)
+      continue;
+    const bool is_illegal = trax_ref_is_illegal(tm->ref, trax_simt_speaker(tm, warp->left));
+    bool is_refused = false;
+    for (uint64_t set = warp->left; set;) {
       struct trax_ref_tp *lane = &tm->ref->tp[trax_simt_take(&set)];
-      trax_ref_check_operands_of(tm->ref, lane, t);
-      refused = refused || lane->charged;
+      if (is_illegal)
+        trax_ref_fault(tm->ref, lane, t, TRAX_FAULT_ILLEGAL, 0);
+      else
+        trax_ref_check_registers(tm->ref, lane, t);
+      is_refused = is_refused || lane->charged;
     }
-    if (refused)
-      trax_simt_charge(tm, tm->warp[i].left, t, TRAX_CAUSE_LOCKSTEP);
+    warp->active = is_refused ? 0 : warp->left;
   }
 }

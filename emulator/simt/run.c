@@ -11,7 +11,7 @@ static void create_tm(struct trax_simt_tm *tm, struct trax_ref_tm *ref) {
   tm->ref = ref;
   tm->warps = ref->tps / width;
   for (uint32_t i = 0; i < ref->tps; i++)
-    tm->warp[i / width].lanes |= trax_simt_bit(i);
+    tm->warp[i / width].running |= trax_simt_bit(i);
 }
 
 static trax_status create(struct trax_run *run, trax_error *error) {
@@ -38,15 +38,14 @@ static void cycle(struct trax_simt_chip *chip, uint64_t t) {
     trax_ref_arrivals(&chip->ref.tm[i], t);
   for (uint32_t i = 0; i < chip->ref.tms; i++) {
     struct trax_simt_tm *tm = &chip->tm[i];
-    trax_ref_charge_idle(tm->ref, t);
-    trax_simt_choose(tm);
+    trax_simt_choose(tm, t);
+    trax_simt_charge_bubbles(tm, t);
     trax_simt_fetch(tm, t);
     trax_simt_check_operands(tm, t);
-    trax_ref_grant_units(tm->ref, t);
+    trax_simt_grant_units(tm, t);
     trax_simt_grant_data_banks(tm, t);
-    trax_ref_grant_places(tm->ref, t);
-    trax_ref_issue(tm->ref, t);
-    trax_simt_account(tm, t);
+    trax_simt_grant_places(tm, t);
+    trax_simt_issue(tm, t);
   }
   trax_ref_l2_cycle(&chip->ref, t);
   trax_ref_controller_cycle(&chip->ref, t);
@@ -57,6 +56,7 @@ static enum trax_advance advance(void *context, uint64_t *t, uint64_t until) {
   struct trax_simt_chip *chip = context;
   for (unsigned i = 0; i < CYCLES && *t < until; i++) {
     cycle(chip, (*t)++);
+    chip->t = *t;
     if (chip->ref.machine->fault.kind)
       return TRAX_HAS_FAULTED;
     if (trax_ref_is_over(&chip->ref, *t))
@@ -67,6 +67,15 @@ static enum trax_advance advance(void *context, uint64_t *t, uint64_t until) {
 
 /* --- access between cycles --- */
 
+static void settle(void *context, uint64_t t) {
+  struct trax_simt_chip *chip = context;
+  const uint32_t width = chip->ref.config->simt.width;
+  for (uint32_t i = 0; i < chip->ref.tms; i++)
+    for (uint32_t lane = 0; lane < chip->ref.tm->tps; lane++)
+      if (!(chip->tm[i].warp[lane / width].group & trax_simt_bit(lane)))
+        trax_simt_catch_up(&chip->tm[i], lane, t);
+}
+
 static struct trax_thread thread(void *context, uint32_t number) {
   const struct trax_simt_chip *chip = context;
   struct trax_ref_tm *tm = &chip->ref.tm[number / chip->ref.tm->tps];
@@ -76,13 +85,14 @@ static struct trax_thread thread(void *context, uint32_t number) {
 
 /* The warp's lanes discard what they have fetched and not issued, and it chooses again. */
 static void set_pc(void *context, uint32_t number, uint32_t pc) {
-  const struct trax_simt_chip *chip = context;
+  struct trax_simt_chip *chip = context;
   const uint32_t tps = chip->ref.tm->tps;
   struct trax_simt_tm *tm = &chip->tm[number / tps];
   struct trax_simt_warp *warp = &tm->warp[number % tps / chip->ref.config->simt.width];
   for (uint64_t set = warp->group; set;) {
     struct trax_ref_tp *lane = &tm->ref->tp[trax_simt_take(&set)];
     lane->holds = lane->awaits_line = false;
+    tm->lane[lane->number].charged = chip->t;
   }
   warp->group = warp->left = 0;
   tm->ref->tp[number % tps].pc = pc;
@@ -103,6 +113,7 @@ const struct trax_engine trax_simt_engine = {
     .create = create,
     .destroy = destroy,
     .advance = advance,
+    .settle = settle,
     .thread = thread,
     .set_pc = set_pc,
     .queued = queued,

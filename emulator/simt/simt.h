@@ -2,21 +2,24 @@
    this folder. Everything that the page does not describe is the reference's: a lane is a trax_ref_tp, and holds an
    instruction from the fetch of its group until it has issued it.
 
-   Sets of lanes are masks of the TPs of a TM. */
+   Sets of lanes are masks of the TPs of a TM. A lane outside a group does nothing, and is charged when it is in a group
+   again (Accounting). */
 #ifndef TRAX_SIMT_H
 #define TRAX_SIMT_H
 
 #include "reference/reference.h"
 
 struct trax_simt_lane {
-  int32_t depth;   /* number of calls that it is in */
-  uint32_t waited; /* what its warp has issued since its last instruction, by cost (Choice) */
+  int32_t depth;    /* number of calls that it is in */
+  uint32_t waited;  /* what its warp has issued since its last instruction, by cost (Choice) */
+  uint64_t charged; /* the number of cycles for which it is charged, unless it is in a group */
 };
 
 struct trax_simt_warp {
-  uint64_t lanes;
+  uint64_t running;    /* lanes whose threads have not ended */
   uint64_t group;      /* 0: none */
   uint64_t left;       /* lanes of the group that hold its instruction and have not issued it; 0: it is not fetched */
+  uint64_t active;     /* those of them that no step of this cycle has refused so far */
   uint32_t turns_lane; /* the lane that has the turn */
   uint32_t turns_left; /* instructions of its turn; 0: no lane has it */
 };
@@ -32,6 +35,7 @@ struct trax_simt_tm {
 struct trax_simt_chip {
   struct trax_ref_chip ref;
   struct trax_simt_tm *tm; /* [ref.tms] */
+  uint64_t t;              /* the next cycle */
 };
 
 /* --- sets of lanes --- */
@@ -40,31 +44,30 @@ static inline uint64_t trax_simt_bit(uint32_t lane) {
   return UINT64_C(1) << lane;
 }
 
+/* The first lane of a set that is not empty. */
+static inline uint32_t trax_simt_first(uint64_t set) {
+  return (uint32_t)__builtin_ctzll(set);
+}
+
 /* Takes the first lane out of a set that is not empty, and returns it. */
 static inline uint32_t trax_simt_take(uint64_t *set) {
-  const uint32_t first = (uint32_t)__builtin_ctzll(*set);
+  const uint32_t first = trax_simt_first(*set);
   *set &= *set - 1;
   return first;
 }
 
-static inline uint32_t trax_simt_count(uint64_t set) {
-  return (uint32_t)__builtin_popcountll(set);
+/* The lane that speaks for the group: its pc and number are those with which the group asks. */
+static inline struct trax_ref_tp *trax_simt_speaker(const struct trax_simt_tm *tm, uint64_t group) {
+  return &tm->ref->tp[trax_simt_first(group)];
 }
 
-/* The lane whose pc and number a group asks with. */
-static inline struct trax_ref_tp *trax_simt_first(const struct trax_simt_tm *tm, uint64_t group) {
-  return &tm->ref->tp[__builtin_ctzll(group)];
-}
-
-/* Serves an arbiter over positions from `first` on: returns the winner's mask, 0 if no lane of `asks` has one. */
+/* Serves an arbiter over the n lanes from `first` on. Returns the winner, as a set; 0 if nobody asks. */
 uint64_t trax_simt_arbitrate(trax_ref_pointer *pointer, uint64_t asks, uint32_t first, uint32_t n);
-/* Charges all lanes of the set that have not been charged in this cycle. */
-void trax_simt_charge(struct trax_simt_tm *tm, uint64_t set, uint64_t t, trax_cause cause);
 
 /* --- Choice: choice.c --- */
-void trax_simt_choose(struct trax_simt_tm *tm);
+void trax_simt_choose(struct trax_simt_tm *tm, uint64_t t);
 /* Accounts for an instruction that all lanes of the warp's group have issued, and dissolves the group. */
-void trax_simt_dissolve(struct trax_simt_tm *tm, struct trax_simt_warp *warp);
+void trax_simt_dissolve(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint64_t t);
 
 /* --- Fetch: fetch.c --- */
 void trax_simt_fetch(struct trax_simt_tm *tm, uint64_t t);
@@ -72,10 +75,18 @@ void trax_simt_fetch(struct trax_simt_tm *tm, uint64_t t);
 /* --- Operands: operands.c --- */
 void trax_simt_check_operands(struct trax_simt_tm *tm, uint64_t t);
 
-/* --- Data cache: data_cache.c --- */
+/* --- Shared units, data cache, memory queue: resources.c --- */
+void trax_simt_grant_units(struct trax_simt_tm *tm, uint64_t t);
 void trax_simt_grant_data_banks(struct trax_simt_tm *tm, uint64_t t);
+void trax_simt_grant_places(struct trax_simt_tm *tm, uint64_t t);
 
-/* --- Accounting: accounting.c. After step 5. --- */
-void trax_simt_account(struct trax_simt_tm *tm, uint64_t t);
+/* --- Issue, and Accounting: accounting.c --- */
+/* Charges the lanes of groups that are in a branch bubble. The first step of a cycle. */
+void trax_simt_charge_bubbles(struct trax_simt_tm *tm, uint64_t t);
+void trax_simt_issue(struct trax_simt_tm *tm, uint64_t t);
+/* Charges the lanes of the set that have not been charged in this cycle. They do nothing in the later steps. */
+void trax_simt_charge(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint64_t set, uint64_t t, trax_cause cause);
+/* Charges a lane outside of groups for all cycles before t. */
+void trax_simt_catch_up(struct trax_simt_tm *tm, uint32_t lane, uint64_t t);
 
 #endif
