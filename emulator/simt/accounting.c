@@ -12,11 +12,17 @@ uint64_t trax_simt_arbitrate(trax_ref_pointer *pointer, uint64_t asks, uint32_t 
 
 void trax_simt_charge(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint64_t set, uint64_t t,
                       trax_cause cause) {
+  struct trax_tp_stats *stats = &tm->ref->machine->tp_stats[tm->ref->number * tm->ref->tps];
+  const bool is_observed = tm->ref->machine->observer;
   warp->active &= ~set;
   while (set) {
     struct trax_ref_tp *lane = &tm->ref->tp[trax_simt_take(&set)];
-    if (!lane->charged)
-      trax_ref_charge(tm->ref, lane, t, cause);
+    if (lane->charged)
+      continue;
+    lane->charged = true;
+    stats[lane->number].cycles[cause]++;
+    if (is_observed)
+      trax_ref_notify_charge(tm->ref, lane, t, cause);
   }
 }
 

@@ -1,11 +1,15 @@
 /* docs/simt.md, "Choice". */
 #include "simt/simt.h"
 
-enum { PARTS = 16 }; /* of simt.patience: a turn, and the cost of an instruction with which threads wait */
+enum { WAITS = 16, WAITS_OF_TURN = 4 };
 
+static uint32_t at_least_one(uint32_t value) {
+  return value ? value : 1;
+}
+
+/* Instructions of a turn, and the patience that an instruction costs with which threads wait. */
 static uint32_t part_of_patience(const struct trax_simt_tm *tm) {
-  const uint32_t part = tm->ref->config->simt.patience / PARTS;
-  return part ? part : 1;
+  return at_least_one(tm->ref->config->simt.patience / WAITS);
 }
 
 static uint64_t lanes_at(const struct trax_simt_tm *tm, uint64_t running, uint32_t pc) {
@@ -82,7 +86,9 @@ static int32_t deeper(const struct trax_ref_tp *tp) {
 
 void trax_simt_dissolve(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint64_t t) {
   const struct trax_ref_tp *speaker = trax_simt_speaker(tm, warp->group);
-  const uint32_t cost = may_wait(speaker) ? part_of_patience(tm) : 1;
+  const bool waits = may_wait(speaker);
+  const uint32_t part = part_of_patience(tm), cost = waits ? part : 1;
+  const uint32_t of_turn = waits ? at_least_one(part / WAITS_OF_TURN) : 1;
   const int32_t calls = deeper(speaker);
   for (uint64_t set = warp->group; set;) {
     struct trax_simt_lane *lane = &tm->lane[trax_simt_take(&set)];
@@ -92,6 +98,7 @@ void trax_simt_dissolve(struct trax_simt_tm *tm, struct trax_simt_warp *warp, ui
   }
   for (uint64_t set = warp->running & ~warp->group; set;)
     tm->lane[trax_simt_take(&set)].waited += cost;
-  warp->turns_left -= warp->turns_left > 0;
+  warp->turns_left -= warp->turns_left < of_turn ? warp->turns_left : of_turn;
   warp->group = 0;
+  warp->has_operands = false;
 }

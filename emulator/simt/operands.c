@@ -4,7 +4,9 @@
 void trax_simt_check_operands(struct trax_simt_tm *tm, uint64_t t) {
   for (uint32_t i = 0; i < tm->warps; i++) {
     struct trax_simt_warp *warp = &tm->warp[i];
-    if (!warp->left)
+    if (warp->has_operands)
+      warp->active = warp->left;
+    if (!warp->left || warp->has_operands)
       continue;
     const bool is_illegal = trax_ref_is_illegal(tm->ref, trax_simt_speaker(tm, warp->left));
     bool is_refused = false;
@@ -16,6 +18,9 @@ void trax_simt_check_operands(struct trax_simt_tm *tm, uint64_t t) {
         trax_ref_check_registers(tm->ref, lane, t);
       is_refused = is_refused || lane->charged;
     }
+    warp->has_operands = !is_refused;
+    if (!is_refused)
+      warp->unit = trax_ref_timing(trax_simt_speaker(tm, warp->left), tm->ref->config).unit;
     warp->active = is_refused ? 0 : warp->left;
   }
 }

@@ -29,8 +29,7 @@ static uint64_t lanes_of_group(const struct trax_shared_kind *kind, uint32_t num
 void trax_simt_grant_units(struct trax_simt_tm *tm, uint64_t t) {
   uint64_t asks[TRAX_SHARED_COUNT + 1] = {0};
   for (uint32_t i = 0; i < tm->warps; i++)
-    if (tm->warp[i].active)
-      asks[trax_ref_timing(trax_simt_speaker(tm, tm->warp[i].active), tm->ref->config).unit] |= tm->warp[i].active;
+    asks[tm->warp[i].unit] |= tm->warp[i].active;
   for (trax_shared unit = 0; unit < TRAX_SHARED_COUNT; unit++) {
     if (!asks[unit])
       continue;

@@ -20,6 +20,8 @@ struct trax_simt_warp {
   uint64_t group;      /* 0: none */
   uint64_t left;       /* lanes of the group that hold its instruction and have not issued it; 0: it is not fetched */
   uint64_t active;     /* those of them that no step of this cycle has refused so far */
+  bool has_operands;   /* all lanes of the group have passed step 2 */
+  trax_shared unit;    /* that they then ask for, unless they access memory */
   uint32_t turns_lane; /* the lane that has the turn */
   uint32_t turns_left; /* instructions of its turn; 0: no lane has it */
 };
