@@ -208,6 +208,19 @@ static void the_group_waits_for_the_miss_of_a_lane(void **state) {
   bench_end(&bench);
 }
 
+/* The quotient of lane 0 is there in 11. */
+static void the_group_waits_for_the_register_of_a_lane(void **state) {
+  (void)state;
+  const struct trax_config config = near_warps(2, 2);
+  struct bench bench =
+      BENCH(config, U(RDSR, 1, TRAX_SR_TP), B(BNE, 1, 0, 8), R(FDIV, 3, 0, 0), R(ADD, 4, 3, 3), HALT);
+  ISSUES(&bench, 0, 1, 2, 3, 11, 12);
+  ISSUES(&bench, 1, 1, 2, 11, 12);
+  CHARGES(&bench, 0, TRAX_CAUSE_ICACHE_MISS, 1, TRAX_CAUSE_DATA_SPECIAL, 7);
+  CHARGES(&bench, 1, TRAX_CAUSE_ICACHE_MISS, 1, TRAX_CAUSE_DIVERGENCE, 1, TRAX_CAUSE_LOCKSTEP, 7);
+  bench_end(&bench);
+}
+
 static void increments_are_of_lanes(void **state) {
   (void)state;
   const struct trax_config config = near_warps(4, 4);
@@ -247,6 +260,32 @@ static void a_group_fetches_from_the_cache_of_its_first_lane(void **state) {
   ISSUES(&bench, 1, 1, 2, 4, 5);
   CHARGES(&bench, 1, TRAX_CAUSE_ICACHE_MISS, 2);
   assert_int_equal(total(&bench)->icache_misses, 2);
+  bench_end(&bench);
+}
+
+static void warps_with_caches_of_their_own(void **state) {
+  (void)state;
+  struct trax_config config = near_warps(4, 2);
+  config.icache.tps_per_cache = 2;
+  struct bench bench = BENCH(config, NOP, NOP, HALT);
+  for (unsigned lane = 0; lane < 4; lane++)
+    ISSUES(&bench, lane, 1, 2, 3);
+  bench_end(&bench);
+}
+
+/* The second warp's line gets a place when the first one's has come. */
+static void a_fetch_without_a_place(void **state) {
+  (void)state;
+  struct trax_config config = far_warps(4, 2);
+  config.icache.tps_per_cache = 2;
+  config.memory.queue_depth = 1;
+  struct bench bench = BENCH(config, HALT);
+  for (unsigned lane = 0; lane < 2; lane++)
+    ISSUES(&bench, lane, 104);
+  for (unsigned lane = 2; lane < 4; lane++) {
+    ISSUES(&bench, lane, 208);
+    CHARGES(&bench, lane, TRAX_CAUSE_MEMORY_QUEUE, 104, TRAX_CAUSE_ICACHE_MISS, 104);
+  }
   bench_end(&bench);
 }
 
@@ -368,9 +407,12 @@ int main(void) {
       cmocka_unit_test(broadcast),
       cmocka_unit_test(stores_are_no_broadcast),
       cmocka_unit_test(the_group_waits_for_the_miss_of_a_lane),
+      cmocka_unit_test(the_group_waits_for_the_register_of_a_lane),
       cmocka_unit_test(increments_are_of_lanes),
       cmocka_unit_test(a_lane_that_spins_for_another),
       cmocka_unit_test(a_group_fetches_from_the_cache_of_its_first_lane),
+      cmocka_unit_test(warps_with_caches_of_their_own),
+      cmocka_unit_test(a_fetch_without_a_place),
       cmocka_unit_test(loads_past_the_cache_cost_patience),
       cmocka_unit_test(fence),
       cmocka_unit_test(exit_of_a_lane),
