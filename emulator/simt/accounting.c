@@ -45,6 +45,8 @@ static void charge_cycles(const struct trax_simt_tm *tm, uint32_t lane, trax_cau
 }
 
 void trax_simt_catch_up(struct trax_simt_tm *tm, uint32_t lane, uint64_t t) {
+  if (tm->lane[lane].charged == t)
+    return;
   const struct trax_ref_tp *tp = &tm->ref->tp[lane];
   const uint64_t since = tm->lane[lane].charged, ends = tp->ended ? 0 : tp->bubble_ends;
   const uint64_t bubble = ends <= since ? since : ends < t ? ends : t;

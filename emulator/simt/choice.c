@@ -12,31 +12,6 @@ static uint32_t part_of_patience(const struct trax_simt_tm *tm) {
   return at_least_one(tm->ref->config->simt.patience / WAITS);
 }
 
-static uint64_t lanes_at(const struct trax_simt_tm *tm, uint64_t running, uint32_t pc) {
-  uint64_t lanes = 0;
-  while (running) {
-    const uint32_t i = trax_simt_take(&running);
-    if (tm->ref->tp[i].pc == pc)
-      lanes |= trax_simt_bit(i);
-  }
-  return lanes;
-}
-
-/* Gives the turn to the lane that has waited longest, if it has waited long enough. */
-static void give_turn(const struct trax_simt_tm *tm, struct trax_simt_warp *warp) {
-  uint64_t running = warp->running;
-  uint32_t longest = trax_simt_take(&running);
-  while (running) {
-    const uint32_t i = trax_simt_take(&running);
-    if (tm->lane[i].waited > tm->lane[longest].waited)
-      longest = i;
-  }
-  if (tm->lane[longest].waited >= tm->ref->config->simt.patience) {
-    warp->turns_lane = longest;
-    warp->turns_left = part_of_patience(tm);
-  }
-}
-
 /* Whether lane a comes before lane b: greatest depth, then least pc. */
 static bool is_before(const struct trax_simt_tm *tm, uint32_t a, uint32_t b) {
   if (tm->lane[a].depth != tm->lane[b].depth)
@@ -44,14 +19,23 @@ static bool is_before(const struct trax_simt_tm *tm, uint32_t a, uint32_t b) {
   return tm->ref->tp[a].pc < tm->ref->tp[b].pc;
 }
 
-static uint32_t first_in_order(const struct trax_simt_tm *tm, uint64_t running) {
-  uint32_t first = trax_simt_take(&running);
+/* Returns the lane whose pc the group is at. */
+static uint32_t choose_lane(const struct trax_simt_tm *tm, struct trax_simt_warp *warp) {
+  if (warp->turns_left && warp->running & trax_simt_bit(warp->turns_lane))
+    return warp->turns_lane;
+  uint64_t running = warp->running;
+  uint32_t first = trax_simt_take(&running), longest = first;
   while (running) {
     const uint32_t i = trax_simt_take(&running);
     if (is_before(tm, i, first))
       first = i;
+    if (tm->lane[i].waited > tm->lane[longest].waited)
+      longest = i;
   }
-  return first;
+  const bool has_turn = tm->lane[longest].waited >= tm->ref->config->simt.patience;
+  warp->turns_lane = longest;
+  warp->turns_left = has_turn ? part_of_patience(tm) : 0;
+  return has_turn ? longest : first;
 }
 
 void trax_simt_choose(struct trax_simt_tm *tm, uint64_t t) {
@@ -59,14 +43,14 @@ void trax_simt_choose(struct trax_simt_tm *tm, uint64_t t) {
     struct trax_simt_warp *warp = &tm->warp[i];
     if (warp->group || !warp->running)
       continue;
-    if (!(warp->running & trax_simt_bit(warp->turns_lane)))
-      warp->turns_left = 0;
-    if (!warp->turns_left)
-      give_turn(tm, warp);
-    const uint32_t chosen = warp->turns_left ? warp->turns_lane : first_in_order(tm, warp->running);
-    warp->group = lanes_at(tm, warp->running, tm->ref->tp[chosen].pc);
-    for (uint64_t set = warp->group; set;)
-      trax_simt_catch_up(tm, trax_simt_take(&set), t);
+    const uint32_t pc = tm->ref->tp[choose_lane(tm, warp)].pc;
+    for (uint64_t set = warp->running; set;) {
+      const uint32_t lane = trax_simt_take(&set);
+      if (tm->ref->tp[lane].pc != pc)
+        continue;
+      warp->group |= trax_simt_bit(lane);
+      trax_simt_catch_up(tm, lane, t);
+    }
   }
 }
 
@@ -100,5 +84,5 @@ void trax_simt_dissolve(struct trax_simt_tm *tm, struct trax_simt_warp *warp, ui
     tm->lane[trax_simt_take(&set)].waited += cost;
   warp->turns_left -= warp->turns_left < of_turn ? warp->turns_left : of_turn;
   warp->group = 0;
-  warp->has_operands = false;
+  warp->is_checked = warp->has_operands = false;
 }

@@ -46,37 +46,35 @@ static uint32_t icache_of(const struct trax_simt_tm *tm, uint32_t lane) {
   return lane / tm->ref->config->icache.tps_per_cache;
 }
 
-static uint32_t bank_of(const struct trax_simt_tm *tm, uint32_t lane) {
-  return tm->ref->tp[lane].pc / 4 % tm->ref->config->icache.banks;
-}
-
-/* Those of the set that ask for the same bank as the lane. */
-static uint64_t rivals(const struct trax_simt_tm *tm, uint64_t set, uint32_t lane) {
-  uint64_t same = 0;
-  while (set) {
-    const uint32_t i = trax_simt_take(&set);
-    if (icache_of(tm, i) == icache_of(tm, lane) && bank_of(tm, i) == bank_of(tm, lane))
-      same |= trax_simt_bit(i);
-  }
-  return same;
+/* The lanes of the set that win the bank, for which all of them ask. */
+static uint64_t grant_bank(struct trax_simt_tm *tm, uint32_t bank, uint64_t asks) {
+  const struct trax_config *config = tm->ref->config;
+  const uint32_t icache = icache_of(tm, trax_simt_first(asks)), size = config->icache.tps_per_cache,
+                 first = icache * size, n = first + size < tm->ref->tps ? size : tm->ref->tps - first;
+  uint64_t won = 0;
+  for (uint32_t port = 0; asks & ~won && port < config->icache.ports_per_bank; port++)
+    won |= trax_simt_arbitrate(&tm->ref->icache[icache].bank[bank], asks & ~won, first, n);
+  return won;
 }
 
 /* Returns the lanes that win their banks. */
 static uint64_t grant_banks(struct trax_simt_tm *tm, uint64_t asks) {
-  const struct trax_config *config = tm->ref->config;
-  const uint32_t size = config->icache.tps_per_cache;
+  uint32_t bank[MOST];
+  for (uint64_t set = asks; set;) {
+    const uint32_t i = trax_simt_take(&set);
+    bank[i] = tm->ref->tp[i].pc / 4 % tm->ref->config->icache.banks;
+  }
   uint64_t won = 0;
   while (asks) {
-    const uint32_t lane = trax_simt_first(asks), first = icache_of(tm, lane) * size;
-    uint64_t same = rivals(tm, asks, lane);
-    asks &= ~same;
-    for (uint32_t port = 0; same && port < config->icache.ports_per_bank; port++) {
-      const uint64_t winner =
-          trax_simt_arbitrate(&tm->ref->icache[icache_of(tm, lane)].bank[bank_of(tm, lane)], same, first,
-                              first + size < tm->ref->tps ? size : tm->ref->tps - first);
-      same &= ~winner;
-      won |= winner;
+    const uint32_t first = trax_simt_take(&asks);
+    uint64_t rivals = trax_simt_bit(first);
+    for (uint64_t set = asks; set;) {
+      const uint32_t i = trax_simt_take(&set);
+      if (bank[i] == bank[first] && icache_of(tm, i) == icache_of(tm, first))
+        rivals |= trax_simt_bit(i);
     }
+    won |= grant_bank(tm, bank[first], rivals);
+    asks &= ~rivals;
   }
   return won;
 }

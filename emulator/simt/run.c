@@ -95,7 +95,7 @@ static void set_pc(void *context, uint32_t number, uint32_t pc) {
     tm->lane[lane->number].charged = chip->t;
   }
   warp->group = warp->left = 0;
-  warp->has_operands = false;
+  warp->is_checked = warp->has_operands = false;
   tm->ref->tp[number % tps].pc = pc;
 }
 

@@ -13,6 +13,7 @@ struct trax_simt_lane {
   int32_t depth;    /* number of calls that it is in */
   uint32_t waited;  /* what its warp has issued since its last instruction, by cost (Choice) */
   uint64_t charged; /* the number of cycles for which it is charged, unless it is in a group */
+  uint8_t waits_for; /* the register that refused it in the latest step 2; 0: none */
 };
 
 struct trax_simt_warp {
@@ -20,7 +21,8 @@ struct trax_simt_warp {
   uint64_t group;      /* 0: none */
   uint64_t left;       /* lanes of the group that hold its instruction and have not issued it; 0: it is not fetched */
   uint64_t active;     /* those of them that no step of this cycle has refused so far */
-  bool has_operands;   /* all lanes of the group have passed step 2 */
+  bool is_checked;     /* the lanes of the group have been in step 2 */
+  bool has_operands;   /* all of them have passed it */
   trax_shared unit;    /* that they then ask for, unless they access memory */
   uint32_t turns_lane; /* the lane that has the turn */
   uint32_t turns_left; /* instructions of its turn; 0: no lane has it */
