@@ -10,30 +10,44 @@ uint64_t trax_simt_arbitrate(trax_ref_pointer *pointer, uint64_t asks, uint32_t 
   return trax_simt_bit(winner);
 }
 
+bool trax_simt_is_charged(struct trax_simt_warp *warp, struct trax_ref_tp *lane) {
+  if (!lane->charged)
+    return false;
+  lane->charged = false; /* for the next cycle */
+  warp->active &= ~trax_simt_bit(lane->number);
+  warp->uncharged &= ~trax_simt_bit(lane->number);
+  return true;
+}
+
 void trax_simt_charge(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint64_t set, uint64_t t,
                       trax_cause cause) {
   struct trax_tp_stats *stats = &tm->ref->machine->tp_stats[tm->ref->number * tm->ref->tps];
   const bool is_observed = tm->ref->machine->observer;
+  set &= warp->uncharged;
   warp->active &= ~set;
+  warp->uncharged &= ~set;
   while (set) {
-    struct trax_ref_tp *lane = &tm->ref->tp[trax_simt_take(&set)];
-    if (lane->charged)
-      continue;
-    lane->charged = true;
-    stats[lane->number].cycles[cause]++;
+    const uint32_t i = trax_simt_take(&set);
+    stats[i].cycles[cause]++;
     if (is_observed)
-      trax_ref_notify_charge(tm->ref, lane, t, cause);
+      trax_ref_notify_charge(tm->ref, &tm->ref->tp[i], t, cause);
   }
 }
 
 void trax_simt_charge_bubbles(struct trax_simt_tm *tm, uint64_t t) {
-  for (uint32_t i = 0; i < tm->warps; i++)
-    for (uint64_t set = tm->warp[i].group; set;) {
-      struct trax_ref_tp *lane = &tm->ref->tp[trax_simt_take(&set)];
-      lane->charged = false;
-      if (t < lane->bubble_ends)
-        trax_ref_charge(tm->ref, lane, t, TRAX_CAUSE_BRANCH);
+  for (uint32_t i = 0; i < tm->warps; i++) {
+    struct trax_simt_warp *warp = &tm->warp[i];
+    warp->uncharged = warp->group;
+    if (!tm->ref->config->tp.branch_bubble_cycles)
+      continue;
+    uint64_t in_bubble = 0;
+    for (uint64_t set = warp->group; set;) {
+      const uint32_t lane = trax_simt_take(&set);
+      if (t < tm->ref->tp[lane].bubble_ends)
+        in_bubble |= trax_simt_bit(lane);
     }
+    trax_simt_charge(tm, warp, in_bubble, t, TRAX_CAUSE_BRANCH);
+  }
 }
 
 static void charge_cycles(const struct trax_simt_tm *tm, uint32_t lane, trax_cause cause, uint64_t since,
@@ -61,6 +75,7 @@ static void issue(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint64_t
     struct trax_ref_tp *lane = &tm->ref->tp[trax_simt_take(&set)];
     const uint64_t bit = trax_simt_bit(lane->number);
     trax_ref_issue_of(tm->ref, lane, t);
+    trax_simt_is_charged(warp, lane);
     if (!lane->holds) {
       warp->left &= ~bit;
       tm->ref->stats->broadcast_loads += (tm->broadcast & bit) != 0;

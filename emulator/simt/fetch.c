@@ -14,13 +14,6 @@ static void take(struct trax_simt_tm *tm, struct trax_simt_warp *warp) {
   }
 }
 
-static bool in_bubble(const struct trax_simt_tm *tm, uint64_t group) {
-  while (group)
-    if (tm->ref->tp[trax_simt_take(&group)].charged)
-      return true;
-  return false;
-}
-
 /* Returns the first lanes of the groups that ask. Those whose pc is no text fault. */
 static uint64_t collect(struct trax_simt_tm *tm, uint64_t t) {
   uint64_t asks = 0;
@@ -30,13 +23,13 @@ static uint64_t collect(struct trax_simt_tm *tm, uint64_t t) {
       continue;
     struct trax_ref_tp *first = trax_simt_speaker(tm, warp->group);
     take(tm, warp); /* its line may have arrived */
-    if (warp->left || first->awaits_line || in_bubble(tm, warp->group))
+    if (warp->left || first->awaits_line || warp->uncharged != warp->group)
       continue;
     uint32_t word;
     const trax_fault_kind kind = trax_ref_text(tm->ref, first->pc, &word);
     if (kind)
       trax_ref_fault(tm->ref, first, t, kind, first->pc);
-    else
+    if (!trax_simt_is_charged(warp, first))
       asks |= trax_simt_bit(first->number);
   }
   return asks;
@@ -88,13 +81,13 @@ void trax_simt_fetch(struct trax_simt_tm *tm, uint64_t t) {
     if (!warp->group || warp->left)
       continue;
     take(tm, warp);
-    const struct trax_ref_tp *first = trax_simt_speaker(tm, warp->group);
+    struct trax_ref_tp *first = trax_simt_speaker(tm, warp->group);
     const uint64_t bit = trax_simt_bit(first->number);
     if (first->awaits_line)
       trax_simt_charge(tm, warp, warp->group, t, TRAX_CAUSE_ICACHE_MISS);
     else if (asks & ~won & bit)
       trax_simt_charge(tm, warp, warp->group, t, TRAX_CAUSE_ICACHE_BANK);
-    else if (won & bit && first->charged)
+    else if (trax_simt_is_charged(warp, first))
       trax_simt_charge(tm, warp, warp->group, t, TRAX_CAUSE_MEMORY_QUEUE);
   }
 }

@@ -2,16 +2,17 @@
 #include "simt/simt.h"
 
 /* Checks a lane. False: it is refused. One that has passed passes again, and another one waits for its register. */
-static bool check(struct trax_simt_tm *tm, uint32_t i, uint64_t t, bool is_first) {
+static bool check(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint32_t i, uint64_t t) {
   struct trax_ref_tp *lane = &tm->ref->tp[i];
   uint8_t *const waits_for = &tm->lane[i].waits_for;
-  if (!is_first && (!*waits_for || lane->scoreboard[*waits_for].usable > t)) {
-    if (*waits_for)
-      trax_ref_charge(tm->ref, lane, t, lane->scoreboard[*waits_for].cause);
-    return !*waits_for;
+  if (warp->is_checked && !*waits_for)
+    return true;
+  if (warp->is_checked && lane->scoreboard[*waits_for].usable > t) {
+    trax_simt_charge(tm, warp, trax_simt_bit(i), t, lane->scoreboard[*waits_for].cause);
+    return false;
   }
   *waits_for = (uint8_t)trax_ref_check_registers(tm->ref, lane, t);
-  return !lane->charged;
+  return !trax_simt_is_charged(warp, lane);
 }
 
 /* Whether all lanes of the group have passed. */
@@ -20,9 +21,13 @@ static bool check_group(struct trax_simt_tm *tm, struct trax_simt_warp *warp, ui
   bool passes = true;
   for (uint64_t set = warp->left; set;) {
     const uint32_t i = trax_simt_take(&set);
-    if (is_illegal)
+    if (is_illegal) {
       trax_ref_fault(tm->ref, &tm->ref->tp[i], t, TRAX_FAULT_ILLEGAL, 0);
-    passes = !is_illegal && check(tm, i, t, !warp->is_checked) && passes;
+      trax_simt_is_charged(warp, &tm->ref->tp[i]);
+      passes = false;
+    } else {
+      passes = check(tm, warp, i, t) && passes;
+    }
   }
   warp->is_checked = true;
   return passes;

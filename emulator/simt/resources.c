@@ -109,7 +109,6 @@ void trax_simt_grant_places(struct trax_simt_tm *tm, uint64_t t) {
     while (rounds[i]) {
       struct trax_ref_tp *lane = &tm->ref->tp[trax_simt_take(&rounds[i])];
       trax_ref_take_turn(tm->ref, lane, t);
-      if (lane->charged)
-        tm->warp[lane->number / tm->ref->config->simt.width].active &= ~trax_simt_bit(lane->number);
+      trax_simt_is_charged(&tm->warp[lane->number / tm->ref->config->simt.width], lane);
     }
 }

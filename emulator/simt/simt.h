@@ -21,6 +21,7 @@ struct trax_simt_warp {
   uint64_t group;      /* 0: none */
   uint64_t left;       /* lanes of the group that hold its instruction and have not issued it; 0: it is not fetched */
   uint64_t active;     /* those of them that no step of this cycle has refused so far */
+  uint64_t uncharged;  /* lanes of the group that have not been charged in this cycle */
   bool is_checked;     /* the lanes of the group have been in step 2 */
   bool has_operands;   /* all of them have passed it */
   trax_shared unit;    /* that they then ask for, unless they access memory */
@@ -88,6 +89,8 @@ void trax_simt_grant_places(struct trax_simt_tm *tm, uint64_t t);
 /* Charges the lanes of groups that are in a branch bubble. The first step of a cycle. */
 void trax_simt_charge_bubbles(struct trax_simt_tm *tm, uint64_t t);
 void trax_simt_issue(struct trax_simt_tm *tm, uint64_t t);
+/* Whether a step of the reference has charged the lane. */
+bool trax_simt_is_charged(struct trax_simt_warp *warp, struct trax_ref_tp *lane);
 /* Charges the lanes of the set that have not been charged in this cycle. They do nothing in the later steps. */
 void trax_simt_charge(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint64_t set, uint64_t t, trax_cause cause);
 /* Charges a lane outside of groups for all cycles before t. */
