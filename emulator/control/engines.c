@@ -3,13 +3,14 @@
 #include "fast/chip.h"
 #include "functional/functional.h"
 #include "reference/run.h"
+#include "simt/run.h"
 
 #include <stdio.h>
 #include <string.h>
 
-/* The first engine is the default. After the first three come variants of the first one. */
+/* The first engine is the default. After the first four come variants of the first one. */
 static const struct trax_engine *const engines[] = {
-    &trax_fast_engine,        &trax_reference_engine, &trax_functional_engine, &trax_fast_any_engine,
+    &trax_fast_engine, &trax_reference_engine, &trax_functional_engine, &trax_simt_engine, &trax_fast_any_engine,
 #ifdef TRAX_FAST_HAVE_V3
     &trax_fast_avx2_engine,
 #endif
@@ -17,7 +18,7 @@ static const struct trax_engine *const engines[] = {
     &trax_fast_avx512_engine,
 #endif
 };
-enum { ENGINES = sizeof engines / sizeof *engines, MAIN_ENGINES = 3 };
+enum { ENGINES = sizeof engines / sizeof *engines, MAIN_ENGINES = 4 };
 
 static bool every_engine(const struct trax_engine *engine) {
   (void)engine;
@@ -51,4 +52,20 @@ trax_status trax_engine_find(const char *name, const struct trax_engine **engine
     }
   trax_engine_names(every_engine, names, sizeof names);
   return trax_fail(error, "is not %s", names);
+}
+
+const struct trax_engine *trax_engine_for(const struct trax_config *config) {
+  return config->simt.width > 1 ? &trax_simt_engine : engines[0];
+}
+
+static bool has_warps(const struct trax_engine *engine) {
+  return engine->has_warps;
+}
+
+trax_status trax_engine_check(const struct trax_engine *engine, const struct trax_config *config, trax_error *error) {
+  char names[128];
+  if (config->simt.width == 1 || engine->has_warps)
+    return TRAX_OK;
+  trax_engine_names(has_warps, names, sizeof names);
+  return trax_fail(error, "simt.width = %u needs the engine %s, not %s", config->simt.width, names, engine->name);
 }

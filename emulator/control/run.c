@@ -74,7 +74,7 @@ static trax_status create_run(struct run *run, struct trax_machine *machine, con
 
 trax_status trax_machine_begin(trax_machine *machine, const trax_run_options *options, trax_error *error) {
   static const trax_run_options no_options = {0};
-  const struct trax_engine *engine;
+  const struct trax_engine *engine = trax_engine_for(&machine->config);
   trax_error reason;
   if (!machine->has_program)
     return trax_fail(error, "no program is loaded");
@@ -82,8 +82,10 @@ trax_status trax_machine_begin(trax_machine *machine, const trax_run_options *op
     return trax_fail(error, "a machine runs once; create another");
   if (!options)
     options = &no_options;
-  if (trax_engine_find(options->engine, &engine, &reason) != TRAX_OK)
+  if (options->engine && trax_engine_find(options->engine, &engine, &reason) != TRAX_OK)
     return trax_fail(error, "the engine %s %s", options->engine, reason.message);
+  if (trax_engine_check(engine, &machine->config, error) != TRAX_OK)
+    return TRAX_ERROR;
   if (options->slots && !engine->is_timed)
     return trax_fail(error, "the engine %s has no time: slots cannot be sampled", engine->name);
   const double begun = host_seconds();

@@ -294,6 +294,7 @@ static void destroy(void *context) {
 const struct trax_engine trax_functional_engine = {
     .name = "functional",
     .meaning = "what the program computes, without time",
+    .has_warps = true,
     .create = create,
     .destroy = destroy,
     .advance = advance,

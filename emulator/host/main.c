@@ -325,6 +325,8 @@ int main(int count, char **arguments) {
   } else if (options.print_config) {
     trax_config_print(config, stdout);
     result = flush_standard_output(EXIT_SUCCESS);
+  } else if (trax_options_choose_engine(&options, config, &error) != TRAX_OK) {
+    complain(&error);
   } else {
     result = simulate(config, &options);
   }

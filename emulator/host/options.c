@@ -111,6 +111,7 @@ static trax_status parse_engine(void *target, const trax_option *option, const c
   trax_error reason;
   if (trax_engine_find(value, &options->engine, &reason) != TRAX_OK)
     return trax_option_refuse(option, value, error, "%s", reason.message);
+  options->engine_is_named = true;
   return TRAX_OK;
 }
 
@@ -190,7 +191,8 @@ static const trax_option rows[] = {
      .meaning = "threads that call main: 0, the first alone, or all (default)"},
     TRAX_OPTION_GROUP("Run"),
     {"engine", .argument = "NAME", .parse = parse_engine,
-     .meaning = "fast (default), reference (the same, slower) or functional (no time)"},
+     .meaning = "fast (default), reference (the same, slower), functional (no time) or simt\n"
+                "(warps; the default if simt.width is more than 1)"},
     {"host-threads", .argument = "N", NUMBER(host_threads, 1, TRAX_MAX_TMS),
      .meaning = "threads of the host for the fast engine; default one for each processor it may use"},
     {"max-cycles", .argument = "N", NUMBER(max_cycles, 1, UINT64_MAX),
@@ -318,6 +320,15 @@ static trax_status check_engine(const struct trax_options *options, trax_error *
   if (options->watchdog && need(options, is_timed, "--watchdog needs", error) != TRAX_OK)
     return TRAX_ERROR;
   return options->gdb ? need(options, observes, "--gdb needs", error) : TRAX_OK;
+}
+
+trax_status trax_options_choose_engine(struct trax_options *options, const struct trax_config *config,
+                                       trax_error *error) {
+  if (!options->engine_is_named)
+    options->engine = trax_engine_for(config);
+  return trax_engine_check(options->engine, config, error) == TRAX_OK && check_engine(options, error) == TRAX_OK
+             ? check_explain(options, error)
+             : TRAX_ERROR;
 }
 
 /* Checks that no output is an input and that no file is written twice. */

@@ -33,6 +33,7 @@ struct trax_options {
   uint64_t max_cycles, watchdog, total_items; /* 0: not given */
   struct trax_explain_options explain;
   const struct trax_engine *engine;
+  bool engine_is_named;
   unsigned host_threads; /* 0: not given */
   bool gdb;
   uint64_t gdb_port;
@@ -42,6 +43,10 @@ struct trax_options {
 };
 
 trax_parsed trax_options_parse(struct trax_options *options, int count, char **arguments, trax_error *error);
+/* Takes the machine's engine if none is named. Error: the named one cannot run the machine, or the machine's cannot serve
+   another option. */
+trax_status trax_options_choose_engine(struct trax_options *options, const struct trax_config *config,
+                                       trax_error *error);
 /* Checks that all outputs can be written. */
 trax_status trax_options_check_outputs(const struct trax_options *options, trax_error *error);
 void trax_options_free(struct trax_options *options);

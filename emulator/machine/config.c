@@ -205,6 +205,9 @@ trax_status trax_config_validate(const struct trax_config *config, trax_error *e
        check_line("icache", config->icache.line_bytes, "l2.line_bytes", config->l2.line_bytes, error) ||
        check_line("dcache", config->dcache.line_bytes, "l2.line_bytes", config->l2.line_bytes, error)))
     return TRAX_ERROR;
+  if (config->chip.tps_per_tm % config->simt.width)
+    return trax_fail(error, "simt.width is %u; it must divide chip.tps_per_tm = %u", config->simt.width,
+                     config->chip.tps_per_tm);
   if (config->memory.model == TRAX_MEMORY_DRAM)
     return check_dram(config, error);
   const char *const interleave = "memory.interleave_bytes";

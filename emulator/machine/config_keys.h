@@ -33,6 +33,10 @@
   COUNT(tp, local_latency_cycles, 1, 1, 1000, "cycles", OURS, "latency of a load from local memory")                                       \
   COUNT(tp, branch_bubble_cycles, 0, 0, 1000, "cycles", OURS, "lost after a taken branch")                                                 \
   END(tp)                                                                                                                                  \
+  BEGIN(simt)                                                                                                                              \
+  COUNT(simt, width, 1, 1, TRAX_MAX_TPS_PER_TM, "TPs", PAPER, "neighbouring TPs of a warp, which execute together; 1: every TP by itself") \
+  COUNT(simt, patience, 65536, 1, 1000000, "instructions", OURS, "that a warp issues without a lane before the lane has its turn")          \
+  END(simt)                                                                                                                                \
   BEGIN(icache)                                                                                                                            \
   POWER(icache, bytes, 4096, 64, 1u << 24, "bytes", PAPER, "size of an instruction cache")                                                 \
   POWER(icache, line_bytes, 64, 4, 4096, "bytes", OURS, "line of an instruction cache")                                                    \

@@ -27,6 +27,8 @@
   X(DCACHE_BANK, "dcache_bank_conflict", "d-bank", "another TP had the data-cache bank")                               \
   X(MEMORY_QUEUE, "memory_queue_full", "queue", "no miss register or no place in the TM's memory queue was free")      \
   X(BRANCH, "branch_bubble", "bubble", "the bubble after a taken branch")                                              \
+  X(LOCKSTEP, "lockstep", "step", "it waited for other lanes of its group")                                            \
+  X(DIVERGENCE, "divergence", "diverg", "another group of its warp had been chosen")                                   \
   X(HALTED, "halted", "halted", "the thread had ended")
 #define TRAX_SHARED_CAUSE(X, ID, NAME, SIZE, COUNT, AREA, UNIT, HEAD, REFUSED, ...)                                    \
   X(ID, #NAME "_conflict", HEAD, REFUSED)
@@ -52,6 +54,7 @@ typedef enum trax_cause {
   X(dcache_hits, "dcache.hits", "lookups", "cached loads that found their line")                                       \
   X(dcache_misses, "dcache.misses", "lookups", "cached loads that requested their line")                               \
   X(dcache_merged, "dcache.merged", "lookups", "cached loads whose line was already on its way")                       \
+  X(broadcast_loads, "dcache.broadcast", "lookups", "of these, those that shared another lane's access to a bank")     \
   X(store_hits, "dcache.store_hits", "stores", "cached stores that updated a line in place")                           \
   X(store_misses, "dcache.store_misses", "stores", "cached stores that found no line to update")                       \
   X(dropped_lines, "dcache.dropped", "lines", "lines in the data cache that fences dropped")                           \
@@ -127,6 +130,11 @@ struct trax_tm_stats {
 
 #undef TRAX_COUNTER_FIELD
 
+/* The number of lookups in instruction caches. */
+static inline uint64_t trax_fetches(const struct trax_tm_stats *stats) {
+  return stats->icache_hits + stats->icache_misses + stats->icache_merged;
+}
+
 /* How a sampled run was sampled, and its confidence interval (sampling/). */
 struct trax_sampling_stats {
   bool is_sampled;
@@ -176,8 +184,14 @@ struct trax_stats {
   TRAX_SHARED_UNITS(TRAX_SHARED_FIGURE, X)                                                                             \
   X(issue_utilisation, "issue.utilisation", "fraction", "share of thread-cycles that issued an instruction",           \
     (double)S->instructions / S->cycles / S->threads)                                                                  \
+  X(simt_groups, "simt.groups", "instructions", "instructions fetched: once for all lanes of a group",                 \
+    trax_fetches(&S->total))                                                                                           \
+  X(simt_lanes, "simt.lanes_per_group", "lanes/instruction", "instructions issued per instruction fetched",            \
+    (double)S->instructions / trax_fetches(&S->total))                                                                 \
+  X(simt_efficiency, "simt.efficiency", "fraction", "the same per lane of a warp",                                     \
+    (double)S->instructions / trax_fetches(&S->total) / C->simt.width)                                                 \
   X(icache_hit_rate, "icache.hit_rate", "fraction", "hits per instruction-cache lookup",                               \
-    (double)S->total.icache_hits / (S->total.icache_hits + S->total.icache_misses + S->total.icache_merged))           \
+    (double)S->total.icache_hits / trax_fetches(&S->total))                                                            \
   X(dcache_hit_rate, "dcache.hit_rate", "fraction", "hits per load that looked in the data cache",                     \
     (double)S->total.dcache_hits / (S->total.dcache_hits + S->total.dcache_misses + S->total.dcache_merged))           \
   X(l2_hit_rate, "l2.hit_rate", "fraction", "hits per read that the second-level cache looked up",                     \

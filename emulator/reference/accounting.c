@@ -18,7 +18,8 @@ void trax_ref_charge(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t,
   assert(!tp->charged);
   tp->charged = true;
   tm->machine->tp_stats[tm->number * tm->tps + tp->number].cycles[cause]++;
-  trax_ref_notify_charge(tm, tp, t, cause);
+  if (tm->machine->observer)
+    trax_ref_notify_charge(tm, tp, t, cause);
 }
 
 void trax_ref_charge_idle(struct trax_ref_tm *tm, uint64_t t) {

@@ -2,22 +2,22 @@
 #include "reference/reference.h"
 
 /* Only cached loads and stores of global memory use a bank. */
-static bool asks_for_bank(const struct trax_ref_tp *tp) {
+bool trax_ref_asks_for_bank(const struct trax_ref_tp *tp) {
   return trax_ref_active(tp) && trax_ref_accesses_memory(tp) && !trax_ref_accesses_local(tp) &&
          !trax_ref_is(tp, TRAX_IS_NONTEMPORAL | TRAX_IS_ATOMIC);
 }
 
-static uint32_t banks_of(const struct trax_ref_tm *tm) {
+uint32_t trax_ref_data_banks(const struct trax_ref_tm *tm) {
   const uint32_t per_bank = tm->config->dcache.tps_per_bank;
   return (tm->tps + per_bank - 1) / per_bank;
 }
 
 void trax_ref_grant_data_banks(struct trax_ref_tm *tm, uint64_t t) {
-  const uint32_t banks = banks_of(tm);
+  const uint32_t banks = trax_ref_data_banks(tm);
   for (uint32_t bank = 0; bank < banks; bank++) {
     bool asks[MOST] = {false};
     for (uint32_t i = 0; i < tm->tps; i++)
-      asks[i] = asks_for_bank(&tm->tp[i]) && tm->tp[i].address / 4 % banks == bank;
+      asks[i] = trax_ref_asks_for_bank(&tm->tp[i]) && tm->tp[i].address / 4 % banks == bank;
     const bool filling = t < tm->dcache_fills_end[bank];
     const int winner = filling ? -1 : trax_ref_arbitrate(&tm->dcache_bank[bank], asks, tm->tps);
     for (uint32_t i = 0; i < tm->tps; i++)
@@ -63,7 +63,7 @@ bool trax_ref_load(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
 
 /* The line takes the banks of its words. */
 static void fill(struct trax_ref_tm *tm, uint32_t line, uint64_t t) {
-  const uint32_t banks = banks_of(tm);
+  const uint32_t banks = trax_ref_data_banks(tm);
   const uint32_t words = tm->config->dcache.line_bytes / 4;
   for (uint32_t bank = 0; bank < banks; bank++)
     for (uint32_t word = 0; word < words; word++)

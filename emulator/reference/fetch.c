@@ -53,7 +53,7 @@ static void grant_bank(struct trax_ref_tm *tm, uint32_t bank, uint32_t first, ui
       trax_ref_charge(tm, &tm->tp[first + i], t, TRAX_CAUSE_ICACHE_BANK);
 }
 
-static void look_up(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
+void trax_ref_look_up(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
   const uint32_t icache = icache_of(tm, tp), line = line_of(tm, tp);
   if (trax_ref_lines_have(&tm->icache[icache].lines, line)) {
     tm->stats->icache_hits++;
@@ -82,7 +82,7 @@ void trax_ref_fetch(struct trax_ref_tm *tm, uint64_t t) {
       grant_bank(tm, bank, first, first + size < tm->tps ? size : tm->tps - first, t, won);
   for (uint32_t i = 0; i < tm->tps; i++)
     if (won[i])
-      look_up(tm, &tm->tp[i], t);
+      trax_ref_look_up(tm, &tm->tp[i], t);
   for (uint32_t i = 0; i < tm->tps; i++)
     if (tm->tp[i].awaits_line)
       trax_ref_charge(tm, &tm->tp[i], t, TRAX_CAUSE_ICACHE_MISS);

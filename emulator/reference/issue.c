@@ -85,7 +85,7 @@ static void count(struct trax_ref_tm *tm, const struct trax_ref_tp *tp) {
     ++*(trax_ref_is(tp, TRAX_IS_STORE) ? &tm->stats->local_stores : &tm->stats->local_loads);
 }
 
-static void issue(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
+void trax_ref_issue_of(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
   const uint32_t pc = tp->pc;
   const trax_fault_kind kind = execute(tm, tp, t);
   if (kind) {
@@ -107,5 +107,5 @@ static void issue(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
 void trax_ref_issue(struct trax_ref_tm *tm, uint64_t t) {
   for (uint32_t i = 0; i < tm->tps; i++)
     if (trax_ref_active(&tm->tp[i]))
-      issue(tm, &tm->tp[i], t);
+      trax_ref_issue_of(tm, &tm->tp[i], t);
 }

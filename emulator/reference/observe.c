@@ -3,7 +3,7 @@
 
 void trax_ref_notify_charge(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp, uint64_t t, trax_cause cause) {
   const struct trax_observer *observer = tm->machine->observer;
-  if (observer && observer->charge && cause != TRAX_CAUSE_ISSUED)
+  if (observer->charge && cause != TRAX_CAUSE_ISSUED)
     observer->charge(observer->context, tm->number, tp->number, cause, t, 1);
 }
 

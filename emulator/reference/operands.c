@@ -6,8 +6,8 @@ void trax_ref_result(struct trax_ref_tp *tp, uint64_t cycle, trax_cause cause) {
     tp->scoreboard[tp->inst.rd] = (struct trax_ref_register){.usable = cycle, .cause = cause};
 }
 
-/* Charges a TP for the first register that is not usable, if there is one. */
-static void wait_for_registers(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
+/* Charges a TP for the first register that is not usable, and returns it; 0: there is none. */
+static unsigned wait_for_registers(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
   const struct {
     unsigned count, first;
   } operands[] = {{trax_group_a(trax_ref_info(tp)->flags), tp->inst.ra},
@@ -15,33 +15,47 @@ static void wait_for_registers(struct trax_ref_tm *tm, struct trax_ref_tp *tp, u
                   {trax_ref_is(tp, TRAX_READS_RD | TRAX_WRITES_RD), tp->inst.rd}};
   for (unsigned i = 0; i < 3; i++)
     for (unsigned n = 0; n < operands[i].count; n++) {
-      const struct trax_ref_register *reg = &tp->scoreboard[(operands[i].first + n) % TRAX_NUM_REGISTERS];
+      const unsigned number = (operands[i].first + n) % TRAX_NUM_REGISTERS;
+      const struct trax_ref_register *reg = &tp->scoreboard[number];
       if (reg->usable > t) {
         trax_ref_charge(tm, tp, t, reg->cause);
-        return;
+        return number;
       }
     }
+  return 0;
 }
 
 /* The same for a fence, which needs all registers. */
-static void wait_for_all_registers(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
-  for (unsigned rd = 1; rd < TRAX_NUM_REGISTERS && !tp->charged; rd++)
-    if (tp->scoreboard[rd].usable > t)
+static unsigned wait_for_all_registers(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
+  for (unsigned rd = 1; rd < TRAX_NUM_REGISTERS; rd++)
+    if (tp->scoreboard[rd].usable > t) {
       trax_ref_charge(tm, tp, t, tp->scoreboard[rd].cause);
+      return rd;
+    }
+  return 0;
+}
+
+bool trax_ref_is_illegal(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp) {
+  return tp->inst.op == TRAX_OP_ILLEGAL || trax_lacks_unit(tp->inst.op, tm->config);
+}
+
+unsigned trax_ref_check_registers(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
+  const unsigned waits_for = (tp->inst.op == TRAX_OP_FENCE ? wait_for_all_registers : wait_for_registers)(tm, tp, t);
+  if (trax_ref_active(tp) && trax_ref_accesses_memory(tp)) {
+    tp->address = tp->reg[tp->inst.ra] + (uint32_t)tp->inst.imm;
+    const trax_fault_kind kind = trax_ref_check_access(tm, tp);
+    if (kind)
+      trax_ref_fault(tm, tp, t, kind, tp->address);
+  }
+  return waits_for;
 }
 
 void trax_ref_check_operands(struct trax_ref_tm *tm, uint64_t t) {
   for (uint32_t i = 0; i < tm->tps; i++) {
     struct trax_ref_tp *tp = &tm->tp[i];
-    if (trax_ref_active(tp) && (tp->inst.op == TRAX_OP_ILLEGAL || trax_lacks_unit(tp->inst.op, tm->config)))
+    if (trax_ref_active(tp) && trax_ref_is_illegal(tm, tp))
       trax_ref_fault(tm, tp, t, TRAX_FAULT_ILLEGAL, 0);
     if (trax_ref_active(tp))
-      (tp->inst.op == TRAX_OP_FENCE ? wait_for_all_registers : wait_for_registers)(tm, tp, t);
-    if (trax_ref_active(tp) && trax_ref_accesses_memory(tp)) {
-      tp->address = tp->reg[tp->inst.ra] + (uint32_t)tp->inst.imm;
-      const trax_fault_kind kind = trax_ref_check_access(tm, tp);
-      if (kind)
-        trax_ref_fault(tm, tp, t, kind, tp->address);
-    }
+      trax_ref_check_registers(tm, tp, t);
   }
 }

@@ -121,16 +121,21 @@ static bool serve(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
   return trax_ref_load(tm, tp, t);
 }
 
+void trax_ref_take_turn(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
+  const uint32_t taken = tm->places;
+  if (!serve(tm, tp, t))
+    trax_ref_charge(tm, tp, t, TRAX_CAUSE_MEMORY_QUEUE);
+  else if (trax_ref_fence_waits(tm, tp))
+    trax_ref_charge(tm, tp, t, TRAX_CAUSE_DATA_MISS);
+  if (tm->places > taken)
+    tm->queue_pointer = (tp->number + 1) % tm->tps;
+}
+
 void trax_ref_grant_places(struct trax_ref_tm *tm, uint64_t t) {
   const trax_ref_pointer first = tm->queue_pointer;
   for (uint32_t i = 0; i < tm->tps; i++) {
-    const uint32_t position = (first + i) % tm->tps, taken = tm->places;
-    struct trax_ref_tp *tp = &tm->tp[position];
-    if (trax_ref_active(tp) && !serve(tm, tp, t))
-      trax_ref_charge(tm, tp, t, TRAX_CAUSE_MEMORY_QUEUE);
-    if (trax_ref_active(tp) && trax_ref_fence_waits(tm, tp))
-      trax_ref_charge(tm, tp, t, TRAX_CAUSE_DATA_MISS);
-    if (tm->places > taken)
-      tm->queue_pointer = (position + 1) % tm->tps;
+    struct trax_ref_tp *tp = &tm->tp[(first + i) % tm->tps];
+    if (trax_ref_active(tp))
+      trax_ref_take_turn(tm, tp, t);
   }
 }

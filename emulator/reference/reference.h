@@ -188,8 +188,17 @@ static inline bool trax_ref_fences(const struct trax_ref_tp *tp, unsigned kinds)
   return tp->inst.op == TRAX_OP_FENCE && ((unsigned)tp->inst.imm & kinds) != 0;
 }
 
+/* --- Start and end: run.c --- */
+/* False: out of memory. The chip must be destroyed after that, too. */
+bool trax_ref_create(struct trax_ref_chip *chip, struct trax_machine *machine, FILE *output);
+void trax_ref_destroy(struct trax_ref_chip *chip);
+/* Whether the run has ended: every thread has ended, no request waits, and the buses are idle. */
+bool trax_ref_is_over(const struct trax_ref_chip *chip, uint64_t t);
+
 /* --- Fetch: fetch.c, lines.c --- */
 void trax_ref_fetch(struct trax_ref_tm *tm, uint64_t t);
+/* Looks up the line of a TP that won its bank: it then holds its instruction, awaits the line, or is charged. */
+void trax_ref_look_up(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t);
 void trax_ref_instruction_arrives(struct trax_ref_tm *tm, uint32_t icache, uint32_t line);
 
 bool trax_ref_lines_create(struct trax_ref_lines *lines, uint32_t bytes, uint32_t line_bytes, uint32_t ways,
@@ -206,6 +215,10 @@ uint32_t trax_ref_lines_drop(struct trax_ref_lines *lines);
 
 /* --- Operands: operands.c --- */
 void trax_ref_check_operands(struct trax_ref_tm *tm, uint64_t t);
+bool trax_ref_is_illegal(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp);
+/* The rest of step 2 of an active TP: its registers, then its access. Returns the register for which it waits; 0: none.
+ */
+unsigned trax_ref_check_registers(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t);
 /* The destination register of the TP's instruction is usable from `cycle` on. */
 void trax_ref_result(struct trax_ref_tp *tp, uint64_t cycle, trax_cause cause);
 
@@ -216,6 +229,8 @@ struct trax_timing trax_ref_timing(const struct trax_ref_tp *tp, const struct tr
 
 /* --- Data cache: data_cache.c --- */
 void trax_ref_grant_data_banks(struct trax_ref_tm *tm, uint64_t t);
+bool trax_ref_asks_for_bank(const struct trax_ref_tp *tp);
+uint32_t trax_ref_data_banks(const struct trax_ref_tm *tm);
 /* Serves a load in step 4. False: it needs a place or a miss register and gets none. */
 bool trax_ref_load(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t);
 void trax_ref_data_arrives(struct trax_ref_tm *tm, const struct trax_ref_request *request, uint64_t t);
@@ -228,6 +243,8 @@ bool trax_ref_write_run(struct trax_ref_tm *tm, struct trax_ref_tp *tp);
 /* --- Memory queue: queue.c --- */
 void trax_ref_arrivals(struct trax_ref_tm *tm, uint64_t t);
 void trax_ref_grant_places(struct trax_ref_tm *tm, uint64_t t);
+/* The turn of an active TP. */
+void trax_ref_take_turn(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t);
 /* Takes a place for the request. False: there is none. */
 bool trax_ref_request(struct trax_ref_tm *tm, struct trax_ref_request request);
 /* The number of lines of that kind that are on their way. */
@@ -274,6 +291,8 @@ bool trax_ref_buses_idle(const struct trax_ref_chip *chip, uint64_t t);
 
 /* --- Issue, step 5: issue.c --- */
 void trax_ref_issue(struct trax_ref_tm *tm, uint64_t t);
+/* The issue of an active TP. */
+void trax_ref_issue_of(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t);
 
 /* --- Faults: faults.c --- */
 /* Ends the thread in cycle t with a fault, which is recorded if it is the cycle's first in (TM, TP) order. */

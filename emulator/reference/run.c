@@ -27,25 +27,18 @@ static bool create_tm(struct trax_ref_tm *tm, uint32_t number, struct trax_machi
   return complete;
 }
 
-static trax_status create(struct trax_run *run, trax_error *error) {
-  struct trax_machine *machine = run->machine;
-  struct trax_ref_chip *chip = run->chip = calloc(1, sizeof *chip);
-  if (!chip)
-    return trax_fail(error, "out of memory");
+bool trax_ref_create(struct trax_ref_chip *chip, struct trax_machine *machine, FILE *output) {
   *chip = (struct trax_ref_chip){
       .machine = machine, .tms = machine->config.chip.tms, .config = &machine->config, .stats = &machine->stats.memory};
   chip->tm = calloc(chip->tms, sizeof *chip->tm);
   bool complete = chip->tm && trax_ref_controller_create(&chip->controller, &machine->config, chip->stats) &&
                   trax_ref_l2_create(&chip->l2, &machine->config);
   for (uint32_t i = 0; complete && i < chip->tms; i++)
-    complete = create_tm(&chip->tm[i], i, machine, run->options->output);
-  return complete ? TRAX_OK : trax_fail(error, "out of memory");
+    complete = create_tm(&chip->tm[i], i, machine, output);
+  return complete;
 }
 
-static void destroy(void *context) {
-  struct trax_ref_chip *chip = context;
-  if (!chip)
-    return;
+void trax_ref_destroy(struct trax_ref_chip *chip) {
   for (uint32_t i = 0; chip->tm && i < chip->tms; i++) {
     trax_ref_lines_destroy(&chip->tm[i].dcache);
     for (uint32_t icache = 0; icache < MOST; icache++)
@@ -55,11 +48,9 @@ static void destroy(void *context) {
   trax_ref_l2_destroy(&chip->l2);
   trax_dram_destroy(chip->controller.dram);
   free(chip->tm);
-  free(chip);
 }
 
-/* Whether the run has ended: every thread has ended, no request waits, and the buses are idle. */
-static bool is_over(const struct trax_ref_chip *chip, uint64_t t) {
+bool trax_ref_is_over(const struct trax_ref_chip *chip, uint64_t t) {
   for (uint32_t i = 0; i < chip->tms; i++) {
     for (uint32_t tp = 0; tp < chip->tm[i].tps; tp++)
       if (!chip->tm[i].tp[tp].ended)
@@ -72,6 +63,18 @@ static bool is_over(const struct trax_ref_chip *chip, uint64_t t) {
     if (chip->l2.miss[i].arrival == UNKNOWN)
       return false;
   return trax_ref_buses_idle(chip, t);
+}
+
+static trax_status create(struct trax_run *run, trax_error *error) {
+  struct trax_ref_chip *chip = run->chip = calloc(1, sizeof *chip);
+  return chip && trax_ref_create(chip, run->machine, run->options->output) ? TRAX_OK
+                                                                           : trax_fail(error, "out of memory");
+}
+
+static void destroy(void *chip) {
+  if (chip)
+    trax_ref_destroy(chip);
+  free(chip);
 }
 
 static void cycle(struct trax_ref_chip *chip, uint64_t t) {
@@ -98,7 +101,7 @@ static enum trax_advance advance(void *chip, uint64_t *t, uint64_t until) {
     cycle(chip, (*t)++);
     if (it->machine->fault.kind)
       return TRAX_HAS_FAULTED;
-    if (is_over(chip, *t))
+    if (trax_ref_is_over(chip, *t))
       return TRAX_HAS_ENDED;
   }
   return TRAX_GOES_ON;

@@ -94,11 +94,11 @@ struct trax_energy trax_energy_of(const struct trax_stats *stats, const struct t
   energy.local_memory = (double)(count->local_loads + count->local_stores) * local_nj;
 
   /* An arriving line is written word by word into an instruction cache, and by one access into a data cache. */
-  const double fetches = (double)(count->icache_hits + count->icache_misses + count->icache_merged);
+  const double fetches = (double)trax_fetches(count);
   energy.icache = (fetches + (double)count->icache_misses * config->icache.line_bytes / 4) * of_icache(config);
   const uint32_t banks = (config->chip.tps_per_tm + config->dcache.tps_per_bank - 1) / config->dcache.tps_per_bank;
-  const double accesses = (double)(count->dcache_hits + 2 * count->dcache_misses + count->dcache_merged +
-                                   count->store_hits + count->store_misses);
+  const double accesses = (double)(count->dcache_hits + 2 * count->dcache_misses + count->dcache_merged -
+                                   count->broadcast_loads + count->store_hits + count->store_misses);
   energy.dcache = accesses * trax_energy_of_cache(config->dcache.bytes, banks);
 
   if (config->l2.bytes) {

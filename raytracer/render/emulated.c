@@ -203,7 +203,7 @@ static void print_note(const char *text) {
 
 /* The cycles of a program that records are those of no other: none are printed. */
 static const char *engine_of(const struct options *options) {
-  return options->layers ? "functional" : options->engine == ENGINE_REFERENCE ? "reference" : "fast";
+  return options->layers ? "functional" : options->engine == ENGINE_REFERENCE ? "reference" : NULL; /* the machine's */
 }
 
 /* Runs the loaded program. *doubt: about a prediction; NULL: none. */

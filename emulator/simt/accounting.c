@@ -1,0 +1,100 @@
+/* docs/simt.md, "Accounting", and step 5 of "A cycle". */
+#include "simt/simt.h"
+
+uint64_t trax_simt_arbitrate(trax_ref_pointer *pointer, uint64_t asks, uint32_t first, uint32_t n) {
+  if (!asks)
+    return 0;
+  const uint64_t before = trax_simt_bit(first + *pointer) - 1;
+  const uint32_t winner = trax_simt_first(asks & ~before ? asks & ~before : asks);
+  *pointer = (winner - first + 1) % n;
+  return trax_simt_bit(winner);
+}
+
+bool trax_simt_is_charged(struct trax_simt_warp *warp, struct trax_ref_tp *lane) {
+  if (!lane->charged)
+    return false;
+  lane->charged = false; /* for the next cycle */
+  warp->active &= ~trax_simt_bit(lane->number);
+  warp->uncharged &= ~trax_simt_bit(lane->number);
+  return true;
+}
+
+void trax_simt_charge(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint64_t set, uint64_t t,
+                      trax_cause cause) {
+  struct trax_tp_stats *stats = &tm->ref->machine->tp_stats[tm->ref->number * tm->ref->tps];
+  const bool is_observed = tm->ref->machine->observer;
+  set &= warp->uncharged;
+  warp->active &= ~set;
+  warp->uncharged &= ~set;
+  while (set) {
+    const uint32_t i = trax_simt_take(&set);
+    stats[i].cycles[cause]++;
+    if (is_observed)
+      trax_ref_notify_charge(tm->ref, &tm->ref->tp[i], t, cause);
+  }
+}
+
+void trax_simt_charge_bubbles(struct trax_simt_tm *tm, uint64_t t) {
+  for (uint32_t i = 0; i < tm->warps; i++) {
+    struct trax_simt_warp *warp = &tm->warp[i];
+    warp->uncharged = warp->group;
+    if (!tm->ref->config->tp.branch_bubble_cycles)
+      continue;
+    uint64_t in_bubble = 0;
+    for (uint64_t set = warp->group; set;) {
+      const uint32_t lane = trax_simt_take(&set);
+      if (t < tm->ref->tp[lane].bubble_ends)
+        in_bubble |= trax_simt_bit(lane);
+    }
+    trax_simt_charge(tm, warp, in_bubble, t, TRAX_CAUSE_BRANCH);
+  }
+}
+
+static void charge_cycles(const struct trax_simt_tm *tm, uint32_t lane, trax_cause cause, uint64_t since,
+                          uint64_t cycles) {
+  struct trax_machine *machine = tm->ref->machine;
+  machine->tp_stats[tm->ref->number * tm->ref->tps + lane].cycles[cause] += cycles;
+  if (cycles && machine->observer && machine->observer->charge)
+    machine->observer->charge(machine->observer->context, tm->ref->number, lane, cause, since, cycles);
+}
+
+void trax_simt_catch_up(struct trax_simt_tm *tm, uint32_t lane, uint64_t t) {
+  if (tm->lane[lane].charged == t)
+    return;
+  const struct trax_ref_tp *tp = &tm->ref->tp[lane];
+  const uint64_t since = tm->lane[lane].charged, ends = tp->ended ? 0 : tp->bubble_ends;
+  const uint64_t bubble = ends <= since ? since : ends < t ? ends : t;
+  charge_cycles(tm, lane, TRAX_CAUSE_BRANCH, since, bubble - since);
+  charge_cycles(tm, lane, tp->ended ? TRAX_CAUSE_HALTED : TRAX_CAUSE_DIVERGENCE, bubble, t - bubble);
+  tm->lane[lane].charged = t;
+}
+
+/* Issues the instruction on the lanes of the warp that were granted all they asked for. */
+static void issue(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint64_t t) {
+  for (uint64_t set = warp->active; set;) {
+    struct trax_ref_tp *lane = &tm->ref->tp[trax_simt_take(&set)];
+    const uint64_t bit = trax_simt_bit(lane->number);
+    trax_ref_issue_of(tm->ref, lane, t);
+    trax_simt_is_charged(warp, lane);
+    if (!lane->holds) {
+      warp->left &= ~bit;
+      tm->ref->stats->broadcast_loads += (tm->broadcast & bit) != 0;
+    }
+    if (lane->ended)
+      warp->running &= ~bit;
+  }
+  warp->active = 0;
+}
+
+void trax_simt_issue(struct trax_simt_tm *tm, uint64_t t) {
+  for (uint32_t i = 0; i < tm->warps; i++) {
+    struct trax_simt_warp *warp = &tm->warp[i];
+    if (!warp->group)
+      continue;
+    const bool is_held = warp->left;
+    issue(tm, warp, t);
+    trax_simt_charge(tm, warp, warp->group, t, TRAX_CAUSE_LOCKSTEP);
+    if (is_held && !warp->left)
+      trax_simt_dissolve(tm, warp, t);
+  }
+}

@@ -1,0 +1,114 @@
+/* docs/simt.md, "A cycle", steps 3 and 4: what lanes ask for one by one; and "Data cache". */
+#include "simt/simt.h"
+
+/* --- shared units --- */
+
+/* The units of a group of TPs accept lanes of the set. Returns the winners. */
+static uint64_t grant_group(struct trax_simt_tm *tm, trax_shared unit, const struct trax_shared_kind *kind,
+                            uint32_t number, uint64_t asks, uint64_t t) {
+  struct trax_ref_tm *ref = tm->ref;
+  struct trax_ref_group *group = &ref->group[unit][number];
+  const uint32_t first = number * kind->group_size;
+  const uint32_t n = first + kind->group_size < ref->tps ? kind->group_size : ref->tps - first;
+  uint64_t won = 0;
+  for (uint32_t i = 0; i < kind->per_group && asks & ~won; i++) {
+    if (group->free_from[i] > t)
+      continue;
+    const uint64_t winner = trax_simt_arbitrate(&group->pointer, asks & ~won, first, n);
+    group->free_from[i] = t + trax_occupies(trax_simt_speaker(tm, winner)->inst.op, ref->config);
+    won |= winner;
+  }
+  return won;
+}
+
+static uint64_t lanes_of_group(const struct trax_shared_kind *kind, uint32_t number) {
+  const uint64_t lanes = kind->group_size < 64 ? trax_simt_bit(kind->group_size) - 1 : UINT64_MAX;
+  return lanes << number * kind->group_size;
+}
+
+void trax_simt_grant_units(struct trax_simt_tm *tm, uint64_t t) {
+  uint64_t asks[TRAX_SHARED_COUNT + 1] = {0};
+  for (uint32_t i = 0; i < tm->warps; i++)
+    asks[tm->warp[i].unit] |= tm->warp[i].active;
+  for (trax_shared unit = 0; unit < TRAX_SHARED_COUNT; unit++) {
+    if (!asks[unit])
+      continue;
+    const struct trax_shared_kind kind = trax_shared_kind(unit, tm->ref->config);
+    uint64_t lost = 0;
+    for (uint32_t i = 0; i < kind.groups; i++) {
+      const uint64_t asking = asks[unit] & lanes_of_group(&kind, i);
+      if (asking)
+        lost |= asking & ~grant_group(tm, unit, &kind, i, asking, t);
+    }
+    for (uint32_t i = 0; lost && i < tm->warps; i++)
+      trax_simt_charge(tm, &tm->warp[i], lost & tm->warp[i].active, t, kind.refused);
+  }
+}
+
+/* --- banks of the data cache --- */
+
+static bool is_load(const struct trax_ref_tp *lane) {
+  return !trax_ref_is(lane, TRAX_IS_STORE);
+}
+
+/* The lanes of the set that the winner's access serves, itself included. */
+static uint64_t served(const struct trax_simt_tm *tm, uint32_t winner, uint64_t set) {
+  const struct trax_ref_tp *first = &tm->ref->tp[winner];
+  uint64_t lanes = trax_simt_bit(winner);
+  set &= tm->warp[winner / tm->ref->config->simt.width].group;
+  while (is_load(first) && set) {
+    const struct trax_ref_tp *lane = &tm->ref->tp[trax_simt_take(&set)];
+    if (lane->address / 4 == first->address / 4)
+      lanes |= trax_simt_bit(lane->number);
+  }
+  return lanes;
+}
+
+void trax_simt_grant_data_banks(struct trax_simt_tm *tm, uint64_t t) {
+  const uint32_t banks = trax_ref_data_banks(tm->ref);
+  uint64_t asks[MOST] = {0}, asked = 0, lost = 0;
+  for (uint32_t i = 0; i < tm->warps; i++)
+    for (uint64_t set = tm->warp[i].active; set;) {
+      const struct trax_ref_tp *lane = &tm->ref->tp[trax_simt_take(&set)];
+      if (!trax_ref_accesses_memory(lane))
+        break; /* nor does another one of the group */
+      if (!trax_ref_asks_for_bank(lane))
+        continue;
+      asks[lane->address / 4 % banks] |= trax_simt_bit(lane->number);
+      asked |= trax_simt_bit(lane->address / 4 % banks);
+    }
+  tm->broadcast = 0;
+  while (asked) {
+    const uint32_t bank = trax_simt_take(&asked);
+    if (t >= tm->ref->dcache_fills_end[bank]) {
+      const uint64_t winner = trax_simt_arbitrate(&tm->ref->dcache_bank[bank], asks[bank], 0, tm->ref->tps);
+      const uint64_t all = served(tm, trax_simt_first(winner), asks[bank]);
+      tm->broadcast |= all & ~winner;
+      asks[bank] &= ~all;
+    }
+    lost |= asks[bank];
+  }
+  for (uint32_t i = 0; lost && i < tm->warps; i++)
+    trax_simt_charge(tm, &tm->warp[i], lost & tm->warp[i].active, t, TRAX_CAUSE_DCACHE_BANK);
+}
+
+/* --- memory queue --- */
+
+static bool needs_turn(const struct trax_ref_tp *lane) {
+  return trax_ref_accesses_memory(lane) || trax_ref_ends_thread(lane) || lane->inst.op == TRAX_OP_FENCE;
+}
+
+void trax_simt_grant_places(struct trax_simt_tm *tm, uint64_t t) {
+  uint64_t asks = 0;
+  for (uint32_t i = 0; i < tm->warps; i++)
+    if (tm->warp[i].active && needs_turn(trax_simt_speaker(tm, tm->warp[i].active)))
+      asks |= tm->warp[i].active;
+  const uint64_t before = trax_simt_bit(tm->ref->queue_pointer) - 1;
+  uint64_t rounds[] = {asks & ~before, asks & before};
+  for (unsigned i = 0; i < 2; i++)
+    while (rounds[i]) {
+      struct trax_ref_tp *lane = &tm->ref->tp[trax_simt_take(&rounds[i])];
+      trax_ref_take_turn(tm->ref, lane, t);
+      trax_simt_is_charged(&tm->warp[lane->number / tm->ref->config->simt.width], lane);
+    }
+}

@@ -1,0 +1,121 @@
+/* docs/simt.md, "A cycle". */
+#include "simt/run.h"
+
+#include "engine/run.h"
+#include "simt/simt.h"
+
+#include <stdlib.h>
+
+static void create_tm(struct trax_simt_tm *tm, struct trax_ref_tm *ref) {
+  const uint32_t width = ref->config->simt.width;
+  tm->ref = ref;
+  tm->warps = ref->tps / width;
+  for (uint32_t i = 0; i < ref->tps; i++)
+    tm->warp[i / width].running |= trax_simt_bit(i);
+}
+
+static trax_status create(struct trax_run *run, trax_error *error) {
+  struct trax_simt_chip *chip = run->chip = calloc(1, sizeof *chip);
+  if (!chip || !trax_ref_create(&chip->ref, run->machine, run->options->output) ||
+      !(chip->tm = calloc(chip->ref.tms, sizeof *chip->tm)))
+    return trax_fail(error, "out of memory");
+  for (uint32_t i = 0; i < chip->ref.tms; i++)
+    create_tm(&chip->tm[i], &chip->ref.tm[i]);
+  return TRAX_OK;
+}
+
+static void destroy(void *context) {
+  struct trax_simt_chip *chip = context;
+  if (!chip)
+    return;
+  trax_ref_destroy(&chip->ref);
+  free(chip->tm);
+  free(chip);
+}
+
+static void cycle(struct trax_simt_chip *chip, uint64_t t) {
+  for (uint32_t i = 0; i < chip->ref.tms; i++)
+    trax_ref_arrivals(&chip->ref.tm[i], t);
+  for (uint32_t i = 0; i < chip->ref.tms; i++) {
+    struct trax_simt_tm *tm = &chip->tm[i];
+    trax_simt_choose(tm, t);
+    trax_simt_charge_bubbles(tm, t);
+    trax_simt_fetch(tm, t);
+    trax_simt_check_operands(tm, t);
+    trax_simt_grant_units(tm, t);
+    trax_simt_grant_data_banks(tm, t);
+    trax_simt_grant_places(tm, t);
+    trax_simt_issue(tm, t);
+  }
+  trax_ref_l2_cycle(&chip->ref, t);
+  trax_ref_controller_cycle(&chip->ref, t);
+}
+
+static enum trax_advance advance(void *context, uint64_t *t, uint64_t until) {
+  enum { CYCLES = 64 }; /* of one call */
+  struct trax_simt_chip *chip = context;
+  for (unsigned i = 0; i < CYCLES && *t < until; i++) {
+    cycle(chip, (*t)++);
+    chip->t = *t;
+    if (chip->ref.machine->fault.kind)
+      return TRAX_HAS_FAULTED;
+    if (trax_ref_is_over(&chip->ref, *t))
+      return TRAX_HAS_ENDED;
+  }
+  return TRAX_GOES_ON;
+}
+
+/* --- access between cycles --- */
+
+static void settle(void *context, uint64_t t) {
+  struct trax_simt_chip *chip = context;
+  const uint32_t width = chip->ref.config->simt.width;
+  for (uint32_t i = 0; i < chip->ref.tms; i++)
+    for (uint32_t lane = 0; lane < chip->ref.tm->tps; lane++)
+      if (!(chip->tm[i].warp[lane / width].group & trax_simt_bit(lane)))
+        trax_simt_catch_up(&chip->tm[i], lane, t);
+}
+
+static struct trax_thread thread(void *context, uint32_t number) {
+  const struct trax_simt_chip *chip = context;
+  struct trax_ref_tm *tm = &chip->ref.tm[number / chip->ref.tm->tps];
+  struct trax_ref_tp *lane = &tm->tp[number % tm->tps];
+  return (struct trax_thread){lane->reg, lane->local, lane->pc, lane->ended};
+}
+
+/* The warp's lanes discard what they have fetched and not issued, and it chooses again. */
+static void set_pc(void *context, uint32_t number, uint32_t pc) {
+  struct trax_simt_chip *chip = context;
+  const uint32_t tps = chip->ref.tm->tps;
+  struct trax_simt_tm *tm = &chip->tm[number / tps];
+  struct trax_simt_warp *warp = &tm->warp[number % tps / chip->ref.config->simt.width];
+  for (uint64_t set = warp->group; set;) {
+    struct trax_ref_tp *lane = &tm->ref->tp[trax_simt_take(&set)];
+    lane->holds = lane->awaits_line = false;
+    tm->lane[lane->number].charged = chip->t;
+  }
+  warp->group = warp->left = 0;
+  warp->is_checked = warp->has_operands = false;
+  tm->ref->tp[number % tps].pc = pc;
+}
+
+static uint32_t queued(const void *context, uint32_t tm, uint64_t t) {
+  const struct trax_simt_chip *chip = context;
+  (void)t;
+  return chip->ref.tm[tm].places;
+}
+
+const struct trax_engine trax_simt_engine = {
+    .name = "simt",
+    .meaning = "docs/simt.md as a program: warps of TPs that execute together",
+    .is_timed = true,
+    .is_observed = true,
+    .has_warps = true,
+    .create = create,
+    .destroy = destroy,
+    .advance = advance,
+    .settle = settle,
+    .thread = thread,
+    .set_pc = set_pc,
+    .queued = queued,
+};
