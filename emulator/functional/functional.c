@@ -6,6 +6,7 @@
 
 #include "engine/run.h"
 #include "machine/traps.h"
+#include "translate/translate.h"
 #include "trax/semantics.h"
 
 #include <stdlib.h>
@@ -30,7 +31,7 @@ struct section {
 struct text {
   struct section *sections; /* [count]; their instructions are in one array */
   size_t count;
-  struct instruction *inst;          /* [inst_count] */
+  struct instruction *inst;           /* [inst_count] */
   const struct instruction *not_text; /* the last one, for every pc that is no text */
   size_t inst_count;
 };
@@ -52,7 +53,8 @@ struct chip {
   struct text text;
   struct thread *thread; /* [threads] */
   uint32_t threads, running, next;
-  uint64_t limit; /* instructions of a thread */
+  uint64_t limit;                       /* instructions of a thread */
+  struct trax_translation *translation; /* NULL: all is interpreted */
   /* [tms][inst_count + 1]: the number of executions of each instruction since the latest collect(), as differences:
      that of instruction i is the sum of [0] to [i]. So a sequence of instructions costs two additions. */
   int64_t **deltas;
@@ -144,7 +146,7 @@ static bool execute(struct chip *chip, struct thread *thread) {
     const uint32_t value_ = (VALUE);                                                                                   \
     if ((CODE) == TRAX_TRAP_EXIT)                                                                                      \
       end_thread(chip, thread, (int32_t)value_);                                                                       \
-    else if ((kind = trax_trap(chip->machine, thread->local, stats, chip->output, value_, (int32_t)(CODE))))   \
+    else if ((kind = trax_trap(chip->machine, thread->local, stats, chip->output, value_, (int32_t)(CODE))))           \
       address = value_;                                                                                                \
   } while (0)
 #define FENCE(KIND) ((void)(KIND))
@@ -165,6 +167,23 @@ static bool execute(struct chip *chip, struct thread *thread) {
 
 /* --- slices --- */
 
+/* Executes instructions as run_slice does; what is translated, as such. */
+static enum stop run_translated(struct chip *chip, struct thread *thread, uint64_t end) {
+  const size_t index = (size_t)(inst_at(&chip->text, thread->pc) - chip->text.inst);
+  if (trax_translation_has(chip->translation, index)) {
+    struct trax_translated_thread it = {thread->reg, thread->local, thread->tm, thread->pc,
+                                        (int64_t)(end - thread->executed)};
+    const enum trax_translated_end ended = trax_translation_run(chip->translation, index, &it);
+    thread->executed = end - (uint64_t)it.left;
+    thread->pc = it.pc;
+    if (ended == TRAX_TRANSLATED_JUMPED)
+      return STOP_SLICE;
+    if (inst_at(&chip->text, thread->pc)->operation == chip->text.not_text->operation)
+      return STOP_SLOW;
+  }
+  return run_slice(chip, thread, thread->executed + 1, NULL);
+}
+
 static enum trax_advance advance(void *context, uint64_t *t, uint64_t until) {
   struct chip *chip = context;
   uint64_t instructions = 0;
@@ -174,8 +193,11 @@ static enum trax_advance advance(void *context, uint64_t *t, uint64_t until) {
     struct thread *thread = &chip->thread[chip->next];
     chip->next = chip->next + 1 < chip->threads ? chip->next + 1 : 0;
     const uint64_t before = thread->executed, end = before + SLICE - thread->overrun;
+    if (chip->translation)
+      trax_translation_extend(chip->translation);
     while (thread->executed < end && !thread->ended)
-      if (run_slice(chip, thread, end, NULL) == STOP_SLOW && !execute(chip, thread))
+      if ((chip->translation ? run_translated(chip, thread, end) : run_slice(chip, thread, end, NULL)) == STOP_SLOW &&
+          !execute(chip, thread))
         return TRAX_HAS_FAULTED;
     thread->overrun = thread->executed - end;
     if (thread->executed >= chip->limit)
@@ -191,6 +213,8 @@ static void collect(void *context) {
   struct chip *chip = context;
   for (uint32_t i = 0; i < chip->machine->config.chip.tms; i++) {
     uint64_t *const instructions = chip->machine->tm_stats[i].instructions;
+    if (chip->translation)
+      trax_translation_collect(chip->translation, i, chip->deltas[i]);
     int64_t count = 0;
     for (size_t index = 0; index < chip->text.inst_count; index++) {
       count += chip->deltas[i][index];
@@ -262,6 +286,9 @@ static trax_status create(struct trax_run *run, trax_error *error) {
   chip->threads = chip->running = tms * tps;
   if (predecode(&chip->text, &run->text, error) != TRAX_OK)
     return TRAX_ERROR;
+  if (run->engine != &trax_functional_interpreted_engine)
+    chip->translation = trax_translation_create(&run->text, &run->machine->space, config->special.precision_bits, tms,
+                                                run->engine == &trax_functional_translated_engine);
   chip->thread = calloc(chip->threads, sizeof *chip->thread);
   chip->deltas = calloc(tms, sizeof *chip->deltas);
   bool complete = chip->thread && chip->deltas;
@@ -286,19 +313,17 @@ static void destroy(void *context) {
     free(chip->deltas[i]);
   free(chip->deltas);
   free(chip->thread);
+  trax_translation_destroy(chip->translation);
   free(chip->text.sections);
   free(chip->text.inst);
   free(chip);
 }
 
-const struct trax_engine trax_functional_engine = {
-    .name = "functional",
-    .meaning = "what the program computes, without time",
-    .has_warps = true,
-    .create = create,
-    .destroy = destroy,
-    .advance = advance,
-    .collect = collect,
-    .settle = settle,
-    .thread = thread,
-};
+#define ENGINE(NAME, MEANING)                                                                                          \
+  {                                                                                                                    \
+    .name = NAME, .meaning = MEANING, .has_warps = true, .create = create, .destroy = destroy, .advance = advance,     \
+    .collect = collect, .settle = settle, .thread = thread                                                             \
+  }
+const struct trax_engine trax_functional_engine = ENGINE("functional", "what the program computes, without time");
+const struct trax_engine trax_functional_interpreted_engine = ENGINE("functional-interpreted", "without translation");
+const struct trax_engine trax_functional_translated_engine = ENGINE("functional-translated", "translation at once");

@@ -4,6 +4,8 @@
 
 #include "engine/engine.h"
 
-extern const struct trax_engine trax_functional_engine;
+/* The engine, and two variants for tests: without translation, and with all of it at once. */
+extern const struct trax_engine trax_functional_engine, trax_functional_interpreted_engine,
+    trax_functional_translated_engine;
 
 #endif

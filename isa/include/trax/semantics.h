@@ -22,6 +22,11 @@
 
 #define TRAX_CANONICAL_NAN 0x7FC00000u
 
+/* Subnormal operands: processors of one maker (Intel) take an assist of microcode, some 40 ns, for a multiplication,
+   division, square root or widening of one, so these go other ways below. Additions, comparisons and conversions from and
+   to integers take none there, and no result of the latter is subnormal. A subnormal result of normal operands takes one,
+   too; it is rare. */
+
 static inline float trax_to_float(uint32_t bits) {
   float value;
   memcpy(&value, &bits, sizeof value);
@@ -37,8 +42,13 @@ static inline uint32_t trax_from_float(float value) {
 static inline bool trax_is_nan(uint32_t a) {
   return (a & 0x7FFFFFFFu) > 0x7F800000u;
 }
+/* A NaN is rare. The empty statement keeps compilers from choosing without a branch: each result would wait for that. */
 static inline uint32_t trax_canonical(float value) {
-  return value != value ? TRAX_CANONICAL_NAN : trax_from_float(value);
+  if (__builtin_expect(value != value, 0)) {
+    __asm__ volatile("");
+    return TRAX_CANONICAL_NAN;
+  }
+  return trax_from_float(value);
 }
 
 static inline int32_t trax_signed(uint32_t a) {
@@ -65,8 +75,7 @@ static inline uint32_t trax_fadd(uint32_t a, uint32_t b) {
 static inline uint32_t trax_fsub(uint32_t a, uint32_t b) {
   return trax_canonical(trax_to_float(a) - trax_to_float(b));
 }
-/* The value of a number, infinity or NaN in binary64. A subnormal number or zero is converted from its integer: a
-   conversion from binary32 takes an assist of microcode then, some 40 ns, on the processors of one maker. */
+/* The value of a number, infinity or NaN in binary64. A subnormal number or 0 is converted from its integer. */
 static inline double trax_widen(uint32_t a) {
   if ((a & 0x7F800000u) != 0)
     return (double)trax_to_float(a);
@@ -74,14 +83,27 @@ static inline double trax_widen(uint32_t a) {
   return a >> 31 ? -magnitude : magnitude;
 }
 
-/* A product of a subnormal number goes through binary64, which holds it exactly, so it is rounded once. A binary32
-   multiplication would give the same bits, and take that assist. */
+/* The product of a subnormal number or 0 and any other. If the other factor is large enough, it takes over the power of
+   two. Else the product goes through binary64, which holds it exactly, so it is rounded once. */
+static inline uint32_t trax_fmul_subnormal(uint32_t a, uint32_t b) {
+  if (2 * b - (300u << 23) < 210u << 23) { /* 2^23 <= |b| < infinity */
+    const uint32_t scaled = (b - (149u << 23)) ^ (a & 0x80000000u);
+    return trax_from_float((float)(int32_t)(a & 0x7FFFFFu) * trax_to_float(scaled));
+  }
+  return trax_canonical((float)(trax_widen(a) * trax_widen(b)));
+}
 static inline uint32_t trax_fmul(uint32_t a, uint32_t b) {
-  if (__builtin_expect((a & 0x7F800000u) == 0 || (b & 0x7F800000u) == 0, 0))
-    return trax_canonical((float)(trax_widen(a) * trax_widen(b)));
+  if (__builtin_expect((a & 0x7F800000u) == 0, 0))
+    return trax_fmul_subnormal(a, b);
+  if (__builtin_expect((b & 0x7F800000u) == 0, 0))
+    return trax_fmul_subnormal(b, a);
   return trax_canonical(trax_to_float(a) * trax_to_float(b));
 }
+/* A quotient of a subnormal number or 0 goes through binary64, too. Rounding it twice is exact: it is the middle of two
+   binary32 numbers, or at least 2^-48 of itself away from it. */
 static inline uint32_t trax_fdiv(uint32_t a, uint32_t b) {
+  if (__builtin_expect((a & 0x7F800000u) == 0 || (b & 0x7F800000u) == 0, 0))
+    return trax_canonical((float)(trax_widen(a) / trax_widen(b)));
   return trax_canonical(trax_to_float(a) / trax_to_float(b));
 }
 
@@ -95,25 +117,22 @@ static inline uint32_t trax_fle(uint32_t a, uint32_t b) {
   return trax_to_float(a) <= trax_to_float(b);
 }
 
-/* Total order of the numbers, -0 below +0, as unsigned integers. */
-static inline uint32_t trax_float_key(uint32_t a) {
-  return a >> 31 ? ~a : a | 0x80000000u;
-}
-
-/* IEEE 754-2019, 9.6: minimumNumber and maximumNumber. */
+/* IEEE 754-2019, 9.6: minimumNumber and maximumNumber, with -0 below +0. Most operands are numbers that differ. */
 static inline uint32_t trax_fmin(uint32_t a, uint32_t b) {
+  const float x = trax_to_float(a), y = trax_to_float(b);
+  if (__builtin_expect(__builtin_islessgreater(x, y), 1))
+    return trax_from_float(x < y ? x : y);
   if (trax_is_nan(a))
     return trax_is_nan(b) ? TRAX_CANONICAL_NAN : b;
-  if (trax_is_nan(b))
-    return a;
-  return trax_float_key(a) < trax_float_key(b) ? a : b;
+  return trax_is_nan(b) ? a : a | b;
 }
 static inline uint32_t trax_fmax(uint32_t a, uint32_t b) {
+  const float x = trax_to_float(a), y = trax_to_float(b);
+  if (__builtin_expect(__builtin_islessgreater(x, y), 1))
+    return trax_from_float(x > y ? x : y);
   if (trax_is_nan(a))
     return trax_is_nan(b) ? TRAX_CANONICAL_NAN : b;
-  if (trax_is_nan(b))
-    return a;
-  return trax_float_key(a) > trax_float_key(b) ? a : b;
+  return trax_is_nan(b) ? a : a & b;
 }
 
 static inline uint32_t trax_fcvt_w_s(uint32_t a) {
@@ -150,7 +169,7 @@ static inline uint32_t trax_frsqrt(uint32_t a) {
     return TRAX_CANONICAL_NAN;
   if ((a & 0x7FFFFFFFu) == 0)
     return a | 0x7F800000u;
-  return trax_from_float((float)(1.0 / sqrt((double)trax_to_float(a))));
+  return trax_from_float((float)(1.0 / sqrt(trax_widen(a))));
 }
 
 /* A result of a unit that keeps only `bits` bits of significand, 1 to 24 (24 = binary32 itself), rounded to nearest
