@@ -216,7 +216,7 @@ done
 run 124 --max-cycles 30000 --watchdog 10000 spin.elf # which counts items
 says "has not ended after 30000 cycles"
 run 3 --watchdog 10000 exit3.elf
-refuse "--watchdog needs the engine fast or reference, not functional" --watchdog 5 --engine functional hello.elf
+refuse "--watchdog needs the engine fast, reference or simt, not functional" --watchdog 5 --engine functional hello.elf
 refuse "--watchdog: '0' is not" --watchdog 0 hello.elf
 
 # --- outputs that cannot be written: said before the run, and nothing is left

@@ -8,7 +8,6 @@ import argparse
 import concurrent.futures
 import os
 import re
-import subprocess
 import sys
 import tempfile
 
@@ -24,10 +23,12 @@ def check(options, scene, folder):
     """What differs, in words; None if nothing does."""
     inputs = os.path.join(folder, scene)
     same_scenes.prepare(options.bin, options.scenes, scene, "ours", options.size, inputs)
-    command = [os.path.join(options.bin, "trax-sim"), *MACHINE, *same_scenes.program_options(inputs), "--dump", "image=picture", "--quiet",
-               os.path.join(inputs, "program.elf")]
+    command = [os.path.join(options.bin, "trax-sim"), *MACHINE, *same_scenes.program_options(inputs),
+               "--dump", "image=picture", "--quiet", os.path.join(inputs, "program.elf")]
     runs = [engines.run(command, engine, inputs, ["picture"], 24 * 3600) for engine in ("reference", "simt")]
-    return engines.difference(*runs) or engines.violation(runs[1]) or (None if runs[1].files and runs[1].status == 0 else "there is no picture")
+    if not runs[1].files or runs[1].status:
+        return f"there is no picture: {runs[1].errors.decode(errors='replace')[:300]}"
+    return engines.difference(*runs) or engines.violation(runs[1])
 
 
 def main():
