@@ -254,8 +254,8 @@ refuse "'exit3.elf' follows hello.elf, whose main has no parameters: it takes no
 refuse "--stats needs FILE" hello.elf --stats
 refuse "--stats: the value is empty" hello.elf --stats=
 refuse "--stats is given twice" --stats a.json --stats b.json hello.elf
-refuse "--engine: 'slow' is not fast, reference or functional" --engine slow hello.elf
-refuse 'is not fast, reference or functional' --engine sampled hello.elf
+refuse "--engine: 'slow' is not fast, reference, functional or simt" --engine slow hello.elf
+refuse 'is not fast, reference, functional or simt' --engine sampled hello.elf
 refuse '--sample has been removed; for estimates use trax-render --sampled' --sample window=100 hello.elf
 refuse '--bench-modes has been removed; run with --engine fast and --engine functional' --bench-modes hello.elf
 refuse "--quiet takes no value" --quiet=yes hello.elf
