@@ -41,9 +41,10 @@ def main():
     options = parser.parse_args()
     scenes = [scene for scene in same_scenes.SCENES if re.search(options.only, scene)]
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        found = list(pool.map(lambda scene: check(options, scene, folder), scenes))
-    for scene, difference in zip(scenes, found):
-        print(f"{scene}: {difference or 'the same'}")
+        found = []
+        for scene, difference in zip(scenes, pool.map(lambda scene: check(options, scene, folder), scenes)):
+            found.append(difference)
+            print(f"{scene}: {difference or 'the same'}", flush=True)
     return any(found) or not found
 
 
