@@ -10,7 +10,7 @@
 
 /* The first engine is the default. After the first four come variants of the first one. */
 static const struct trax_engine *const engines[] = {
-    &trax_fast_engine, &trax_reference_engine, &trax_functional_engine, &trax_simt_engine, &trax_fast_any_engine,
+    &trax_fast_engine,        &trax_reference_engine, &trax_functional_engine, &trax_simt_engine, &trax_fast_any_engine,
 #ifdef TRAX_FAST_HAVE_V3
     &trax_fast_avx2_engine,
 #endif
