@@ -13,8 +13,8 @@ const struct trax_engine *trax_engine_for(const struct trax_config *config);
 /* Error: the engine cannot run the machine. */
 trax_status trax_engine_check(const struct trax_engine *engine, const struct trax_config *config, trax_error *error);
 
-/* Lists the names of the engines for which can() is true, as in "fast, reference, functional or simt", without variants of
-   the fast engine. */
+/* Lists the names of the engines for which can() is true, as in "fast, reference, functional or simt", without variants
+   of the fast engine. */
 void trax_engine_names(bool (*can)(const struct trax_engine *engine), char *names, size_t size);
 
 #endif

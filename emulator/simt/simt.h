@@ -1,5 +1,5 @@
-/* The machine of docs/simt.md: the reference's chip, whose TPs are lanes of warps. Each chapter of that page is a file of
-   this folder. Everything that the page does not describe is the reference's: a lane is a trax_ref_tp, and holds an
+/* The machine of docs/simt.md: the reference's chip, whose TPs are lanes of warps. Each chapter of that page is a file
+   of this folder. Everything that the page does not describe is the reference's: a lane is a trax_ref_tp, and holds an
    instruction from the fetch of its group until it has issued it.
 
    Sets of lanes are masks of the TPs of a TM. A lane outside a group does nothing, and is charged when it is in a group
@@ -10,9 +10,9 @@
 #include "reference/reference.h"
 
 struct trax_simt_lane {
-  int32_t depth;    /* number of calls that it is in */
-  uint32_t waited;  /* what its warp has issued since its last instruction, by cost (Choice) */
-  uint64_t charged; /* the number of cycles for which it is charged, unless it is in a group */
+  int32_t depth;     /* number of calls that it is in */
+  uint32_t waited;   /* what its warp has issued since its last instruction, by cost (Choice) */
+  uint64_t charged;  /* the number of cycles for which it is charged, unless it is in a group */
   uint8_t waits_for; /* the register that refused it in the latest step 2; 0: none */
 };
 

@@ -216,7 +216,7 @@ done
 run 124 --max-cycles 30000 --watchdog 10000 spin.elf # which counts items
 says "has not ended after 30000 cycles"
 run 3 --watchdog 10000 exit3.elf
-refuse "--watchdog needs the engine fast or reference, not functional" --watchdog 5 --engine functional hello.elf
+refuse "--watchdog needs the engine fast, reference or simt, not functional" --watchdog 5 --engine functional hello.elf
 refuse "--watchdog: '0' is not" --watchdog 0 hello.elf
 
 # --- outputs that cannot be written: said before the run, and nothing is left
@@ -254,8 +254,8 @@ refuse "'exit3.elf' follows hello.elf, whose main has no parameters: it takes no
 refuse "--stats needs FILE" hello.elf --stats
 refuse "--stats: the value is empty" hello.elf --stats=
 refuse "--stats is given twice" --stats a.json --stats b.json hello.elf
-refuse "--engine: 'slow' is not fast, reference or functional" --engine slow hello.elf
-refuse 'is not fast, reference or functional' --engine sampled hello.elf
+refuse "--engine: 'slow' is not fast, reference, functional or simt" --engine slow hello.elf
+refuse 'is not fast, reference, functional or simt' --engine sampled hello.elf
 refuse '--sample has been removed; for estimates use trax-render --sampled' --sample window=100 hello.elf
 refuse '--bench-modes has been removed; run with --engine fast and --engine functional' --bench-modes hello.elf
 refuse "--quiet takes no value" --quiet=yes hello.elf

@@ -469,8 +469,8 @@ def main():
     refuse("--item-buffer without --items or --explore", "--item-buffer", "results")
     refuse("no buffer nothing is bound, to which items store", "--item-buffer", "nothing", files=["items"])
     refuse("--resume: a run cannot be explained without its cycles", "--resume", "x", "--trace", "t")
-    refuse("a run is explained by the engine fast or reference, not functional", "--engine", "functional", "--profile",
-           "x")
+    refuse("a run is explained by the engine fast, reference or simt, not functional", "--engine", "functional",
+           "--profile", "x")
     for name in FILES:
         (directory / "full").mkdir(exist_ok=True)
         other = "heat" if name != "heat" else "profile"

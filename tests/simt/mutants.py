@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Do the tests of warps notice a wrong engine? Each mutant is a rule of docs/simt.md changed in one line of emulator/simt. The changed file is compiled
-and linked into the tests, before the library.
+"""Do the tests of warps notice a wrong engine? Each mutant is a rule of docs/simt.md changed in one line of
+emulator/simt. The changed file is compiled and linked into the tests, before the library.
 
     mutants.py --build build [--only EXPRESSION]
 
@@ -17,7 +17,8 @@ import tempfile
 HERE = os.path.dirname(os.path.abspath(__file__))
 EMULATOR = os.path.join(HERE, "..", "..", "emulator")
 SECONDS = 120
-TESTS = [("simt-rules-test", []), ("timing-engines-test", ["--engine", "simt", "--seed", "7001", "--count", "12", "--stop"])]
+TESTS = [("simt-rules-test", []),
+         ("timing-engines-test", ["--engine", "simt", "--seed", "7001", "--count", "12", "--stop"])]
 
 # File below emulator/simt/, what stands there once, what the mutant has instead.
 MUTANTS = [
@@ -34,7 +35,8 @@ MUTANTS = [
     ("fetch.c", "return lane / tm->ref->config->icache.tps_per_cache;", "return lane * 0;"),
     ("fetch.c", "trax_simt_charge(tm, warp, warp->group, t, TRAX_CAUSE_ICACHE_BANK);", ";"),
     ("fetch.c", "trax_simt_charge(tm, warp, warp->group, t, TRAX_CAUSE_MEMORY_QUEUE);", ";"),
-    ("operands.c", "warp->active = warp->has_operands ? warp->left : 0;", "warp->active = warp->left & warp->uncharged;"),
+    ("operands.c", "warp->active = warp->has_operands ? warp->left : 0;",
+     "warp->active = warp->left & warp->uncharged;"),
     ("operands.c", "passes = check(tm, warp, i, t) && passes;", "passes = check(tm, warp, i, t);"),
     ("operands.c", "if (warp->is_checked && !*waits_for)", "if (warp->is_checked)"),
     ("resources.c", "i < kind->per_group && asks & ~won;", "i < 1 && asks & ~won;"),
@@ -44,16 +46,18 @@ MUTANTS = [
     ("resources.c", "if (lane->address / 4 == first->address / 4)", "if (0)"),
     ("resources.c", "{asks & ~before, asks & before};", "{asks, 0};"),
     ("accounting.c", "*pointer = (winner - first + 1) % n;", "*pointer = (winner - first) % n;"),
-    ("accounting.c", "const uint64_t bubble = ends <= since ? since : ends < t ? ends : t;", "const uint64_t bubble = since + 0 * ends;"),
+    ("accounting.c", "const uint64_t bubble = ends <= since ? since : ends < t ? ends : t;",
+     "const uint64_t bubble = since + 0 * ends;"),
     ("accounting.c", "tp->ended ? TRAX_CAUSE_HALTED : TRAX_CAUSE_DIVERGENCE", "TRAX_CAUSE_DIVERGENCE"),
-    ("accounting.c", "trax_simt_charge(tm, warp, warp->group, t, TRAX_CAUSE_LOCKSTEP);", "trax_simt_charge(tm, warp, warp->group, t, TRAX_CAUSE_DIVERGENCE);"),
+    ("accounting.c", "trax_simt_charge(tm, warp, warp->group, t, TRAX_CAUSE_LOCKSTEP);",
+     "trax_simt_charge(tm, warp, warp->group, t, TRAX_CAUSE_DIVERGENCE);"),
     ("accounting.c", "stats->broadcast_loads += (tm->broadcast & bit) != 0;", "stats->broadcast_loads += 0;"),
 ]
 
 
 def last_command(build, target):
-    lines = subprocess.run(["ninja", "-C", build, "-t", "commands", target], check=True, capture_output=True, text=True).stdout.splitlines()
-    return next(line for line in reversed(lines) if target in line)
+    done = subprocess.run(["ninja", "-C", build, "-t", "commands", target], check=True, capture_output=True, text=True)
+    return next(line for line in reversed(done.stdout.splitlines()) if target in line)
 
 
 def build_mutant(build, name, text, folder):
@@ -63,13 +67,15 @@ def build_mutant(build, name, text, folder):
         file.write(text)
     target = f"emulator/CMakeFiles/traxemu.dir/simt/{name}.o"
     words = shlex.split(last_command(build, target))
-    words = [source if word.endswith(f"emulator/simt/{name}") else changed if word == target else word for word in words]
+    words = [source if word.endswith(f"emulator/simt/{name}") else changed if word == target else word
+             for word in words]
     if subprocess.run([*words, "-w"], cwd=build, capture_output=True, check=False).returncode:
         return None
     programs = []
     for test, arguments in TESTS:
         target, program = f"tests/bin/{test}", os.path.join(folder, test)
-        command = last_command(build, target).replace(f"-o {target}", f"-o {shlex.quote(program)} {shlex.quote(changed)}")
+        outputs = f"-o {shlex.quote(program)} {shlex.quote(changed)}"
+        command = last_command(build, target).replace(f"-o {target}", outputs)
         subprocess.run(command, shell=True, cwd=build, check=True, capture_output=True)
         programs.append([program, *arguments])
     return programs

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The threaded programs of tests/c, and those of tests/litmus, on warps: they end, with the output and the exit status that they have without.
+"""The threaded programs of tests/c, and those of tests/litmus, on warps: they end, with the output and the exit status
+that they have without.
 
   programs.py --build build [--widths 8] [--tps 8] [--only REGEX] [--jobs N]
 """
@@ -21,7 +22,7 @@ RUNS = 20  # of a litmus test
 
 
 def c_programs():
-    """(source, the compiler's flags, the simulator's) of the programs that are made for several threads and end well."""
+    """(source, the compiler's flags, the simulator's) of the programs for several threads that end well."""
     found = []
     for name in sorted(os.listdir(C)):
         if not name.endswith((".c", ".cpp")):
@@ -32,7 +33,8 @@ def c_programs():
             words = shlex.split(line)
             options = dict(zip(words[::2], words[1::2]))
             machine = re.sub(r"--max-cycles \d+|--engine \w+", "", options.get("--simflags", ""))
-            if "--fault" not in words and "--clang-only" not in words and re.search(r"--config|chip\.t", machine):
+            runs = "--fault" not in words and "--clang-only" not in words
+            if runs and re.search(r"--config|chip\.t", machine):
                 found.append((os.path.join(C, name), options.get("--cflags", ""), machine))
     return sorted(set(found))
 
@@ -53,8 +55,9 @@ def lanes_of(machine, width):
 
 
 def outcome(options, machine, binary):
-    done = subprocess.run([os.path.join(options.build, "bin", "trax-sim"), "--quiet", *shlex.split(machine), binary], capture_output=True,
-                          timeout=SECONDS, check=False)
+    simulator = os.path.join(options.build, "bin", "trax-sim")
+    done = subprocess.run([simulator, "--quiet", *shlex.split(machine), binary], capture_output=True, timeout=SECONDS,
+                          check=False)
     return done.returncode, done.stdout, done.stderr
 
 
@@ -67,8 +70,8 @@ def check(options, program, directory):
     what = f"{name} {cflags} {machine}"
     with tempfile.NamedTemporaryFile(dir=directory, prefix=name, delete=False) as file:
         binary = file.name
-    compiler = "clang++" if name.endswith(".cpp") else "clang"
-    subprocess.run([os.path.join(options.build, "bin", compiler), "--target=trax", "-O2", "-w", *shlex.split(cflags), source, "-o", binary], check=True)
+    compiler = os.path.join(options.build, "bin", "clang++" if name.endswith(".cpp") else "clang")
+    subprocess.run([compiler, "--target=trax", "-O2", "-w", *shlex.split(cflags), source, "-o", binary], check=True)
     expected = outcome(options, machine, binary)
     widths = sorted({lanes_of(machine, int(width)) for width in options.widths.split(",")} - {1})
     problems = []
@@ -79,8 +82,8 @@ def check(options, program, directory):
             problems.append(f"{what}, width {width}: it has not ended after {SECONDS} s")
             continue
         if found != expected:
-            problems.append(f"{what}, width {width}: exit status {found[0]}, not {expected[0]}; {found[1][-200:]!r}, not {expected[1][-200:]!r} "
-                            f"{found[2].decode(errors='replace').strip()}")
+            problems.append(f"{what}, width {width}: exit status {found[0]}, not {expected[0]}; {found[1][-200:]!r}, "
+                            f"not {expected[1][-200:]!r} {found[2].decode(errors='replace').strip()}")
     return len(widths), problems
 
 
@@ -92,7 +95,8 @@ def main():
     parser.add_argument("--only", default="", help="programs whose names match")
     parser.add_argument("--jobs", type=int, default=1)
     options = parser.parse_args()
-    programs = [program for program in c_programs() + litmus_programs() if re.search(options.only, os.path.basename(program[0]))]
+    programs = [program for program in c_programs() + litmus_programs()
+                if re.search(options.only, os.path.basename(program[0]))]
     runs, problems = 0, []
     with tempfile.TemporaryDirectory() as directory, concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         for count, wrong in pool.map(lambda program: check(options, program, directory), programs):

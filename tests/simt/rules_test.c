@@ -1,7 +1,7 @@
 /* Small programs on warps: cycles, charges and statistics derived by hand from docs/simt.md.
 
-   With memory next to the chip (bench_near) all groups issue their first instruction in cycle 1. In the far one a line is
-   there after 104 cycles. */
+   With memory next to the chip (bench_near) all groups issue their first instruction in cycle 1. In the far one a line
+   is there after 104 cycles. */
 #include "bench.h"
 #include "control/engines.h"
 
@@ -78,8 +78,8 @@ static void nested(void **state) {
   bench_end(&bench);
 }
 
-/* Lane i goes round i + 1 times; those that have left wait behind the loop. In closed form: w (w + 1) of the 2 w w lanes
-   are used within it. */
+/* Lane i goes round i + 1 times; those that have left wait behind the loop. In closed form: w (w + 1) of the 2 w w
+   lanes are used within it. */
 static void loop_of_different_lengths(void **state) {
   (void)state;
   for (uint32_t width = 2; width <= 64; width *= 2) {
@@ -99,8 +99,8 @@ static void loop_of_different_lengths(void **state) {
 static void a_called_function_goes_first(void **state) {
   (void)state;
   const struct trax_config config = near_warps(2, 2);
-  struct bench bench = BENCH(config, U(RDSR, 4, TRAX_SR_TP), B(BEQ, 4, 0, 8), J(1, 12), NOP, HALT, NOP,
-                             I(JALR, 0, 1, 0));
+  struct bench bench =
+      BENCH(config, U(RDSR, 4, TRAX_SR_TP), B(BEQ, 4, 0, 8), J(1, 12), NOP, HALT, NOP, I(JALR, 0, 1, 0));
   ISSUES(&bench, 0, 1, 2, 6, 7);
   ISSUES(&bench, 1, 1, 2, 3, 4, 5, 6, 7);
   bench_end(&bench);
@@ -156,8 +156,8 @@ static void bank_conflict(void **state) {
   (void)state;
   struct trax_config config = near_warps(4, 4);
   config.dcache.tps_per_bank = 1;
-  struct bench bench = BENCH(config, U(LUI, 1, 1), U(RDSR, 2, TRAX_SR_TP), I(SLLI, 2, 2, 4), R(ADD, 1, 1, 2),
-                             I(LW, 3, 1, 0), HALT);
+  struct bench bench =
+      BENCH(config, U(LUI, 1, 1), U(RDSR, 2, TRAX_SR_TP), I(SLLI, 2, 2, 4), R(ADD, 1, 1, 2), I(LW, 3, 1, 0), HALT);
   for (unsigned lane = 0; lane < 4; lane++) {
     ISSUES(&bench, lane, 1, 2, 3, 4, 5 + lane, 9);
     CHARGES(&bench, lane, TRAX_CAUSE_ICACHE_MISS, 1, TRAX_CAUSE_DCACHE_BANK, lane, TRAX_CAUSE_LOCKSTEP, 3 - lane);
@@ -212,8 +212,7 @@ static void the_group_waits_for_the_miss_of_a_lane(void **state) {
 static void the_group_waits_for_the_register_of_a_lane(void **state) {
   (void)state;
   const struct trax_config config = near_warps(2, 2);
-  struct bench bench =
-      BENCH(config, U(RDSR, 1, TRAX_SR_TP), B(BNE, 1, 0, 8), R(FDIV, 3, 0, 0), R(ADD, 4, 3, 3), HALT);
+  struct bench bench = BENCH(config, U(RDSR, 1, TRAX_SR_TP), B(BNE, 1, 0, 8), R(FDIV, 3, 0, 0), R(ADD, 4, 3, 3), HALT);
   ISSUES(&bench, 0, 1, 2, 3, 11, 12);
   ISSUES(&bench, 1, 1, 2, 11, 12);
   CHARGES(&bench, 0, TRAX_CAUSE_ICACHE_MISS, 1, TRAX_CAUSE_DATA_SPECIAL, 7);
@@ -224,8 +223,8 @@ static void the_group_waits_for_the_register_of_a_lane(void **state) {
 static void increments_are_of_lanes(void **state) {
   (void)state;
   const struct trax_config config = near_warps(4, 4);
-  struct bench bench = BENCH(config, U(LUI, 1, 1), I(AINC, 2, 1, 0), I(SLLI, 3, 2, 2), R(ADD, 1, 1, 3), S(SW, 2, 1, 4),
-                             HALT);
+  struct bench bench =
+      BENCH(config, U(LUI, 1, 1), I(AINC, 2, 1, 0), I(SLLI, 3, 2, 2), R(ADD, 1, 1, 3), S(SW, 2, 1, 4), HALT);
   for (unsigned lane = 0; lane < 4; lane++)
     assert_int_equal(bench_word(&bench, DATA + 4 + 4 * lane), lane);
   assert_int_equal(bench_word(&bench, DATA), 4);
@@ -240,9 +239,8 @@ static void a_lane_that_spins_for_another(void **state) {
   (void)state;
   struct trax_config config = near_warps(2, 2);
   config.simt.patience = 16;
-  struct bench bench =
-      BENCH(config, U(LUI, 1, 1), U(RDSR, 2, TRAX_SR_TP), B(BNE, 2, 0, 16), I(LW, 3, 1, 0), B(BEQ, 3, 0, -4), HALT,
-            I(ADDI, 4, 0, 1), S(SW, 4, 1, 0), HALT);
+  struct bench bench = BENCH(config, U(LUI, 1, 1), U(RDSR, 2, TRAX_SR_TP), B(BNE, 2, 0, 16), I(LW, 3, 1, 0),
+                             B(BEQ, 3, 0, -4), HALT, I(ADDI, 4, 0, 1), S(SW, 4, 1, 0), HALT);
   ISSUES(&bench, 1, 1, 2, 3, 20, 37, 41);
   assert_int_equal(bench_charge(&bench, 0, TRAX_CAUSE_DIVERGENCE), 2);
   assert_int_equal(bench_cycles(&bench), 42);
@@ -295,15 +293,15 @@ static void loads_past_the_cache_cost_patience(void **state) {
   (void)state;
   struct trax_config config = near_warps(2, 2);
   config.simt.patience = 64;
-  struct bench bench =
-      BENCH(config, U(LUI, 1, 1), U(RDSR, 2, TRAX_SR_TP), B(BNE, 2, 0, 16), I(LWNT, 3, 1, 0), B(BEQ, 3, 0, -4), HALT,
-            I(ADDI, 4, 0, 1), S(SW, 4, 1, 0), HALT);
+  struct bench bench = BENCH(config, U(LUI, 1, 1), U(RDSR, 2, TRAX_SR_TP), B(BNE, 2, 0, 16), I(LWNT, 3, 1, 0),
+                             B(BEQ, 3, 0, -4), HALT, I(ADDI, 4, 0, 1), S(SW, 4, 1, 0), HALT);
   ISSUES(&bench, 1, 1, 2, 3, 29, 30, 31);
   assert_int_equal(bench_cycles(&bench), 36);
   bench_end(&bench);
 }
 
-/* Lane 1 has stored, and its fence waits for the write: made in 108, complete in 209. Lane 0 has nothing to wait for. */
+/* Lane 1 has stored, and its fence waits for the write: made in 108, complete in 209. Lane 0 has nothing to wait for.
+ */
 static void fence(void **state) {
   (void)state;
   const struct trax_config config = far_warps(2, 2);
@@ -332,8 +330,7 @@ static void exit_of_a_lane(void **state) {
 static void halt_of_some_lanes(void **state) {
   (void)state;
   const struct trax_config config = near_warps(4, 4);
-  struct bench bench =
-      BENCH(config, U(RDSR, 1, TRAX_SR_TP), I(SLTI, 2, 1, 2), B(BNE, 2, 0, 8), HALT, NOP, HALT);
+  struct bench bench = BENCH(config, U(RDSR, 1, TRAX_SR_TP), I(SLTI, 2, 1, 2), B(BNE, 2, 0, 8), HALT, NOP, HALT);
   for (unsigned lane = 0; lane < 4; lane++)
     if (lane < 2) {
       ISSUES(&bench, lane, 1, 2, 3, 5, 6);

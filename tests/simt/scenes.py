@@ -8,7 +8,6 @@ import argparse
 import concurrent.futures
 import os
 import re
-import subprocess
 import sys
 import tempfile
 
@@ -24,10 +23,12 @@ def check(options, scene, folder):
     """What differs, in words; None if nothing does."""
     inputs = os.path.join(folder, scene)
     same_scenes.prepare(options.bin, options.scenes, scene, "ours", options.size, inputs)
-    command = [os.path.join(options.bin, "trax-sim"), *MACHINE, *same_scenes.program_options(inputs), "--dump", "image=picture", "--quiet",
-               os.path.join(inputs, "program.elf")]
+    command = [os.path.join(options.bin, "trax-sim"), *MACHINE, *same_scenes.program_options(inputs),
+               "--dump", "image=picture", "--quiet", os.path.join(inputs, "program.elf")]
     runs = [engines.run(command, engine, inputs, ["picture"], 24 * 3600) for engine in ("reference", "simt")]
-    return engines.difference(*runs) or engines.violation(runs[1]) or (None if runs[1].files and runs[1].status == 0 else "there is no picture")
+    if not runs[1].files or runs[1].status:
+        return f"there is no picture: {runs[1].errors.decode(errors='replace')[:300]}"
+    return engines.difference(*runs) or engines.violation(runs[1])
 
 
 def main():
@@ -40,9 +41,10 @@ def main():
     options = parser.parse_args()
     scenes = [scene for scene in same_scenes.SCENES if re.search(options.only, scene)]
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        found = list(pool.map(lambda scene: check(options, scene, folder), scenes))
-    for scene, difference in zip(scenes, found):
-        print(f"{scene}: {difference or 'the same'}")
+        found = []
+        for scene, difference in zip(scenes, pool.map(lambda scene: check(options, scene, folder), scenes)):
+            found.append(difference)
+            print(f"{scene}: {difference or 'the same'}", flush=True)
     return any(found) or not found
 
 

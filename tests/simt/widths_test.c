@@ -1,5 +1,5 @@
-/* Warps of 2 to 64 lanes against the functional engine: random programs without races, on random machines, have the same
-   results. And every run's charges add up.
+/* Warps of 2 to 64 lanes against the functional engine: random programs without races, on random machines, have the
+   same results. And every run's charges add up.
 
      TRAX_RANDOM_ROUNDS=100 simt-widths-test */
 #include "compare.h"

@@ -23,7 +23,7 @@ MUTANTS = [
     ("reference/operands.c", "n < operands[i].count", "n < operands[i].count && n < 1"),
     ("reference/operands.c", "(operands[i].first + n) % TRAX_NUM_REGISTERS", "(operands[i].first + n) % 16"),
     # --- Units ---
-    ("reference/operands.c", " || trax_lacks_unit(tp->inst.op, tm->config))", ")"),
+    ("reference/operands.c", " || trax_lacks_unit(tp->inst.op, tm->config);", ";"),
     ("reference/units.c", "if (group->free_from[unit] > t)", "if (group->free_from[unit] > t + 1)"),
     ("reference/units.c", "t + trax_occupies(", "t + 1 + trax_occupies("),
     ("reference/units.c", "unit < kind->per_group; unit++", "unit < kind->per_group && unit < 1; unit++"),
@@ -55,7 +55,7 @@ MUTANTS = [
     ("reference/stores.c", "tp->run_end = greatest(tp->run_end, end);", "tp->run_end = greatest(tp->run_begin, end);"),
     ("reference/stores.c", "if (tp->run_begin != tp->run_end && !request_write", "if (!request_write"),
     # --- Memory queue ---
-    ("reference/queue.c", "tm->queue_pointer = (position + 1) % tm->tps;", "tm->queue_pointer = (tm->queue_pointer + 1) % tm->tps;"),
+    ("reference/queue.c", "tm->queue_pointer = (tp->number + 1) % tm->tps;", "tm->queue_pointer = (tm->queue_pointer + 1) % tm->tps;"),
     ("reference/queue.c", "if (tm->places > taken)", "if (tm->places >= taken)"),
     ("reference/queue.c", "if (request.bytes < tm->config->memory.min_transfer_bytes)", "if (0)"),
     ("reference/queue.c", "if (tm->places == tm->config->memory.queue_depth)", "if (tm->places > tm->config->memory.queue_depth - 2)"),
@@ -70,7 +70,7 @@ MUTANTS = [
     ("reference/lines.c", "lines->line[i].present = false;", "lines->line[i].present &= i == 0;"),
     ("reference/data_cache.c", "if (!request->passing) {\n", "{\n"),
     ("reference/data_cache.c", "if (request && request->passing)\n", "if (false)\n"),
-    ("reference/operands.c", "for (unsigned rd = 1; rd < TRAX_NUM_REGISTERS && !tp->charged; rd++)", "for (unsigned rd = TRAX_NUM_REGISTERS - 1; rd > 0 && !tp->charged; rd--)"),
+    ("reference/operands.c", "for (unsigned rd = 1; rd < TRAX_NUM_REGISTERS; rd++)", "for (unsigned rd = TRAX_NUM_REGISTERS - 1; rd > 0; rd--)"),
     ("reference/queue.c", " || trax_ref_fences(tp, TRAX_FENCE_W))\n", ")\n"),
     # --- Memory controller ---
     ("reference/controller.c", "channel->free_from > t * cycle ? channel->free_from : t * cycle", "channel->free_from > t * cycle ? t * cycle : channel->free_from"),

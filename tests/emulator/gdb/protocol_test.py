@@ -597,7 +597,7 @@ class Protocol(unittest.TestCase):
             port = str(taken.getsockname()[1])
             self.assertIn("Address already in use", self.refused("--gdb", port, path("calls")))
         self.assertIn("--gdb: '65536' is not a whole number", self.refused("--gdb", "65536", path("calls")))
-        self.assertIn("--gdb needs the engine fast or reference, not functional",
+        self.assertIn("--gdb needs the engine fast, reference or simt, not functional",
                       self.refused("--gdb", "0", "--engine", "functional", path("calls")))
         self.assertIn("none/x: cannot be written", self.refused("--gdb-symbols", "none/x", path("calls")))
         self.assertIn("not an ELF file", self.refused("--gdb-symbols", os.path.join(work.name, "x"), __file__))
