@@ -93,7 +93,7 @@ refuse '--frames needs -o' --frames 2 --progress-png x.png
 refuse 'nowhere/x.json' --hits nowhere/x.json
 refuse '--error has been removed; --layers' --error x.json
 refuse '--layers needs -o FILE.exr' --layers -o x.png
-refuse '--layers is of a program that records' --layers -o x.exr --stats x.json
+refuse '--layers needs a program that records' --layers -o x.exr --stats x.json
 refuse '--report has been removed; run twice' --report -o x.png
 refuse '--stack has been removed; .*experiments/stack' --stack 4 -o x.png
 
