@@ -20,7 +20,7 @@ enum { MOST_NAMES = 256, MOST_PIECES = 1 << 20, MOST_BYTES = 1 << 24, STOP = 400
 struct header {
   char magic[8];
   uint32_t version, pages;
-  uint64_t cycle, state, compressed, run[2], layouts, calls, complete, body[2];
+  uint64_t cycle, state, compressed, run[2], layouts, calls, body[2];
 };
 
 struct piece {
