@@ -144,6 +144,16 @@ bool trax_is_always_slow(const struct trax_decoded *inst) {
          (template->hot.bytes == 5 && template->hot.hole_count == 1 && template->hot.holes[0].kind == TRAX_HOLE_SLOW);
 }
 
+size_t trax_most_code(const struct trax_decoded *inst) {
+  size_t most = 0;
+  for (unsigned v = 0; v < TRAX_VARIANTS; v++) {
+    const struct trax_template *const template = &trax_templates[inst->op][v];
+    const size_t bytes = (size_t) template->hot.bytes + template->cold.bytes;
+    most = bytes > most ? bytes : most;
+  }
+  return most;
+}
+
 bool trax_goes_on(const struct trax_decoded *inst) {
   return !(trax_op_table[inst->op].flags & TRAX_IS_BRANCH) || trax_templates[inst->op][0].goes_on;
 }

@@ -7,11 +7,12 @@
 #include "translate/translate.h"
 
 enum {
-  TRAX_SEQUENCE = 1024,                     /* most instructions of a sequence */
-  TRAX_SEQUENCE_CODE = TRAX_SEQUENCE * 640, /* most bytes of its code */
-  TRAX_STUBS = 4 * TRAX_SEQUENCE,           /* most of its exits and cold parts */
-  TRAX_EXITS = 1 << 16,                     /* most exits of all sequences */
-  TRAX_CODE = 32 << 20                      /* most bytes of all code */
+  TRAX_SEQUENCE = 1024,         /* most instructions of a sequence */
+  TRAX_SEQUENCE_CODE = 1 << 20, /* most bytes of its code */
+  TRAX_MORE_CODE = 1024,        /* most bytes of an instruction besides its template: moves and exits */
+  TRAX_STUBS = TRAX_MOST_STUBS * (TRAX_SEQUENCE + 1), /* most of its exits and cold parts */
+  TRAX_EXITS = 1 << 16,                               /* most exits of all sequences */
+  TRAX_CODE = 32 << 20                                /* most bytes of all code */
 };
 
 /* The index that `enter` returns: of the next instruction, or ANYWHERE (trax_translated.pc has it); IS_SLOW is added.
@@ -96,6 +97,8 @@ void trax_emit_frame(struct trax_translation *t);
 bool trax_is_always_slow(const struct trax_decoded *inst);
 /* Whether it can lead to the next instruction. */
 bool trax_goes_on(const struct trax_decoded *inst);
+/* Returns the bytes of its largest template. */
+size_t trax_most_code(const struct trax_decoded *inst);
 void trax_emit_template(struct trax_translation *t, const struct trax_template *template, size_t index);
 void trax_emit_cold(struct trax_translation *t, struct trax_stub stub);
 void trax_emit_instruction(struct trax_translation *t, size_t index);

@@ -1,5 +1,7 @@
 #include "translate/internal.h"
 
+#include <assert.h>
+
 /* Whether a relative jump leads to an instruction of its section; *target receives its index. */
 static bool is_plain_jump(const struct trax_translation *t, size_t index, size_t *target) {
   const int32_t imm = t->decoded[index]->imm;
@@ -87,7 +89,7 @@ static void emit_stubs(struct trax_translation *t, size_t begin) {
 
 void trax_translate(struct trax_translation *t, size_t begin) {
   const uint8_t *const entry = t->at;
-  size_t index = begin, target = 0;
+  size_t index = begin, target = 0, bytes = TRAX_MORE_CODE;
   bool goes_on = true;
   t->stub_count = 0;
   t->last = (struct trax_result){0, false};
@@ -100,7 +102,8 @@ void trax_translate(struct trax_translation *t, size_t begin) {
       trax_emit_distance(t, t->entry[index]);
       break;
     }
-    if (index - begin == TRAX_SEQUENCE || trax_is_always_slow(inst) ||
+    bytes += trax_most_code(inst) + TRAX_MORE_CODE;
+    if (index - begin == TRAX_SEQUENCE || bytes > TRAX_SEQUENCE_CODE || trax_is_always_slow(inst) ||
         (is_relative && !is_plain_jump(t, index, &target))) {
       emit_exit(t, begin, index, (uint32_t)index | TRAX_IS_SLOW);
       emit_leave(t);
@@ -114,5 +117,6 @@ void trax_translate(struct trax_translation *t, size_t begin) {
       emit_jump_to(t, begin, index + 1);
   }
   emit_stubs(t, begin);
+  assert(t->at - entry <= TRAX_SEQUENCE_CODE);
   t->entry[begin] = entry;
 }

@@ -45,6 +45,30 @@ static void test_equal(void **state) {
   }
 }
 
+/* The code of these sequences is larger than all that may be translated. */
+static void test_large_sequences(void **state) {
+  enum { LARGE = 4000, ROUNDS = 3 };
+  static uint32_t words[LARGE + 5];
+  (void)state;
+  struct trax_config config = bench_near(1, 2);
+  config.ray.units_per_group = 1;
+  words[0] = I(ADDI, 31, 0, ROUNDS);
+  for (unsigned i = 1; i <= LARGE; i++)
+    words[i] = i % 1000 ? R(FTRI, 20, 2, 8) : J(0, 4); /* a sequence begins behind a jump */
+  words[LARGE + 1] = I(ADDI, 31, 31, -1);
+  words[LARGE + 2] = B(BEQ, 31, 0, 8);
+  words[LARGE + 3] = J(0, -4 * (LARGE + 2));
+  words[LARGE + 4] = HALT;
+  const trax_run_options interpreted = {.engine = "functional-interpreted"},
+                         translated = {.engine = "functional-translated"};
+  struct run a = run_with(&config, words, LARGE + 5, &interpreted),
+             b = run_with(&config, words, LARGE + 5, &translated);
+  assert_int_equal(a.bench.status, TRAX_OK);
+  expect_same(&a, &b);
+  end(&a);
+  end(&b);
+}
+
 struct trax_template *mutable_templates(unsigned op); /* mutable_templates.c */
 
 static bool is_slow(unsigned op) {
@@ -101,6 +125,7 @@ static void test_mutants(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_equal), cmocka_unit_test(test_mutants)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_equal), cmocka_unit_test(test_large_sequences),
+                                     cmocka_unit_test(test_mutants)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
