@@ -1,4 +1,4 @@
-/* trax-templates OBJECT: writes the templates of an object file (templates.c) as tables in C (template.h). It refuses
+/* extract-templates OBJECT: writes the templates of an object file (templates.c) as tables in C (template.h). It refuses
    whatever it does not understand, so a compiler that writes something else fails the build. */
 #define _GNU_SOURCE /* open_memstream */
 #include "translate/template.h"
@@ -16,7 +16,7 @@ static const char prefix[] = ".text.trax_template_", cold_prefix[] = ".text.cold
 static _Noreturn void fail(const char *format, ...) {
   va_list arguments;
   va_start(arguments, format);
-  fputs("trax-templates: error: ", stderr);
+  fputs("extract-templates: error: ", stderr);
   vfprintf(stderr, format, arguments);
   fputc('\n', stderr);
   exit(1);
@@ -236,10 +236,10 @@ int main(int argc, char **argv) {
   char *rows = NULL;
   size_t bytes = 0;
   if (argc != 2)
-    fail("usage: trax-templates OBJECT");
+    fail("usage: extract-templates OBJECT");
   FILE *const row = open_memstream(&rows, &bytes);
   open_object(&object, argv[1]);
-  printf("/* Made by trax-templates from templates.c. */\n#include \"translate/template.h\"\n\n");
+  printf("/* Made by extract-templates from templates.c. */\n#include \"translate/template.h\"\n\n");
   write_pool(&object);
   for (size_t i = 1; i < object.sections && row; i++)
     if (name_behind(&object, i, prefix))

@@ -1,4 +1,4 @@
-/* The templates that trax-templates takes from the object file of templates.c. */
+/* The templates that extract-templates takes from the object file of templates.c. */
 #ifndef TRAX_TRANSLATE_TEMPLATE_H
 #define TRAX_TRANSLATE_TEMPLATE_H
 

@@ -1,4 +1,4 @@
-/* Templates of translated code: what each instruction does, from its semantics, as a function that trax-templates
+/* Templates of translated code: what each instruction does, from its semantics, as a function that extract-templates
    (extract.c) takes out of the object file at build time. A template receives its operands in registers of the host,
    and ends with a jump to a symbol that stands for the place where the translation goes on: translate.c copies the
    template and fills in these places, the immediate and the pc.
