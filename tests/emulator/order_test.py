@@ -134,7 +134,7 @@ def picture(scratch):
 def refused(scratch):
     program = build(scratch, OWN / "neighbours.c")
     result = run(program, 1, 1, "--engine", "functional")
-    check(result.returncode == 1 and "a run is explained by the engine fast or reference" in result.stderr,
+    check(result.returncode == 1 and "a run is explained by the engine fast, reference or simt" in result.stderr,
           "functional", result.stderr)
 
 
