@@ -6,7 +6,9 @@ import os
 import pathlib
 import shutil
 import signal
+import subprocess
 import tempfile
+import time
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
@@ -23,9 +25,13 @@ def end_by_signals():
     atexit.register(shutil.rmtree, scratch, True)
 
     def end(number, _):
-        for child in children():
-            with contextlib.suppress(ProcessLookupError):
-                os.kill(child, signal.SIGTERM)
+        subprocess.Popen = None  # no thread starts another program
+        deadline = time.monotonic() + 10
+        while (running := children()) and time.monotonic() < deadline:  # the threads wait for them
+            for child in running:
+                with contextlib.suppress(ProcessLookupError):
+                    os.kill(child, signal.SIGTERM)
+            time.sleep(0.01)
         shutil.rmtree(scratch, True)
         signal.signal(number, signal.SIG_DFL)
         os.kill(os.getpid(), number)

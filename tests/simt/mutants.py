@@ -16,7 +16,7 @@ import tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 EMULATOR = os.path.join(HERE, "..", "..", "emulator")
-SECONDS = 120
+SECONDS = 15
 TESTS = [("simt-rules-test", []),
          ("timing-engines-test", ["--engine", "simt", "--seed", "7001", "--count", "12", "--stop"])]
 

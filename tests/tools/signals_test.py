@@ -70,7 +70,7 @@ def interrupted(command, scratch, folder, number, pipe):
         errors = process.communicate(timeout=60)[1]
     except subprocess.TimeoutExpired:
         process.kill()
-        errors = "it goes on"
+        errors = "error: it, or a child that has its standard error, goes on"
     for writer in writers:
         os.close(writer)
     what = " ".join(str(word) for word in command).replace(str(scratch), "")
@@ -95,7 +95,7 @@ def test_signals(programs, scratch):
             for program in ("trax-render", "trax-scene", "trax-sim", "trax-compare", "trax-eval"):
                 for which in range(len(waits(program, scratch, ""))):
                     place += 1
-                    pipe = scratch / f"pipe-{place}.json"
+                    pipe = scratch / f"pipe-{place}.{'json' if program == 'trax-eval' else 'obj'}"
                     os.mkfifo(pipe)
                     command = [str(programs / program), *map(str, waits(program, scratch, pipe)[which])]
                     folder = scratch / f"at-{place}"

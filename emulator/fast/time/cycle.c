@@ -263,7 +263,7 @@ static bool load_hits(struct trax_tm *tm, unsigned number, uint64_t t) {
   if (!trax_cache_tags_use(&tm->dcache.tags, trax_line_of(&tm->dcache.tags, address)))
     return false;
   tm->stats->dcache_hits++;
-  tm->single_hits += tm->serial_hits;
+  tm->single_hits += tm->serial_hits || !tm->chip->alone;
   const uint32_t latency = tm->config->dcache.hit_latency_cycles;
   if (latency > 1) {
     const unsigned rd = trax_fast_head_timing(tm, number)->decoded->rd;
