@@ -18,7 +18,7 @@ static _Noreturn void fail(const char *format, ...) {
   va_start(arguments, format);
   fputs("extract-templates: error: ", stderr);
   vfprintf(stderr, format, arguments);
-  fputc('\n', stderr);
+  fputs("\nThe emulator can be built without translation: cmake -DTRAX_TRANSLATE=OFF\n", stderr);
   exit(1);
 }
 
