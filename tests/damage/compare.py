@@ -13,9 +13,10 @@ from runs import CRASHED, run, with_message
 
 
 def keys_of(binaries):
-    """(key, bounds or None for a boolean, is a power of two) of the machine's keys, from --help-config."""
+    """(key, bounds or None for a boolean, is a power of two) of the machine's keys, from --help-config. Those of warps
+    are left out: the engines that are compared have none."""
     text = subprocess.run([binaries / "trax-sim", "--help-config"], capture_output=True, text=True, check=True).stdout
-    for key, rest in re.findall(r"^([a-z0-9_]+\.[a-z0-9_]+) +(.*)$", text, re.MULTILINE):
+    for key, rest in re.findall(r"^(?!simt)([a-z0-9_]+\.[a-z0-9_]+) +(.*)$", text, re.MULTILINE):
         bounds = re.search(r"; (0 or )?(power of two, )?([0-9.]+) to ([0-9.]+)", rest)
         if bounds:
             yield key, (float(bounds[3]), float(bounds[4])), bool(bounds[2])
