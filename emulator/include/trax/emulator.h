@@ -27,6 +27,8 @@
 extern "C" {
 #endif
 
+#pragma GCC visibility push(default) /* of the shared library */
+
 /* --- configuration: trax_config_describe and docs/trax-sim.md list the keys --- */
 typedef struct trax_config trax_config;
 
@@ -217,8 +219,12 @@ const char *trax_stats_cause(unsigned number);
 void trax_stats_print(const trax_machine *machine, FILE *out);
 /* Writes all statistics as JSON. path "-" is standard output; a file appears only when it is complete. */
 trax_status trax_stats_write_json(const trax_machine *machine, const char *path, trax_error *error);
+/* Writes the same to a stream; without what the simulation took of the host unless `host`. */
+trax_status trax_stats_put_json(const trax_machine *machine, bool host, FILE *out, trax_error *error);
 /* Prints name, unit and meaning of every member of the JSON. */
 void trax_stats_describe(FILE *out);
+
+#pragma GCC visibility pop
 
 #ifdef __cplusplus
 }
