@@ -23,10 +23,11 @@ TESTS = {"splits.c": TREES, "reinsert.c": TREES, "texture.c": READERS[:1], "gltf
 # Name, file of raytracer/scene, text, what it becomes.
 MUTANTS = [
     ("splits-of-duplicates", "splits.c", "    if (duplicates->first[i] != i)\n      continue;\n", ""),
-    ("splits-of-lamps", "splits.c", "if (emits(mesh, &mesh->triangles[i]))\n      return false;", ""),
+    ("splits-of-lamps", "splits.c", "if (emits(mesh, &mesh->triangles[i])) {", "if (false) {"),
+    ("splits-of-equals", "splits.c", "2 * of_few >= all", "2 * of_few >= 0"),
     ("splits-never", "splits.c", "#define BOXES_IN_VAIN 2", "#define BOXES_IN_VAIN 1000000"),
     ("splits-always", "splits.c", "#define BOXES_IN_VAIN 2", "#define BOXES_IN_VAIN 0"),
-    ("splits-whole-box", "splits.c", "in_vain -= fabs(", "in_vain -= 0 * fabs("),
+    ("splits-whole-box", "splits.c", "area -= fabs(", "area -= 0 * fabs("),
     ("one-focus", "reinsert.c", "MOST_FOCI = 8", "MOST_FOCI = 1"),
     ("close-foci", "reinsert.c", "FOCUS_STEP = 4", "FOCUS_STEP = 2"),
     ("foci-of-few", "reinsert.c", "LEAST_OF_TRIANGLES = 16", "LEAST_OF_TRIANGLES = 2"),
