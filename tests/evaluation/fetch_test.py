@@ -119,8 +119,9 @@ def test_sources(program, scratch, server):
     stub = scratch / "stub"
     stub.mkdir()
     (stub / "some-mesh-1.0.2.tgz").write_bytes(npm)
-    (stub / "npm").write_text('#!/bin/sh\n[ "$*" = "pack --silent @some/mesh@1.0.2" ] || exit 3\n'
-                              f'cp {stub}/some-mesh-1.0.2.tgz .\n')
+    (stub / "npm").write_text(
+        '#!/bin/sh\ncase "$*" in pack*" @some/mesh@1.0.2") ;; *) echo "npm ERR! code E404" >&2\n'
+        f'echo "npm ERR! 404 Not Found" >&2; exit 3 ;; esac\ncp {stub}/some-mesh-1.0.2.tgz .\n')
     (stub / "npm").chmod(0o755)
     os.environ["PATH"] = f"{stub}:{os.environ['PATH']}"
     # Every wrong source before a right one, each with its reason.
@@ -131,7 +132,7 @@ def test_sources(program, scratch, server):
         ({"url": f"{at}/tree.tar.gz", "member": "a/link.ply"}, "holds no a/link.ply"),
         ({"url": f"{at}/cut.tar.gz", "member": "mesh.ply"}, "damaged"), ({"url": f"{at}/broken.ply.gz"}, "damaged"),
         ({"url": f"{at}/moved.ply", "draco": True}, "no GLB file"), ({"url": f"{at}/digits.obj"}, "--alike"),
-        ({"npm": "mesh@1.0.0", "member": "m.ply"}, "npm ended with status 3"),
+        ({"npm": "mesh@1.0.0", "member": "m.ply"}, "npm ended with status 3: 404 Not Found"),
         (package | {"sha256": "0" * 64}, "another file (SHA-256"), ({"url": "http://127.0.0.1:1/a.ply"}, "refused"),
         ({"tree": "none.ply"}, "No such file"), ({"url": f"{at}/page.ply", "member": "a.ply"}, "damaged"),
     ]
@@ -190,8 +191,10 @@ def test_downloads(program, scratch, server):
         server.ways["/a.ply"] = "whole"
         server.seen.clear()
 
-    def finished(what, first):
+    def finished(what, first, parts):
+        before = server.parts
         said = place.run()
+        check(server.parts - before == parts, f"{what}: {server.parts - before} parts")
         check(place.names() == ["a.ply", "a.ply.source.json"], what, said)
         check((place.folder / "a.ply").read_bytes() == data, what, "other bytes")
         check(server.seen[0][1] == first, f"{what}: the first request was {server.seen}")
@@ -199,21 +202,24 @@ def test_downloads(program, scratch, server):
 
     interrupted(signal.SIGTERM)
     begin = f"bytes={len(data) // 2}-"
-    finished("continued", begin)
+    finished("continued", begin, 1)
     interrupted(signal.SIGKILL)
     server.tag += 1  # another version: the server sends it from the beginning
-    finished("another version", begin)
+    finished("another version", begin, 0)
     interrupted(signal.SIGINT)
     damaged = bytearray(parts()[0].read_bytes())
     damaged[-100:] = bytes(100)
     parts()[0].write_bytes(damaged)
-    finished("a damaged first part", begin)
+    finished("a damaged first part", begin, 1)
     check(len(server.seen) == 2 and server.seen[1][1] is None, f"a damaged first part: {server.seen}")
+    interrupted(signal.SIGTERM)
+    parts()[0].write_bytes(data)
+    finished("killed at its end", f"bytes={len(data)}-", 0)
     # A connection that ends early is continued, an overloaded server asked again; one that always ends early is left.
     for way, ranges in (("short-once", [None, begin]), ("busy-once", [None, None]), ("plain", [None])):
         server.ways["/a.ply"] = way
         server.seen.clear()
-        finished(way, None)
+        finished(way, None, way == "short-once")
         check([one for _, one in server.seen] == ranges, f"{way}: {server.seen}")
     server.ways["/a.ply"], server.ways["/b.ply"] = "short", "whole"
     server.files["/b.ply"] = data
@@ -269,7 +275,7 @@ def test_folder(program, scratch, server):
     for change, message in (
         ({"file": "../a.ply"}, "file: expected"), ({"geometry": "12"}, "geometry: expected 64"),
         ({"low": [1]}, "low: expected"), ({"sources": []}, "sources: expected"), ({"x": 1}, 'unknown key "x"'),
-        ({"sources": [{"url": "ftp://a/b"}]}, "url: expected"), ({"sources": [{"npm": "-g"}]}, "npm: expected"),
+        ({"sources": [{"url": "ftp://a/b"}]}, "url: expected"), ({"sources": [{"npm": "-g@1"}]}, "npm: expected"),
         ({"sources": [{"url": "http://a/b", "npm": "a@1"}]}, "expected one of"), ({"area": "x"}, "are numbers")
     ):
         place.sources(good | change)

@@ -8,9 +8,9 @@ import threading
 class Server:
     """files: contents by path. ways: by path "whole" (the default, parts on request), "plain" (neither parts nor a
     version), "short" (half of it, then the connection ends), "short-once", "busy-once", "stall" (half of it, and the
-    rest after go()). seen: the path of each request, and its range."""
+    rest after go()). seen: the path of each request, and its range. parts: how many were answered by a part."""
     def __init__(self):
-        self.files, self.ways, self.seen, self.tag = {}, {}, [], 1
+        self.files, self.ways, self.seen, self.tag, self.parts = {}, {}, [], 1, 0
         self.gate = threading.Event()
         outer = self
 
@@ -51,7 +51,10 @@ class Server:
         data, tag, begin = self.files[path], f'"{self.tag}"', 0
         if wanted and request.headers.get("If-Range") == tag and way != "plain":
             begin = int(re.fullmatch(r"bytes=(\d+)-", wanted)[1])
+            if begin >= len(data):
+                return request.send_error(416)
             request.send_response(206)
+            self.parts += 1
             request.send_header("Content-Range", f"bytes {begin}-{len(data) - 1}/{len(data)}")
         else:
             request.send_response(200)

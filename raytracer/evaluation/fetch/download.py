@@ -18,6 +18,7 @@ from trax_eval.util import write_json
 from .problems import Failed, Missing
 
 TRIES, TIMEOUT = 3, 30  # of a download; seconds without a byte
+NPM_RETRY = ("--fetch-retries=1", "--fetch-retry-mintimeout=1000")  # it would try for a minute
 LIMIT, CHUNK = 1 << 30, 1 << 16  # bytes
 NETWORK = (OSError, http.client.HTTPException)
 
@@ -94,7 +95,7 @@ def reason(error):
 def is_final(error):
     """Returns whether another try would give the same answer."""
     if isinstance(error, urllib.error.HTTPError):
-        return error.code < 500 and error.code not in (408, 416, 429)
+        return error.code < 500 and error.code not in (408, 429)
     return isinstance(getattr(error, "reason", None), (ConnectionRefusedError, socket.gaierror))
 
 
@@ -125,15 +126,22 @@ def by_http(url, partial, folder, show):
     return path
 
 
+def npm_reason(said):
+    """npm's own reason: the line that has one, or else its first with a text."""
+    lines = [re.sub(r"^npm (ERR!|error)\s*", "", line) for line in said.splitlines()]
+    named = [line.partition("reason: ")[2] for line in lines if "reason: " in line]
+    others = [line for line in lines if line and not re.match("code |errno |syscall ", line)]
+    return "".join(f": {line}" for line in [*named, *others][:1])
+
+
 def by_npm(package, folder):
     """A package of npm, as a file in the folder."""
     npm = shutil.which("npm")
     if not npm:
         raise Failed("npm is not installed: apt-get install npm (Debian)")
-    run = run_tool([npm, "pack", "--silent", package], cwd=folder)
+    run = run_tool([npm, "pack", "--loglevel=error", *NPM_RETRY, package], cwd=folder)
     if run.returncode != 0:
-        lines = [line for line in run.stderr.splitlines() if line.strip()]
-        raise Failed(f"npm ended with status {run.returncode}{f': {lines[-1]}' if lines else ''}")
+        raise Failed(f"npm ended with status {run.returncode}{npm_reason(run.stderr)}")
     path = folder / archive_name(package)
     if not path.is_file():
         raise Failed(f"npm made no {path.name}")

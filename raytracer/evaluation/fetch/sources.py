@@ -25,7 +25,7 @@ class Source:
         self.draco, self.note, self.folder = fields.flag("draco"), fields.text("note", ""), folder
         if self.kind == "url" and not re.match(r"https?://[^/]", self.place):
             fields.fail("url", "expected an address that begins with http:// or https://")
-        if self.kind == "npm" and not re.fullmatch(r"(@[\w.-]+/)?[\w.-]+@[\w.-]+", self.place):
+        if self.kind == "npm" and not re.fullmatch(r"(@\w[\w.-]*/)?\w[\w.-]*@\w[\w.-]*", self.place):
             fields.fail("npm", "expected NAME@VERSION")
 
     def __str__(self):
