@@ -163,6 +163,12 @@ def test_sources(program, scratch, server):
     said = place.run("--alike", "-q", status=1)
     check("no source gave it" in said and "404" in said and "1 of 2 meshes" in said, said)
     check(place.names() == ["b.ply", "b.ply.source.json"] and "not " + HASH[:16] in said, f"{place.names()} {said}")
+    said = place.run("b.ply", "--alike")
+    check("b.ply: is there (geometry" in said, said)
+    check("is left as it is: is not the same mesh" in place.run("b.ply", status=1), "a mesh that is alike")
+    place.gone()
+    place.run("-q", "a.ply", status=1)
+    check(not place.folder.exists(), "an empty folder is left")
 
 
 def test_downloads(program, scratch, server):
@@ -244,7 +250,7 @@ def test_folder(program, scratch, server):
     for what, data in mine.items():
         (place.folder / "a.ply").write_bytes(data)
         said = place.run("a.ply", status=1)
-        check("it is left as it is" in said and (place.folder / "a.ply").read_bytes() == data, what, said)
+        check("is left as it is" in said and (place.folder / "a.ply").read_bytes() == data, what, said)
     (place.folder / "a.ply").unlink()
     (place.folder / "a.ply").symlink_to("nowhere")
     place.run("a.ply", status=1)
@@ -271,6 +277,8 @@ def test_folder(program, scratch, server):
     for words, message in ((["--no-such"], "unrecognized arguments"), (["none"], '"none" is neither a scene'),
                            (["--from", "none"], "--from none: is neither"), (["--hash"], "no mesh was named")):
         check(message in place.run(*words, status=1), words)
+    place.sources(described("f.obj", {"tree": "local/a.ply"}))
+    check("is no OBJ file" in place.run(status=1) and not (place.folder / "f.obj").exists(), "PLY in place of OBJ")
     good = described("a.ply", {"url": "http://nowhere.invalid/a"})
     for change, message in (
         ({"file": "../a.ply"}, "file: expected"), ({"geometry": "12"}, "geometry: expected 64"),

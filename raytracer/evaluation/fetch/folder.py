@@ -31,7 +31,7 @@ def lock(path):
 @contextlib.contextmanager
 def work_folder(folder):
     """Two folders, for downloads, which the next call continues, and for other files, which end with this call."""
-    path = folder / WORK
+    path, created = folder / WORK, not folder.exists()
     descriptor = lock(path)
     downloads, scratch = path / "downloads", path / "scratch"
     shutil.rmtree(scratch, ignore_errors=True)  # of a process that was killed
@@ -44,6 +44,8 @@ def work_folder(folder):
         with contextlib.suppress(OSError):  # unless there is a download to continue
             downloads.rmdir()
             path.rmdir()
+            if created:  # and nothing has come into it
+                folder.rmdir()
         os.close(descriptor)
 
 

@@ -59,13 +59,24 @@ class Fetcher:
 
     def check_present(self, path, mesh):
         try:
-            found = geometry_hash(import_triangles(self.tools, [path], self.scratch))
+            _, other = self.judge([path], mesh, self.scratch)
         except Failed as failed:
-            raise Problem(f"{path}: is there, and cannot be read: {failed}; it is left as it is") from failed
-        if found != mesh.geometry:
-            raise Problem(f"{path}: is there, and is another mesh (geometry {found[:16]}..., not "
-                          f"{mesh.geometry[:16]}...); it is left as it is")
-        return "is there"
+            raise Problem(f"{path}: is there, and is left as it is: {failed}") from failed
+        return f"is there{other}"
+
+    def judge(self, files, mesh, scratch):
+        """The hash that was found, and how it differs, if that is allowed."""
+        triangles = import_triangles(self.tools, files, scratch)
+        found = geometry_hash(triangles)
+        if found == mesh.geometry:
+            return found, ""
+        differ = differences(measures(triangles), mesh.measures)
+        if differ:
+            raise Failed(f"is another mesh: {', '.join(differ)}")
+        other = f"geometry {found[:16]}..., not {mesh.geometry[:16]}..., but number, bounds and area are the same"
+        if not self.alike:
+            raise Failed(f"is not the same mesh: {other}; --alike takes it")
+        return found, f" ({other})"
 
     def take_from(self, place, source, mesh, scratch):
         """Tries one place. What is wrong with a download that was continued may be its first part: then it is made
@@ -86,19 +97,11 @@ class Fetcher:
             if found != source.sha256:
                 raise Failed(f"{archive.name} is another file (SHA-256 {found[:16]}..., not {source.sha256[:16]}...)")
         files = self.files_of(archive, source, scratch)
-        found = geometry_hash(triangles := import_triangles(self.tools, files, scratch))
-        other = ""
-        if found != mesh.geometry:
-            differ = differences(measures(triangles), mesh.measures)
-            if differ:
-                raise Failed(f"is another mesh: {', '.join(differ)}")
-            other = f"geometry {found[:16]}..., not {mesh.geometry[:16]}..., but number, bounds and area are the same"
-            if not self.alike:
-                raise Failed(f"is not the same mesh: {other}; --alike takes it")
+        found, other = self.judge(files, mesh, scratch)
         self.install(files, mesh, scratch)
         if not source or source.kind != "tree":
             self.record(self.called(place, source), mesh, found)
-        return f"from {self.called(place, source)}{f' ({other})' if other else ''}"
+        return f"from {self.called(place, source)}{other}"
 
     def obtain(self, place, source, mesh, scratch, partial):
         """The file of the place, in the folder scratch."""
@@ -131,6 +134,8 @@ class Fetcher:
         without area."""
         path = files[0]
         if len(files) > 1 or path.suffix != pathlib.Path(mesh.file).suffix:
+            if not mesh.file.endswith(".ply"):
+                raise Failed(f"is no {mesh.file[-3:].upper()} file")
             path = scratch / "converted.ply"
             path.write_bytes(ply_of(import_triangles(self.tools, files, scratch, True)))
         os.chmod(path, 0o666 & ~umask())
