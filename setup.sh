@@ -30,6 +30,7 @@ packages=(
   libembree-dev libpng-dev libjpeg-dev libtinyexr-dev liblzma-dev zlib1g-dev libgmp-dev  # ray tracer's host side
   newlib-source                                                           # the mathematical functions of binary64
   glmark2-data                                                            # the demo's bunny
+  draco                                                                   # trax-eval fetch-scenes: Crytek Sponza
 )
 test_packages=(
   make git llvm-19 llvm-19-tools clang-19                                 # the tutorial applies a patch with git
