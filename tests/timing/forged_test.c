@@ -31,7 +31,7 @@ enum {
 struct header {
   char magic[8];
   uint32_t version, pages;
-  uint64_t cycle, state, compressed, run[2], layouts, calls, body[2];
+  uint64_t cycle, state, compressed, run[2], layouts, calls, complete, body[2];
 };
 
 struct piece {
