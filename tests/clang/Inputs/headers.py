@@ -67,6 +67,9 @@ HEADERS = {
     "wctype.h": "iswalnum iswalpha iswblank iswcntrl iswdigit iswgraph iswlower iswprint iswpunct iswspace iswupper "
                 "iswxdigit iswctype "
     "wctype towlower towupper towctrans wctrans WEOF", "trax.h": "trax_thread", }
+# Names that programs use for themselves after these headers.
+FREE = {header: "time clock difftime gmtime strftime" for header in
+        "sys/time.h sys/times.h utime.h unistd.h sys/types.h".split()}
 # What is not here; docs/porting.md says so.
 WITHOUT = {
     "threads.h": "cnd_broadcast cnd_destroy cnd_init cnd_signal cnd_timedwait cnd_wait mtx_timedlock thrd_detach "
@@ -147,6 +150,11 @@ def main():
         if wrong:
             failed = True
             print(f"<{header}> declares {wrong}: not in WITHOUT, and in docs/porting.md", file=sys.stderr)
+    for header, names in FREE.items():
+        wrong = [name for name in names.split() if declares(clang, header, name)]
+        if wrong:
+            failed = True
+            print(f"<{header}> declares {wrong}, which are names of programs", file=sys.stderr)
     for header, names in HEADERS.items():
         variants = [("c", "-std=c17"), ("c", "-std=gnu2x")] + ([] if header in NOT_IN_CXX else [("cpp", "-std=c++17")])
         for ending, standard in variants:
