@@ -58,6 +58,6 @@ const void *const *trax_fast_operations(void) {
 }
 
 unsigned trax_fast_burst(struct trax_chip *chip, struct trax_tm *tm, unsigned number, unsigned limit) {
-  return limit == TRAX_BURST ? burst_whole(chip, tm, number, limit, NULL)
-                             : burst_exactly(chip, tm, number, limit, NULL);
+  return limit == TRAX_BURST && !tm->tp[number].atomics ? burst_whole(chip, tm, number, limit, NULL)
+                                                        : burst_exactly(chip, tm, number, limit, NULL);
 }

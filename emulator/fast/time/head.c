@@ -53,13 +53,10 @@ void trax_fast_refill(struct trax_tm *tm, unsigned number) {
   const uint64_t bit = (uint64_t)1 << number;
   struct trax_tp *tp = &tm->tp[number];
   drop_arrived(tp);
-  unsigned count = 0;
-  if (!tp->atomics) { /* else it might read or overwrite a register that an increment will write */
-    tp->begin = tp->resume;
-    tp->alone = tm->chip->alone;
-    memcpy(tp->begin_reg, tp->reg, sizeof tp->begin_reg);
-    count = trax_fast_burst(tm->chip, tm, number, tm->chip->burst);
-  }
+  tp->begin = tp->resume;
+  tp->alone = tm->chip->alone;
+  memcpy(tp->begin_reg, tp->reg, sizeof tp->begin_reg);
+  const unsigned count = trax_fast_burst(tm->chip, tm, number, tm->chip->burst);
   if (count) {
     tm->executes_at_issue &= ~bit;
     tm->uncertain = (tm->uncertain & ~bit) | (all_resident(tm, number, count) ? 0 : bit);
