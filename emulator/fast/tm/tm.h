@@ -60,8 +60,7 @@ struct trax_tm {
      the sum of [0] to [i]. So a segment costs two additions. */
   int64_t *count_deltas; /* [inst_count + 1] */
   struct trax_fast_heads heads;
-  bool wide;                                     /* more than 32 TPs */
-  const uint32_t *loads_of[TRAX_MAX_TPS_PER_TM]; /* trax_tp.loads; of TPs that do not exist, TP 0's */
+  bool wide; /* more than 32 TPs */
   /* Masks of registers that may not be usable yet: an issue sets the bit of its destination unless the result is usable
      in the next cycle, and a check that finds the register usable clears it. trax_tp.usable is only valid for registers
      whose bit is set. */
