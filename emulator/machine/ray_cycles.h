@@ -22,6 +22,7 @@ struct trax_thread_rays {
 /* A measured part of a sampled run. The weighted sum of all parts is the estimate. */
 struct trax_ray_part {
   double weight;
+  uint64_t rays[TRAX_RAY_KIND_COUNT]; /* counted in it */
   trax_ray_counts counts;
 };
 

@@ -11,14 +11,13 @@ static const char *const kind_names[] = {
 #undef NAME
         [TRAX_NO_RAY] = "none"};
 
-/* rays: by kind; NULL: they were counted for the whole run alone. */
 static void write_rows(FILE *out, const char *part, double weight, trax_ray_counts counts, const uint64_t *rays) {
   for (unsigned kind = 0; kind < TRAX_RAY_ROWS; kind++) {
     uint64_t sum = 0;
     for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
       sum += counts[kind][cause];
     fprintf(out, "%s,%.9g,%s,%" PRIu64 ",%" PRIu64, part, weight, kind_names[kind],
-            rays && kind != TRAX_NO_RAY ? rays[kind] : 0, sum);
+            kind != TRAX_NO_RAY ? rays[kind] : 0, sum);
     for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
       fprintf(out, ",%" PRIu64, counts[kind][cause]);
     fputc('\n', out);
@@ -40,6 +39,7 @@ trax_status trax_ray_cycles_write(const trax_machine *machine, const char *path,
   fputc('\n', output.file);
   write_rows(output.file, "all", 1, sum, &machine->stats.total.rays_primary);
   for (size_t i = 0; i < rays->part_count; i++)
-    write_rows(output.file, i == 0 ? "exact" : "draw", rays->parts[i].weight, rays->parts[i].counts, NULL);
+    write_rows(output.file, i == 0 ? "exact" : "draw", rays->parts[i].weight, rays->parts[i].counts,
+               rays->parts[i].rays);
   return trax_output_commit(&output, error);
 }

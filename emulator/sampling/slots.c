@@ -62,6 +62,8 @@ struct trax_slots {
   double measured_counted; /* cycles of `measured`, weighted alike */
 };
 
+#define WORD_OF(member) (offsetof(struct trax_tm_stats, member) / sizeof(uint64_t))
+
 /* --- counts --- */
 
 static void read_counts(const struct trax_slots *slots, uint64_t *words) {
@@ -95,15 +97,26 @@ static void add_unit_counts(struct trax_slots *slots, double weight, uint64_t t)
   slots->measured_counted += weight * (double)(t - slots->counted);
 }
 
+/* Sets a part to the rays' counts in `now`, less those in `before` if that is not NULL. */
+static void set_ray_part(const struct trax_slots *slots, struct trax_ray_part *part, const uint64_t *now,
+                         const uint64_t *before) {
+  uint64_t *const counts = part->counts[0];
+  memcpy(counts, now + slots->ray_words, sizeof part->counts);
+  for (size_t i = 0; i < RAY_WORDS && before; i++)
+    counts[i] -= before[slots->ray_words + i];
+  memset(part->rays, 0, sizeof part->rays);
+  for (size_t word = WORD_OF(rays_primary); word < slots->tp_words; word += TM_WORDS)
+    for (unsigned kind = 0; kind < TRAX_RAY_KIND_COUNT; kind++)
+      part->rays[kind] += now[word + kind] - (before ? before[word + kind] : 0);
+}
+
 /* Keeps the rays' counts of the unit that has been measured by `draws` draws. */
 static void add_ray_parts(struct trax_slots *slots, size_t draws, double weight) {
   struct trax_ray_cycles *rays = slots->run->machine->ray_cycles;
   for (; rays && draws > 0; draws--) {
     struct trax_ray_part *part = &rays->parts[rays->part_count++];
     part->weight = weight;
-    for (size_t i = 0; i < RAY_WORDS; i++)
-      part->counts[i / TRAX_CAUSE_COUNT][i % TRAX_CAUSE_COUNT] =
-          slots->now[slots->ray_words + i] - slots->before[slots->ray_words + i];
+    set_ray_part(slots, part, slots->now, slots->before);
   }
 }
 
@@ -315,7 +328,7 @@ static void estimate_rays(struct trax_slots *slots, double factor) {
   struct trax_ray_cycles *rays = machine->ray_cycles;
   memset(rays->tms, 0, machine->config.chip.tms * sizeof *rays->tms);
   rays->parts[0].weight = 1;
-  memcpy(rays->parts[0].counts, slots->exact + slots->ray_words, sizeof(trax_ray_counts));
+  set_ray_part(slots, &rays->parts[0], slots->exact, NULL);
   for (size_t i = 1; i < rays->part_count; i++)
     rays->parts[i].weight *= factor;
   for (unsigned kind = 0; kind < TRAX_RAY_ROWS; kind++)
@@ -370,8 +383,6 @@ static void set_total(struct trax_slots *slots, const size_t *offsets, size_t ki
       given = upto;
     }
 }
-
-#define WORD_OF(member) (offsetof(struct trax_tm_stats, member) / sizeof(uint64_t))
 
 /* Sets the rays that are known. Those of a TM are the sum of its kinds, known or not. */
 static void set_rays(struct trax_slots *slots) {
