@@ -204,7 +204,7 @@ static const trax_option rows[] = {
     TRAX_OPTION_GROUP("Statistics"),
     {"stats", .argument = "FILE", OUTPUT(stats), .meaning = "statistics as JSON; - is standard output"},
     {"ray-cycles", .argument = "FILE", OUTPUT(ray_cycles),
-     .meaning = "thread-cycles of the rays of each kind, by cause, as CSV: those of --ray-kinds, at full speed"},
+     .meaning = "thread-cycles of the rays of each kind, as CSV; as fast as without"},
     {"report", .argument = "FILE", OUTPUT(report), .meaning = "statistics as text; - is standard output"},
     {"help-stats", .kind = TRAX_OPTION_SHOW, .show = trax_stats_describe, .meaning = "describe every statistic, and end"},
     TRAX_OPTION_GROUP("Explanations of a run"),

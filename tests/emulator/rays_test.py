@@ -150,8 +150,8 @@ def check_cycles(directory, stats, machine):
         for name in ("cycles", "causes", "memory", "rays_by_kind"):
             equal(same[name], stats[name], "with --ray-cycles", name)
         table = rows(place / "cycles")
-        equal([(row["part"], row["weight"], row["kind"]) for row in table], [("all", "1", kind) for kind in KINDS + ["none"]],
-              "rows of --ray-cycles")
+        equal([(row["part"], row["weight"], row["kind"]) for row in table],
+              [("all", "1", kind) for kind in KINDS + ["none"]], "rows of --ray-cycles")
         for row in table:
             for what in ("rays", "thread_cycles", *stats["causes"]):
                 equal(int(row[what]), int(kinds[row["kind"]][what]), what, "of", row["kind"], threads, "host threads")

@@ -1,5 +1,5 @@
 """How the verdicts on the paper's claims depend on choices that the paper leaves open: the claims, judged anew by the
-runs of each variant of the sweep `verdicts`."""
+runs of each variant of the sweep `verdicts`, and with each other view of the dragon."""
 
 import copy
 
@@ -19,24 +19,21 @@ def _plain(run):
     return run
 
 
-def _choices(results, sweep):
-    """(name, results of this choice alone) for each variant, then for another view of the dragon, where there is
-    one."""
-    runs = results.of_sweep(SWEEP)
-    made = []
-    for variant in sweep.get("variants") or []:
-        some = Results(results.document, [_plain(run) for run in runs if run.variant == variant])
-        made.append((variant, some))
+def _choices(results, program):
+    """(name, results of this choice alone): as the program has it, with another view of the dragon, and as each variant
+    has it."""
+    own = Results(results.document, [run for run in results.runs if run.program == program and not run.variant])
+    made = [("as chosen", own)]
     dragon = results.columns["dragon"]
-    views = [scene for scene, column in results.stands_for.items() if column == "dragon" and scene != dragon]
-    for view in views:
-        first = sweep["variants"][0] if sweep.get("variants") else ""
-        some = Results(results.document, [_plain(run) for run in runs if run.variant == first])
-        if not any(run.scene == view and run.done for run in some.runs):
-            continue
-        some.columns = some.columns | {"dragon": view}
-        some.papers = list(some.columns.values())
-        made.append((f"{first}, {view}", some))
+    for view in [scene for scene, column in results.stands_for.items() if column == "dragon" and scene != dragon]:
+        if any(run.scene == view and run.done for run in own.runs):
+            other = copy.copy(own)
+            other.columns = own.columns | {"dragon": view}
+            other.papers = list(other.columns.values())
+            made.append((view, other))
+    runs = results.of_sweep(SWEEP)
+    for variant in dict.fromkeys(run.variant for run in runs):
+        made.append((variant, Results(results.document, [_plain(run) for run in runs if run.variant == variant])))
     return made
 
 
@@ -57,21 +54,19 @@ def _width(runs):
 
 def table(results, paper):
     """Returns the table of the sweep's program; None if the sweep was not run."""
-    sweep = next((sweep for sweep in results.sweeps if sweep.get("name") == SWEEP), None)
-    choices = _choices(results, sweep) if sweep else []
-    program = next((run.program for _, some in choices for run in some.runs), None)
+    runs = results.of_sweep(SWEEP)
+    program = runs[0].program if runs else None
     if program is None:
         return None
+    choices = _choices(results, program)
     judged = [claims(some, paper, [program]) for _, some in choices]
     rows = []
     for same in zip(*judged):
         verdicts = [claim.verdicts[program] for claim in same]
-        if any(found != NOT_MEASURED for _, found in verdicts):
+        if sum(found != NOT_MEASURED for _, found in verdicts) > 1:  # else no choice says anything about it
             rows.append([words(same[0].title), Cell(same[0].paper), *(_cell(*verdict) for verdict in verdicts)])
-    chips = dict.fromkeys(run.config for _, some in choices for run in some.runs)
-    width = _width([run for _, some in choices for run in some.runs])
-    note = f"{program}, on {', '.join(chips)} alone. " + (
-        f"Rates are estimates; the widest of their intervals is plus and minus {percent(width, digits=1)}." if width else
-        "")
+    width = _width(runs)
+    note = f"{program}; a choice of the machine on {', '.join(dict.fromkeys(run.config for run in runs))} alone."
+    note += f" These rates are estimates, of plus and minus {percent(width, digits=1)} at most." if width else ""
     columns = [("claim", "t"), ("paper", None), *((name, "t") for name, _ in choices)]
     return Table("verdicts-choices", "How the verdicts depend on free choices", columns, rows, note)

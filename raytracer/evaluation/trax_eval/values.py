@@ -143,8 +143,8 @@ def student_95(degrees):
     if degrees < len(few):
         return few[degrees]
     z, n = 1.959964, degrees
-    return z + (z**3 + z) / (4 * n) + (5 * z**5 + 16 * z**3 + 3 * z) / (96 * n**2) + (3 * z**7 + 19 * z**5 + 17 * z**3 -
-                                                                                     15 * z) / (384 * n**3)
+    terms = z, (z**3 + z) / 4, (5 * z**5 + 16 * z**3 + 3 * z) / 96, (3 * z**7 + 19 * z**5 + 17 * z**3 - 15 * z) / 384
+    return sum(term / n**power for power, term in enumerate(terms))
 
 
 def half_width(draws, whole, divisor=None):
