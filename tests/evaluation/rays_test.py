@@ -8,6 +8,7 @@ import math
 import os
 import pathlib
 import random
+import re
 import subprocess
 import sys
 import tempfile
@@ -137,6 +138,13 @@ def sweep():
     rows = [line for line in done.stdout.splitlines() if line.startswith(("| primary", "| shadow"))]
     check(len(rows) == 2 and all(line.count("±") == 2 for line in rows), done.stdout)
     run = json.loads(pathlib.Path("out/results.json").read_text())["runs"][0]
+    dry = subprocess.run([BIN / "trax-eval", "s.json", "-o", "out", "--jobs", "1", "--chip", "1x32,1x48", "--dry-run"],
+                         capture_output=True, text=True)
+    seconds = run["host"]["processor_seconds"]
+    said = re.search(r"^1 of 2 runs are missing\nthey take about ([\d.]+)\u00a0(m?s) of a processor, by the 1 that ",
+                     dry.stdout, re.M)
+    check(said and abs(float(said[1]) / (1000 if said[2] == "ms" else 1) - seconds) <= 0.01 * seconds, dry.stdout,
+          dry.stderr, seconds)
     check(run["mode"] == "quick" and run["values"]["rays.primary.mrps_half"] > 0, "no interval", run["values"])
 
 

@@ -251,7 +251,8 @@ def processor():
 def read_kinds(path):
     """Rows of numbers, but for the kind and the part of the run."""
     columns, rows = read_csv(path)
-    return [{name: value if name in ("kind", "part") else float(value) for name, value in zip(columns, row)} for row in rows]
+    words = ("kind", "part")
+    return [{name: value if name in words else float(value) for name, value in zip(columns, row)} for row in rows]
 
 
 def read_csv(path):

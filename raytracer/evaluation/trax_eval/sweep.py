@@ -258,8 +258,8 @@ def check_programs(reader, used, rays, measured):
     """Refuses programs that cannot do what the sweep asks for."""
     if rays and (unfit := [program for program in used if not program.rays]):
         reader.fail(
-            "programs", "workloads, ray_kinds and ray_cycles need programs with "
-            f'"rays": true, which {unfit[0].file} has not: they take workloads, and tell where rays begin")
+            "programs", f'workloads, ray_kinds and ray_cycles need programs with "rays": true, which {unfit[0].file} '
+            "has not: they take workloads, and tell where rays begin")
     if measured and (unfit := [program for program in used if not program.specialised or program.convert]):
         reader.fail(
             "programs",
