@@ -1,8 +1,8 @@
 /* The run of a machine by one of the engines: beginning, advancing, end, and what is called between cycles. */
 #define _POSIX_C_SOURCE 200809L /* clock_gettime */
+#include "engine/run.h"
 #include "calls/calls.h"
 #include "control/engines.h"
-#include "engine/run.h"
 #include "machine/ray_cycles.h"
 #include "sampling/slots.h"
 

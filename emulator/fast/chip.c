@@ -199,10 +199,11 @@ static uint32_t queued(const void *context, uint32_t tm, uint64_t t) {
 
 #define ENGINE(NAME, MEANING, IS_POSSIBLE)                                                                             \
   {                                                                                                                    \
-    .name = NAME, .meaning = MEANING, .is_possible = IS_POSSIBLE, .is_timed = true, .is_observed = true, .counts_rays = true, \
-    .create = create, .destroy = trax_chip_destroy, .advance = advance, .commit = commit, .collect = collect,          \
-    .settle = settle, .export_state = export_state, .import_state = import_state, .thread = thread, .set_pc = set_pc,  \
-    .progressed = progressed, .queued = queued, .visit = trax_state_visit, .check = trax_state_check                   \
+    .name = NAME, .meaning = MEANING, .is_possible = IS_POSSIBLE, .is_timed = true, .is_observed = true,               \
+    .counts_rays = true, .create = create, .destroy = trax_chip_destroy, .advance = advance, .commit = commit,         \
+    .collect = collect, .settle = settle, .export_state = export_state, .import_state = import_state,                  \
+    .thread = thread, .set_pc = set_pc, .progressed = progressed, .queued = queued, .visit = trax_state_visit,         \
+    .check = trax_state_check                                                                                          \
   }
 
 const struct trax_engine trax_fast_engine = ENGINE("fast", "the default, for what the host has", NULL);

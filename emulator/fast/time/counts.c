@@ -62,8 +62,8 @@ static unsigned issued_of_burst(const struct trax_tm *tm, unsigned tp) {
   return (tm->executes_at_issue | tm->ended) >> tp & 1 ? 0 : tm->heads.at[tp];
 }
 
-/* Sets charges, [TRAX_CAUSE_COUNT], to those of the TP, which is awake, for the cycles that are over. */
-static void read_charges(struct trax_tm *tm, unsigned number, uint64_t *charges) {
+/* Sets charges, [TRAX_CAUSE_COUNT], to those of a TP that is awake or has been settled, for the cycles that are over. */
+static void read_charges(const struct trax_tm *tm, unsigned number, uint64_t *charges) {
   memcpy(charges, tm->tp_stats[number].cycles, sizeof tm->tp_stats[number].cycles);
   charges[TRAX_CAUSE_ISSUED] += tm->tp[number].issued + issued_of_burst(tm, number);
   for (unsigned bit = 0; bit < 64; bit++)
