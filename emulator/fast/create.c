@@ -81,6 +81,10 @@ static trax_status create_tm(struct trax_tm *tm, uint32_t number, struct trax_ch
   tm->stats = &machine->tm_stats[number];
   tm->tp_stats = &machine->tp_stats[(size_t)number * tps];
   tm->exit_statuses = &machine->exit_statuses[(size_t)number * tps];
+  if (machine->ray_cycles) {
+    tm->ray_counts = &machine->ray_cycles->tms[number];
+    tm->rays = &machine->ray_cycles->threads[(size_t)number * tps];
+  }
   tm->tp = create_aligned(tps, sizeof *tm->tp);
   tm->count_deltas = calloc(chip->program.inst_count + 1, sizeof *tm->count_deltas);
   if (!tm->tp || !tm->count_deltas || !create_fetch(tm) || !create_data(tm) || !create_units(tm))

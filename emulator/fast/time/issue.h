@@ -35,6 +35,8 @@ static bool execute(struct trax_tm *tm, unsigned number, uint64_t t) {
   tm->at_issue++;
   tm->count_deltas[index]++;
   tm->count_deltas[index + 1]--;
+  if (tm->ray_counts && inst->op == TRAX_OP_TRAP)
+    trax_fast_count_rays(tm, number, inst->imm, tp->reg[inst->ra]);
   return true;
 }
 

@@ -10,6 +10,7 @@
 #include "fast/tm/tp.h"
 #include "fast/tm/unit.h"
 #include "machine/machine.h"
+#include "machine/ray_cycles.h"
 
 #define TRAX_WHEEL 64 /* slots of the timer wheel, one for each cycle; they are the bits of wheel_occupied */
 
@@ -43,6 +44,8 @@ struct trax_tm {
   struct trax_tm_stats *stats;
   struct trax_tp_stats *tp_stats; /* [tps] */
   int32_t *exit_statuses;         /* [tps] */
+  trax_ray_counts *ray_counts;    /* NULL: the cycles of rays are not counted */
+  struct trax_thread_rays *rays;  /* [tps] */
 
   struct trax_store_buffer *buffer; /* in an epoch; else NULL */
   uint64_t now;                     /* the cycle that is being simulated */

@@ -163,6 +163,7 @@ typedef struct trax_run_options {
   const char *engine;
   unsigned host_threads; /* of the fast engine; results do not depend on their number; 0: trax_host_processors */
   const trax_slot_sampling *slots; /* NULL: everything is simulated */
+  bool ray_cycles;                 /* also counts the thread-cycles of the rays of each kind, with the fast engine */
 } trax_run_options;
 
 /* Runs the program to its end; options may be NULL. Returns TRAX_ERROR without a program, for a second run and for bad
@@ -221,6 +222,10 @@ void trax_stats_print(const trax_machine *machine, FILE *out);
 trax_status trax_stats_write_json(const trax_machine *machine, const char *path, trax_error *error);
 /* Writes the same to a stream; without what the simulation took of the host unless `host`. */
 trax_status trax_stats_put_json(const trax_machine *machine, bool host, FILE *out, trax_error *error);
+/* After a run with ray_cycles: writes the thread-cycles of the rays of each kind by cause, as CSV. After a sampled run
+   these are estimates, and the parts that were simulated follow (docs/explaining.md). A file appears only when it is
+   complete. */
+trax_status trax_ray_cycles_write(const trax_machine *machine, const char *path, trax_error *error);
 /* Prints name, unit and meaning of every member of the JSON. */
 void trax_stats_describe(FILE *out);
 

@@ -13,7 +13,9 @@ from report import docs, make
 from report.paper import Paper
 from report.results import Results
 from report.tables import print_tables
+from report.table import seconds
 from trax_eval import runners
+from trax_eval.estimate import estimate
 from trax_eval.finished import forget_damaged, is_intact
 from trax_eval.interrupts import Interrupted, catch_interrupts, end_by_signal
 from trax_eval.planner import Planner, check_machines, check_names, label
@@ -148,6 +150,8 @@ def evaluate(options, tools, data, command):
             if not is_intact(out, key)
         ]
         print("\n".join([*missing, f"{len(missing)} of {len(labels)} runs are missing"]))
+        if known := estimate(out, plans):
+            print("they take about {} of a processor, by the {} that are there".format(seconds(known[0]), known[1]))
         return 0
     for sweep, keys in plans:
         write_plan(out, sweep, keys, tools)
