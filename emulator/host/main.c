@@ -125,7 +125,7 @@ static trax_status debug(trax_machine *machine, trax_run_options *options, unsig
 static trax_status run(trax_machine *machine, const struct trax_options *options, trax_error *error) {
   trax_progress_line line;
   trax_progress_line_begin(&line, "trax-sim", options->quiet);
-  struct trax_run_progress progress = {.line = &line, .step = "running"};
+  struct trax_run_progress progress = {.line = &line, .task = "running"};
   trax_run_options run_options = {.output = stdout,
                                   .input = stdin,
                                   .errors = stderr,

@@ -42,7 +42,7 @@ struct trax_machine {
 
   /* The outcome; valid after trax_machine_run. */
   trax_status status; /* of the run */
-  bool at_limit;      /* TRAX_STUCK: max_cycles passed; otherwise a watch ended the run */
+  bool at_limit;      /* TRAX_STUCK: max_cycles was reached; otherwise a watch ended the run */
   struct trax_fault fault;
   struct trax_stats stats;
   struct trax_tm_stats *tm_stats; /* [tms] */

@@ -7,7 +7,7 @@
 
 #include "machine/machine.h"
 
-/* The section of the reports that a figure belongs to. */
+/* The part of the reports that a figure belongs to. */
 enum trax_figure_group {
   TRAX_GROUP_RUN,      /* figures computed from counters */
   TRAX_GROUP_COUNTER,  /* counters of each TM */

@@ -62,7 +62,7 @@ bool isFixedRegister(const Arg &Given) {
   return isOneOf(Given, {OPT_ffixed_r, OPT_ffixed_r9, OPT_ffixed_r19});
 }
 
-/// N of -ffixed-rN, or 0: what is reserved for calls cannot be kept free, and r0 is no register to keep.
+/// N of -ffixed-rN. 0 for registers that cannot be kept free: r0, and those that every call uses.
 unsigned fixedRegister(const Arg &Given) {
   if (Given.getOption().matches(OPT_ffixed_r9))
     return 9;

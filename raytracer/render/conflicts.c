@@ -1,4 +1,4 @@
-/* Which of trax-render's options exclude or need each other. */
+/* Checks which of trax-render's options exclude or need each other. */
 #include "options.h"
 
 #include "trax/output.h"

@@ -66,9 +66,9 @@ struct options {
 extern const trax_command render_command;
 
 trax_parsed options_parse(struct options *options, int argc, char **argv, trax_error *error);
-/* Whether the picture is rendered: something is asked for that comes of it, or of the run. */
+/* Whether any option needs the picture, or the run. */
 bool options_rendered(const struct options *options);
-/* Whether they go together. */
+/* Checks that the options can be combined. */
 trax_status options_check(const struct options *options, trax_error *error);
 void options_release(struct options *options);
 

@@ -17,7 +17,7 @@ static void clip(struct polygon *out, const struct polygon *in, int axis, double
   out->count = scene_clip_polygon(out->corner, MOST_CORNERS, in->corner, in->count, axis, sign, plane);
 }
 
-/* Is a triangle within the boxes of its leaves? */
+/* Do the boxes of its leaves cover a triangle? */
 
 enum { MOST_COPIES = 1024, MOST_STEPS = 2048 };
 
@@ -25,7 +25,7 @@ struct cover {
   const struct scene_parts *parts;
   const uint32_t *copies; /* the triangle's numbers in the file, ascending */
   uint32_t count;
-  double slack[3]; /* by which boxes may be short: more than the rounding of all of this, less than that of any ray */
+  double slack[3]; /* by which boxes may be too small: more than the rounding errors here, less than those of any ray */
   unsigned steps;  /* of recursion */
 };
 
@@ -37,7 +37,7 @@ struct subtree {
   const struct subtree *next;
 };
 
-/* The triangles of what a reference leads to. */
+/* Sets the range of triangles below a reference. */
 static void set_range(struct subtree *subtree, const struct scene_parts *parts) {
   const struct trax_scene_section *sections = parts->scene->header->sections;
   const uint32_t count = TRAX_SCENE_REF_COUNT(subtree->ref);
@@ -75,8 +75,9 @@ static bool has_copy(const struct cover *cover, uint32_t first, uint32_t end) {
   return low < cover->count && cover->copies[low] < end;
 }
 
-/* What is outside of the first subtree's box is left to those behind it, what is inside to those below it first. The
-   recursion is bounded by the depth of the tree for each box that is left. */
+/* Whether the boxes of the subtrees cover the polygon. The part outside of the first subtree's box is left to the
+   following ones, the part inside to those below it and then to the following ones. The recursion goes no deeper than
+   the tree for each box that is left. */
 static bool is_covered(struct cover *cover, const struct polygon *polygon, const struct subtree *list) {
   if (polygon->count == 0)
     return true;
@@ -139,7 +140,7 @@ struct copy {
   const struct trax_triangle *triangle;
 };
 
-/* By vertices, then as they stand in the file. */
+/* By vertices, then in the order of the file. */
 static int compare_copies(const void *a, const void *b) {
   const struct copy *left = a, *right = b;
   const int order = memcmp(left->triangle, right->triangle, 9 * sizeof(float));

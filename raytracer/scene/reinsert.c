@@ -1,13 +1,13 @@
-/* A tree made better after it was built: one part of it after the other is taken out, and put where it costs least, by
-   a search of the whole tree. J. Bittner, M. Hapala and V. Havran, "Fast insertion-based optimization of bounding
-   volume hierarchies" (Computer Graphics Forum 32(1), 2013), but that a part is taken as a whole, as in D. Meister and
+/* Optimises a tree after it was built: one subtree after another is removed and reinserted where it costs least, found
+   by a search of the whole tree. J. Bittner, M. Hapala and V. Havran, "Fast insertion-based optimization of bounding
+   volume hierarchies" (Computer Graphics Forum 32(1), 2013), but with subtrees moved as a whole, as in D. Meister and
    J. Bittner, "Parallel reinsertion for bounding volume hierarchy optimization" (Computer Graphics Forum 37(2), 2018).
 
-   The cost of a tree is the sum of what its inner nodes cost, and that is not only the chance that a random line
-   through the scene visits them, which knows nothing of what is small: a clearing in a forest would be made slower for
-   the forest's sake, and whoever stands in it would see only that. There are lines through smaller boxes, too: on the
-   way from the root down to the children with more triangles, each with a quarter of the surface of the one before.
-   Each box counts the same. */
+   The cost of a tree is the sum of the expected visits to its inner nodes. Lines through the whole scene alone would
+   neglect small parts: a clearing in a forest would become slower for the sake of the forest, although a viewer in the
+   clearing sees little else. So expected visits are summed over random lines through several boxes with equal weights:
+   the root's, and smaller ones on the way down to the children with more triangles, each with a quarter of the surface
+   of the one before. */
 #include "internal.h"
 
 #include <stdlib.h>
@@ -15,11 +15,11 @@
 
 enum { MOST_FOCI = 8, FOCUS_STEP = 4, LEAST_OF_TRIANGLES = 16 };
 
-/* Bounds a search in trees whose boxes all overlap. */
+/* Limits a search in trees with many overlapping boxes. */
 enum { MOST_LOOKED_AT = 1000 };
 
 struct place {
-  double least; /* what the part adds to the nodes above, if it is put beside this node, or below it */
+  double least; /* the cost that the part adds to the nodes above, if it is inserted beside or below this node */
   uint32_t node, depth;
 };
 
@@ -157,8 +157,8 @@ static void take_place_of(struct scene_links *links, uint32_t index, uint32_t ol
     links->nodes[parent].child[links->nodes[parent].child[1] == old] = index;
 }
 
-/* Of the part and of a node over both, with what the part adds to the nodes above: beside `node`. least: what it adds
-   to those above `node`. */
+/* The cost of the part if it is inserted beside `node`: of a new node over both, and of the growth of the nodes above.
+   least: the growth of the nodes above `node`. */
 static double cost_beside(const struct search *search, const struct scene_box *part, const struct scene_box *node,
                           double least) {
   const struct scene_box both = join(part, node);
@@ -179,9 +179,9 @@ static double cost_at(const struct search *search, const struct scene_box *part,
   return cost_beside(search, part, &nodes[place].box, least);
 }
 
-/* The node beside which the part, which is not in the tree, costs least: `now` if none is better than this one;
-   SCENE_NO_LINK when out of memory. Branch and bound: below a node it costs at least what it adds to the boxes above,
-   and a node of its own size. */
+/* Finds the node beside which the removed part costs least: `now` if no other is better; SCENE_NO_LINK when out of
+   memory. Branch and bound: below a node, the part costs at least the growth of the boxes above and a node of its own
+   size. */
 static uint32_t find_place(struct search *search, const struct scene_link *part, uint32_t now) {
   const struct scene_links *links = search->links;
   const double own = part->visits;
@@ -209,7 +209,8 @@ static uint32_t find_place(struct search *search, const struct scene_link *part,
   return best;
 }
 
-/* The part goes with its parent, whose other child takes the parent's place. False when out of memory. */
+/* Removes the part with its parent, whose other child takes the parent's place, and reinserts it. False when out of
+   memory. */
 static bool reinsert(struct search *search, uint32_t part) {
   struct scene_links *links = search->links;
   struct scene_link *nodes = links->nodes;
@@ -244,7 +245,7 @@ trax_status scene_reinsert(struct scene_links *links, unsigned passes, const str
   struct search search = {.links = links};
   struct ranked *ranked = malloc(links->count * sizeof *ranked);
   choose_foci(&search);
-  if (search.foci.count == 0) /* all on one line */
+  if (search.foci.count == 0) /* all triangles are on one line */
     passes = 0;
   for (uint32_t i = 0; i < links->count; i++)
     links->nodes[i].visits = visits(&search.foci, &links->nodes[i].box);

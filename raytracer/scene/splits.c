@@ -23,8 +23,8 @@ static bool emits(const struct trax_mesh *mesh, const struct trax_mesh_triangle 
   return emission[0] > 0 || emission[1] > 0 || emission[2] > 0;
 }
 
-/* How many triangles' boxes a random line through the scene enters that it would not enter if each had the size of its
-   triangle as seen along the axes: many, where triangles are large and askew. */
+/* The number of boxes that a random line through the scene enters beyond those that it would enter if each box had the
+   size of its triangle as seen along the axes. It is large if triangles are large and oblique. */
 #define BOXES_IN_VAIN 2
 /* Splits take these away where few triangles cause them, not where all do, as in a rough surface: this share of the
    triangles causes at least half. */

@@ -167,8 +167,8 @@ typedef struct trax_run_options {
 } trax_run_options;
 
 /* Runs the program to its end; options may be NULL. Returns TRAX_ERROR without a program, for a second run and for bad
-   options, TRAX_FAULT after a fault of the program, TRAX_STUCK if max_cycles passed, TRAX_INTERRUPTED if *interrupt
-   became nonzero. */
+   options, TRAX_FAULT after a fault of the program, TRAX_STUCK if max_cycles was reached, TRAX_INTERRUPTED if
+   *interrupt became nonzero. */
 trax_status trax_machine_run(trax_machine *machine, const trax_run_options *options, trax_error *error);
 
 /* --- a run in parts: the same cycles, counts and bytes as in one --- */
