@@ -14,14 +14,10 @@ TRIANGLE = 36  # bytes: nine floats, little endian
 MINUS_ZERO = 0x80000000
 
 
-def import_triangles(tools, meshes, scratch, degenerate=False):
-    """The triangles of mesh files as trax-scene imports them, in their order, TRIANGLE bytes each. degenerate: with
-    those of exactly zero area."""
+def import_triangles(tools, meshes, scratch):
+    """The triangles of mesh files as trax-scene imports them, in their order, TRIANGLE bytes each."""
     path = scratch / "triangles.npy"
-    run = run_tool([
-        tools.path("trax-scene"), "--quiet", "--no-textures", *(["--keep-degenerate"] if degenerate else []),
-        "--write-triangles", path, *meshes
-    ])
+    run = run_tool([tools.path("trax-scene"), "--quiet", "--no-textures", "--write-triangles", path, *meshes])
     if run.returncode != 0:
         said = run.stderr.strip().removeprefix("trax-scene: error: ")
         raise Failed(said.replace(f"{scratch}/", "") or f"trax-scene ended with status {run.returncode}")

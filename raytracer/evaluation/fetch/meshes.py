@@ -130,14 +130,14 @@ class Fetcher:
         return meshes_of(path, scratch) if source and source.draco else [path]
 
     def install(self, files, mesh, scratch):
-        """A file of the kind that is wanted stays as it came. Others become PLY, with every triangle, also those
-        without area."""
+        """A file of the kind that is wanted stays as it came. Others become PLY, with the triangles that have an
+        area."""
         path = files[0]
         if len(files) > 1 or path.suffix != pathlib.Path(mesh.file).suffix:
             if not mesh.file.endswith(".ply"):
                 raise Failed(f"is no {mesh.file[-3:].upper()} file")
             path = scratch / "converted.ply"
-            path.write_bytes(ply_of(import_triangles(self.tools, files, scratch, True)))
+            path.write_bytes(ply_of(import_triangles(self.tools, files, scratch)))
         os.chmod(path, 0o666 & ~umask())
         put(path, self.folder, mesh.file)
 
