@@ -4,6 +4,7 @@ without warnings, twice in a row; what C17 promises of each is declared, and its
 status 1 and the compiler's words if not."""
 
 import os
+import re
 import subprocess
 import sys
 
@@ -114,11 +115,14 @@ def program(header, names, cxx):
     return "\n".join(lines) + "\n"
 
 
-def declares(clang, header, name):
-    done = subprocess.run([*clang, "-fsyntax-only", "-x", "c", "-"],
-                          input=f"#include <{header}>\nvoid *f = (void *){name};", text=True,
-                          stderr=subprocess.DEVNULL, check=False)
-    return done.returncode == 0
+def declared(clang, header, names):
+    """Those of the names that the header declares: no error is in their lines."""
+    lines = [f"void *f{number} = (void *){name};" for number, name in enumerate(names)]
+    text = "\n".join([f"#include <{header}>", '#line 0 "names"', *lines, ""])
+    done = subprocess.run([*clang, "-fsyntax-only", "-ferror-limit=0", "-x", "c", "-"], input=text, text=True,
+                          stderr=subprocess.PIPE, check=False)
+    wrong = {int(number) for number in re.findall(r"^names:(\d+):\d+: error: ", done.stderr, re.MULTILINE)}
+    return [name for number, name in enumerate(names) if number not in wrong]
 
 
 def missing_functions(clang, folder):
@@ -146,8 +150,7 @@ def main():
     print(words, file=sys.stderr)
     failed = bool(words)
     for header, names in WITHOUT.items():
-        wrong = [name for name in names.split() if declares(clang, header, name)]
-        if wrong:
+        if wrong := declared(clang, header, names.split()):
             failed = True
             print(f"<{header}> declares {wrong}: not in WITHOUT, and in docs/porting.md", file=sys.stderr)
     for header, names in FREE.items():

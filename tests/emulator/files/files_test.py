@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Files of programs against the host: random sequences of operations (sequences.py), performed by one program (operations.c) that is
-compiled for the machine and for the host. Results, error numbers and the folders that are left must be equal. A sequence follows from
-its seed. Parts: sequences; rights, by a user who may not write everything; checkpoints, a run in pieces; kills, a run with checkpoints
-that is killed and resumed; killed and limited, where each file is as a whole one of its versions; disturbed, while another process
-changes the folder; the others are fixed cases.
+"""Files of programs against the host: random sequences of operations (sequences.py), performed by one program
+(operations.c) that is compiled for the machine and for the host. Results, error numbers and the folders that are left
+must be equal. A sequence follows from its seed. Parts: sequences; rights, by a user who may not write everything;
+checkpoints, a run in pieces; kills, a run with checkpoints that is killed and resumed; killed and limited, where each
+file is as a whole one of its versions; disturbed, while another process changes the folder; the others are fixed cases.
 
   files_test.py BIN SOURCE [--library PROGRAM] [--count N] [--seed N] [--only PART] [--sim PROGRAM] [--reduce]"""
 
