@@ -154,8 +154,7 @@ def main():
             failed = True
             print(f"<{header}> declares {wrong}: not in WITHOUT, and in docs/porting.md", file=sys.stderr)
     for header, names in FREE.items():
-        wrong = [name for name in names.split() if declares(clang, header, name)]
-        if wrong:
+        if wrong := declared(clang, header, names.split()):
             failed = True
             print(f"<{header}> declares {wrong}, which are names of programs", file=sys.stderr)
     for header, names in HEADERS.items():
