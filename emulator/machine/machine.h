@@ -13,6 +13,7 @@
 #include "machine/transfers.h"
 #include "trax/emulator.h"
 
+struct trax_ray_cycles;
 struct trax_run;
 struct trax_watch;
 
@@ -47,6 +48,7 @@ struct trax_machine {
   struct trax_tm_stats *tm_stats; /* [tms] */
   struct trax_tp_stats *tp_stats; /* [threads], by thread number */
   int32_t *exit_statuses;         /* [threads] */
+  struct trax_ray_cycles *ray_cycles; /* NULL: not counted (machine/ray_cycles.h) */
 
   struct trax_fast_path fast_path; /* statistics of the fast engine itself, not of the simulated machine */
 

@@ -90,7 +90,7 @@ class OutsideRiscv(Riscv):
                  newlib / f"{name}.c", "-o", objects[-1]])
         library = self.work / "outside.a"
         run(["llvm-ar-19", "rcs", library, *objects])
-        return library
+        return [library]
 
 
 class OutsideTrax(Trax):

@@ -103,6 +103,15 @@ int runTool(llvm::SmallVectorImpl<const char *> &Args) {
   return 1;
 }
 
+/// A single compilation runs within this process when a link follows it, too: the driver starts a second process then,
+/// for which the libraries are loaded and relocated again, and that takes longer than to compile a small file.
+void compileInProcess(Driver &TheDriver, Compilation &C) {
+  const auto IsCompilation = [](const Command &Job) { return StringRef(Job.getCreator().getName()) == "clang"; };
+  if (TheDriver.CC1Main && llvm::count_if(C.getJobs(), IsCompilation) == 1)
+    for (Command &Job : C.getJobs())
+      Job.InProcess |= IsCompilation(Job);
+}
+
 /// Runs the jobs. A compiler that crashed leaves what is needed to reproduce it, as clang does.
 int execute(Driver &TheDriver, Compilation &C, bool &Crashed) {
   for (const char *Temporary : C.getTempFiles()) // the driver removes them itself only if it ends by itself
@@ -112,6 +121,7 @@ int execute(Driver &TheDriver, Compilation &C, bool &Crashed) {
   if (trax::isTraxTriple(C.getDefaultToolChain().getTriple())) // no job leaves a partial file, so none is removed
     for (const ArgStringMap *Files : {&C.getResultFiles(), &C.getFailureResultFiles()})
       const_cast<ArgStringMap *>(Files)->clear();
+  compileInProcess(TheDriver, C);
   llvm::SmallVector<std::pair<int, const Command *>, 4> Failures;
   int Result = TheDriver.ExecuteCompilation(C, Failures);
   for (const auto &[Status, Failed] : Failures) {

@@ -226,7 +226,8 @@ static trax_status run_loaded(struct trax_picture *picture, const struct job *jo
               .progress_context = &shown,
               .interrupt = &trax_signal,
               .engine = engine_of(options),
-              .host_threads = options->threads}};
+              .host_threads = options->threads,
+              .ray_cycles = options->ray_cycles != NULL}};
   struct trax_picture_sampling sampling = {0};
   trax_status status = TRAX_OK;
   live_begin(job->live, job->frame);
@@ -262,6 +263,8 @@ static trax_status render_loaded(struct trax_picture *picture, const struct job 
     print_machine(machine, doubt);
   if (status == TRAX_OK && options->stats)
     status = trax_stats_write_json(machine, options->stats, error);
+  if (status == TRAX_OK && options->ray_cycles)
+    status = trax_ray_cycles_write(machine, options->ray_cycles, error);
   if (status == TRAX_OK)
     status = live_end(job->live, picture, error);
   if (status == TRAX_OK && writes_costs)

@@ -112,6 +112,9 @@ static const trax_option rows[] = {
      .meaning = "host threads of engines fast and native (default: all processors)"},
     TRAX_OPTION_GROUP("What the run took"),
     {"stats", .argument = "FILE.json", OUTPUT(stats, NULL), .meaning = "writes every statistic of the run"},
+    {"ray-cycles", .argument = "FILE.csv", OUTPUT(ray_cycles, NULL),
+     .meaning = "thread-cycles of the rays of each kind, by cause; also with --sampled. Needs --mark-rays\n"
+                "unless the program counts its rays anyway"},
     {"explore", .argument = "FILE.html", OUTPUT(explain.explore, NULL),
      .meaning = "writes a page that explains the whole run, pixel by pixel too, for a browser"},
     {"source-folder", .argument = "FOLDER", PARSED(take_source_folder, explain),

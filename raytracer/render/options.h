@@ -38,7 +38,7 @@ struct options {
   unsigned frames;        /* pictures of a turntable; 1: none */
   const char *write_view; /* NULL: not wanted */
   const char *id_picture; /* the same */
-  const char *stats, *keep, *program;
+  const char *stats, *ray_cycles, *keep, *program;
   const char *ray_trace; /* every ray; NULL: not wanted */
   const char *hits;      /* figures as JSON; NULL: not wanted */
   const char *source;    /* of the specialised program; NULL: the installation's */

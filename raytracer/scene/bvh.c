@@ -73,6 +73,15 @@ static void *create_leaf(RTCThreadLocalAllocator allocator, const struct RTCBuil
   return leaf;
 }
 
+static struct RTCBounds bounds_as(const struct scene_box *box) {
+  return (struct RTCBounds){.lower_x = box->min[0],
+                            .lower_y = box->min[1],
+                            .lower_z = box->min[2],
+                            .upper_x = box->max[0],
+                            .upper_y = box->max[1],
+                            .upper_z = box->max[2]};
+}
+
 /* Computes the bounds of both sides of a triangle, or of a part of one, for the builder. */
 static void split_primitive(const struct RTCBuildPrimitive *primitive, unsigned int axis, float position,
                             struct RTCBounds *left, struct RTCBounds *right, void *context) {
@@ -80,22 +89,11 @@ static void split_primitive(const struct RTCBuildPrimitive *primitive, unsigned 
   const uint32_t *vertices = mesh->triangles[primitive->primID].vertices;
   const float *const corners[3] = {mesh->vertices[vertices[0]], mesh->vertices[vertices[1]],
                                    mesh->vertices[vertices[2]]};
-  struct scene_box low = box_of(primitive), high = low;
-  low.max[axis] = high.min[axis] = position;
-  low = scene_clip_triangle(corners, &low);
-  high = scene_clip_triangle(corners, &high);
-  *left = (struct RTCBounds){.lower_x = low.min[0],
-                             .lower_y = low.min[1],
-                             .lower_z = low.min[2],
-                             .upper_x = low.max[0],
-                             .upper_y = low.max[1],
-                             .upper_z = low.max[2]};
-  *right = (struct RTCBounds){.lower_x = high.min[0],
-                              .lower_y = high.min[1],
-                              .lower_z = high.min[2],
-                              .upper_x = high.max[0],
-                              .upper_y = high.max[1],
-                              .upper_z = high.max[2]};
+  const struct scene_box box = box_of(primitive);
+  struct scene_box parts[2];
+  scene_split_triangle(corners, &box, (int)axis, position, parts);
+  *left = bounds_as(&parts[0]);
+  *right = bounds_as(&parts[1]);
 }
 
 static bool on_progress(void *pointer, double fraction) {
@@ -142,7 +140,7 @@ static uint32_t link_built(struct scene_links *links, struct built_node **of, st
   const uint32_t index = links->count++;
   struct scene_link *link = &links->nodes[index];
   of[index] = built;
-  *link = (struct scene_link){built->box, built->below, parent, {SCENE_NO_LINK, SCENE_NO_LINK}, built->height};
+  *link = (struct scene_link){built->box, built->below, parent, {SCENE_NO_LINK, SCENE_NO_LINK}, built->height, 0};
   if (built->triangle_count)
     return index;
   link->box = scene_empty_box();
@@ -225,9 +223,12 @@ static trax_status choose_splits(float *factor, struct scene_duplicates *duplica
     return TRAX_OK;
   if (!options->choose_splits && scene_check_emitters(mesh, error) != TRAX_OK)
     return TRAX_ERROR;
-  const trax_status result = scene_find_duplicates(duplicates, mesh, error);
-  if (result == TRAX_OK && options->choose_splits)
-    *factor = scene_splits_suit(mesh, duplicates) ? TRAX_DEFAULT_SPLITS : 0;
+  bool suit = false;
+  trax_status result = scene_find_duplicates(duplicates, mesh, error);
+  if (result == TRAX_OK && options->choose_splits) {
+    result = scene_splits_suit(&suit, mesh, duplicates, error);
+    *factor = suit ? TRAX_DEFAULT_SPLITS : 0;
+  }
   if (*factor <= 1)
     scene_duplicates_release(duplicates);
   return result;

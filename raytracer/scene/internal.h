@@ -255,10 +255,19 @@ bool scene_grid_suits(const struct scene_tree *tree);
 void scene_node_boxes(struct scene_box boxes[2], trax_scene_ref children[2], const struct trax_scene *scene,
                       uint32_t number);
 
-/* --- parts.c --- */
+/* --- clip.c --- */
 
+/* The part of a convex polygon where sign * coordinate >= sign * plane. Returns the number of its corners; those beyond
+   `most` are left out. */
+unsigned scene_clip_polygon(double (*restrict out)[3], unsigned most, const double (*restrict in)[3], unsigned count,
+                            int axis, double sign, double plane);
 /* The bounds of that part of a triangle which is in the box, rounded outwards but not beyond the box. */
 struct scene_box scene_clip_triangle(const float *const corners[3], const struct scene_box *box);
+/* The same of the two parts of the box below and above a position on an axis. */
+void scene_split_triangle(const float *const corners[3], const struct scene_box *box, int axis, float position,
+                          struct scene_box parts[2]);
+
+/* --- parts.c --- */
 
 struct scene_range {
   uint32_t first, end;
@@ -308,8 +317,9 @@ void scene_tree_release(struct scene_tree *tree);
 
 struct scene_duplicates;
 
-/* Whether splits pay in this mesh. Only the first triangle at each place counts, as in the tree. */
-bool scene_splits_suit(const struct trax_mesh *mesh, const struct scene_duplicates *duplicates);
+/* Decides whether splits pay in this mesh. Only the first triangle at each place counts, as in the tree. */
+trax_status scene_splits_suit(bool *suit, const struct trax_mesh *mesh, const struct scene_duplicates *duplicates,
+                              trax_error *error);
 /* Refuses splits of a mesh that emits light, because a split triangle is in the file several times, and would be
    several lamps. */
 trax_status scene_check_emitters(const struct trax_mesh *mesh, trax_error *error);
@@ -332,6 +342,7 @@ struct scene_links {
     uint32_t parent;    /* SCENE_NO_LINK: it is the root */
     uint32_t child[2];  /* SCENE_NO_LINK: it is a leaf */
     uint32_t height;    /* most inner nodes from here to a leaf; of a leaf that will be divided more than 0 */
+    double visits;      /* of scene_reinsert: how often a ray is expected here */
   } * nodes;
   uint32_t count, root;
   uint32_t max_depth; /* of inner nodes from the root to a leaf; it is kept */

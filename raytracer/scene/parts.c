@@ -5,8 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- convex polygons in binary64 --- */
-
 enum { MOST_CORNERS = 64 };
 
 struct polygon {
@@ -14,53 +12,12 @@ struct polygon {
   double corner[MOST_CORNERS][3];
 };
 
-/* The part of the polygon on the side of a plane perpendicular to an axis where sign * coordinate >= sign * plane.
-   Corners beyond MOST_CORNERS are left out. */
+/* Corners beyond MOST_CORNERS are left out, for want of room. */
 static void clip(struct polygon *out, const struct polygon *in, int axis, double sign, double plane) {
-  out->count = 0;
-  for (unsigned i = 0; i < in->count && out->count + 2 <= MOST_CORNERS; i++) {
-    const double *a = in->corner[i], *b = in->corner[i + 1 < in->count ? i + 1 : 0];
-    const double da = sign * (a[axis] - plane), db = sign * (b[axis] - plane);
-    if (da >= 0)
-      memcpy(out->corner[out->count++], a, sizeof out->corner[0]);
-    if ((da < 0 && db > 0) || (da > 0 && db < 0)) {
-      double *cut = out->corner[out->count++];
-      for (int other = 0; other < 3; other++)
-        cut[other] = a[other] + da / (da - db) * (b[other] - a[other]);
-      cut[axis] = plane;
-    }
-  }
+  out->count = scene_clip_polygon(out->corner, MOST_CORNERS, in->corner, in->count, axis, sign, plane);
 }
 
-/* --- for the builder --- */
-
-struct scene_box scene_clip_triangle(const float *const corners[3], const struct scene_box *box) {
-  struct polygon polygons[2];
-  unsigned now = 0;
-  polygons[0].count = 3;
-  for (int corner = 0; corner < 3; corner++)
-    for (int axis = 0; axis < 3; axis++)
-      polygons[0].corner[corner][axis] = corners[corner][axis];
-  for (int axis = 0; axis < 3; axis++) {
-    clip(&polygons[!now], &polygons[now], axis, 1, box->min[axis]);
-    clip(&polygons[now], &polygons[!now], axis, -1, box->max[axis]);
-  }
-  if (polygons[now].count == 0) /* the part is smaller than rounding errors */
-    return *box;
-  struct scene_box result;
-  for (int axis = 0; axis < 3; axis++) {
-    double least = INFINITY, most = -INFINITY;
-    for (unsigned i = 0; i < polygons[now].count; i++) {
-      least = fmin(least, polygons[now].corner[i][axis]);
-      most = fmax(most, polygons[now].corner[i][axis]);
-    }
-    result.min[axis] = fmaxf(nextafterf((float)least, -INFINITY), box->min[axis]);
-    result.max[axis] = fminf(nextafterf((float)most, INFINITY), box->max[axis]);
-  }
-  return result;
-}
-
-/* --- for the checker: do the boxes of its leaves cover a triangle? --- */
+/* Do the boxes of its leaves cover a triangle? */
 
 enum { MOST_COPIES = 1024, MOST_STEPS = 2048 };
 

@@ -26,6 +26,12 @@ __attribute__((noreturn)) INLINE void machine_exit(int status) {
 INLINE unsigned long long machine_cycles(void) {
   return trax_cycles64();
 }
+INLINE unsigned machine_thread(void) {
+  return trax_thread();
+}
+INLINE unsigned machine_threads(void) {
+  return trax_threads();
+}
 /* The host reads strings from global memory only; this one may be on the stack. */
 INLINE int machine_is_local(const void *p) {
   return (uintptr_t)p >= 0xFFFFFE00u;
@@ -98,6 +104,12 @@ __attribute__((noreturn)) INLINE void machine_exit(int status) {
 }
 INLINE unsigned long long machine_cycles(void) {
   return host_cycles();
+}
+INLINE unsigned machine_thread(void) {
+  return 0;
+}
+INLINE unsigned machine_threads(void) {
+  return 1;
 }
 INLINE int machine_is_local(const void *p) {
   (void)p;

@@ -75,7 +75,7 @@ def simulator():
     outputs = [option("report"), option("stats"), option("signature"), option("explore"), option("profile"),
                option("profile-folded"),
                option("heat"), option("heat-lines"), option("items"), option("lockstep"), option("lockstep-rays"),
-               option("ray-kinds"),
+               option("ray-kinds"), option("ray-cycles"),
                option("series"), option("trace"),
                option("perfetto", *windowed), option("post-mortem"), option("checkpoint"), option("gdb-symbols"),
                lambda path: ["--dump", f"output={path}"]]
