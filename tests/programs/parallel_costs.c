@@ -78,6 +78,19 @@ static void blocks(void *context) {
   }
 }
 
+/* On one thread: so many blocks, every second one freed and made again, all freed. */
+static void many_blocks(unsigned count) {
+  static void *block[8000];
+  for (unsigned i = 0; i < count; i++)
+    block[i] = malloc(16 + i * 37 % 100);
+  for (unsigned i = 0; i < count; i += 2)
+    free(block[i]);
+  for (unsigned i = 0; i < count; i += 2)
+    block[i] = malloc(16 + i * 53 % 100);
+  for (unsigned i = 0; i < count; i++)
+    free(block[i]);
+}
+
 static void omp_static(void) {
 #pragma omp parallel for
   for (unsigned i = 0; i < ITEMS; i++)
@@ -123,5 +136,7 @@ int main(void) {
   COST("omp for reduction, all", 1, total += omp_sum());
   COST("a task", 200, trax_run_tasks(task, &next));
   COST("1,000 pairs of malloc and free on each thread", 1, trax_parallel(blocks, NULL));
+  COST("1,000 blocks on thread 0, each", 1000, many_blocks(1000));
+  COST("8,000 blocks on thread 0, each", 8000, many_blocks(8000));
   return total == 0;
 }
