@@ -86,7 +86,7 @@ def _area(results, paper, program):
         if (value := deviation(run.get("values.area_units") if run else None, wanted)) is not None
     ]
     found += f"; of the sum of units without wires, which is no fit, {100 * median(units):+.0f} %" if units else ""
-    return FITTED if verdict == AGREES else verdict, found
+    return FITTED if verdict != DIFFERS and found != NOT_MEASURED else verdict, found
 
 
 def _table3(results, paper, program):
