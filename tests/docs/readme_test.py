@@ -22,8 +22,8 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 from png_files import png_of, read_png  # noqa: E402
 
 SCENES = {
-    "conference": ("conference.ply.xz", "conference"), "crytek-sponza": ("crytek-sponza.ply.xz", "crytek-sponza"),
-    "dragon": ("dragon.ply.xz dragon_box.obj", "dragon"), "sibenik": ("sibenik.ply.xz", "sibenik"),
+    "conference": ("conference.ply", "conference"), "crytek-sponza": ("crytek-sponza.ply", "crytek-sponza"),
+    "dragon": ("dragon.ply dragon_box.obj", "dragon"), "sibenik": ("sibenik.ply", "sibenik"),
     "forest": ("generate:forest", "forest")
 }
 FOREST = "generate:forest"
@@ -33,6 +33,12 @@ PICTURE, SIZE, GAP = "docs/forest.png", "320x180", 8
 SCREEN = "docs/explore.png"
 CYCLES = b"tEXtcycles\0"  # the name of the text chunk in which the picture has the cycles of the run that it shows
 CLIP = {"x": 0, "y": 0, "width": 1400, "height": 1640, "scale": 0.68}
+
+
+def mesh_file(folder, name):
+    """The mesh in the folder of scenes, which may be packed."""
+    path = pathlib.Path(folder, name)
+    return path if path.is_file() else path.with_name(f"{name}.xz")
 
 
 def with_forest(binaries, words):
@@ -110,7 +116,7 @@ def main():
         for scene, (files, view) in SCENES.items():
             if scene != "forest" and not folder_of_scenes:
                 continue
-            meshes = [file if ":" in file else pathlib.Path(folder_of_scenes) / file for file in files.split()]
+            meshes = [file if ":" in file else mesh_file(folder_of_scenes, file) for file in files.split()]
             old = re.search(rf"^\| {scene}\b.*\n", text, re.M)[0]
             statistics = render(scene, meshes, view, *(cost if scene == "forest" else []))
             new = row(scene, statistics, old)
