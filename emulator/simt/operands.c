@@ -1,7 +1,7 @@
 /* docs/simt.md, "Operands": step 2. */
 #include "simt/simt.h"
 
-/* Checks a lane. False: it is refused. One that has passed passes again, and another one waits for its register. */
+/* Checks a lane. False: it is refused. A lane that was accepted stays so, and another one waits for its register. */
 static bool check(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint32_t i, uint64_t t) {
   struct trax_ref_tp *lane = &tm->ref->tp[i];
   uint8_t *const waits_for = &tm->lane[i].waits_for;
@@ -15,7 +15,7 @@ static bool check(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint32_t
   return !trax_simt_is_charged(warp, lane);
 }
 
-/* Whether all lanes of the group have passed. */
+/* Whether all lanes of the group are accepted. */
 static bool check_group(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint64_t t) {
   const bool is_illegal = !warp->is_checked && trax_ref_is_illegal(tm->ref, trax_simt_speaker(tm, warp->left));
   bool passes = true;

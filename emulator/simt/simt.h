@@ -23,7 +23,7 @@ struct trax_simt_warp {
   uint64_t active;     /* those of them that no step of this cycle has refused so far */
   uint64_t uncharged;  /* lanes of the group that have not been charged in this cycle */
   bool is_checked;     /* the lanes of the group have been in step 2 */
-  bool has_operands;   /* all of them have passed it */
+  bool has_operands;   /* step 2 has accepted all of them */
   trax_shared unit;    /* that they then ask for, unless they access memory */
   uint32_t turns_lane; /* the lane that has the turn */
   uint32_t turns_left; /* instructions of its turn; 0: no lane has it */

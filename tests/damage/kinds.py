@@ -52,7 +52,6 @@ KINDS = {
         each(
             ["trax-ld", "{x}", "-o", "{o}"],
             ["-e", "entry"],
-            ["-r"],
             ["--gc-sections", "-e", "main", "-Map={o}.map"],
             ["--print-stack", "-e", "main"],
         ),
@@ -63,7 +62,7 @@ KINDS = {
         mutate.of_bytes,
         each(["trax-ld", "-e", "main", "-o", "{o}"], ["--whole-archive", "{x}"], ["-u", "main", "{x}"]),
     ),
-    "checkpoint": (1000, ["run.checkpoint"], mutate.of_bytes, [[*CHIP, "--resume", "{x}", "{d}/program.elf"]]),
+    "checkpoint": (1000, ["run.checkpoint"], mutate.of_checkpoint, [[*CHIP, "--resume", "{x}", "{d}/program.elf"]]),
     "configuration": (300, ["machine.cfg"], mutate.of_text, [["trax-sim", "--config", "{x}", "--print-config"]]),
     "tree": (
         446,

@@ -13,24 +13,30 @@ from mutation import ROOT, Mutant, failure, main, relinked  # noqa: E402
 
 SOURCE = ROOT / "raytracer/scene"
 TREES, READERS = ("scene-scene-test", "scene-layout-test"), ("scene-material-test", "scene-import-test")
-TESTS = {"splits.c": TREES, "reinsert.c": TREES, "texture.c": READERS[:1], "gltf_reader.c": READERS,
+TESTS = {"clip.c": TREES, "splits.c": TREES, "reinsert.c": TREES, "texture.c": READERS[:1], "gltf_reader.c": READERS,
          "gltf_materials.c": READERS[:1], "gltf_meshes.c": READERS, "gltf_nodes.c": READERS}
 SECONDS = 300
 
 # Name, file of raytracer/scene, text, what it becomes.
 MUTANTS = [
     ("splits-of-duplicates", "splits.c", "    if (duplicates->first[i] != i)\n      continue;\n", ""),
-    ("splits-of-lamps", "splits.c", "if (emits(mesh, &mesh->triangles[i]))\n      return false;", ""),
+    ("splits-of-lamps", "splits.c", "if (emits(mesh, &mesh->triangles[i])) {", "if (false) {"),
+    ("splits-of-equals", "splits.c", "2 * of_few >= all", "2 * of_few >= 0"),
     ("splits-never", "splits.c", "#define BOXES_IN_VAIN 2", "#define BOXES_IN_VAIN 1000000"),
     ("splits-always", "splits.c", "#define BOXES_IN_VAIN 2", "#define BOXES_IN_VAIN 0"),
-    ("splits-whole-box", "splits.c", "in_vain -= fabs(", "in_vain -= 0 * fabs("),
+    ("splits-whole-box", "splits.c", "area -= fabs(", "area -= 0 * fabs("),
     ("one-focus", "reinsert.c", "MOST_FOCI = 8", "MOST_FOCI = 1"),
     ("close-foci", "reinsert.c", "FOCUS_STEP = 4", "FOCUS_STEP = 2"),
     ("foci-of-few", "reinsert.c", "LEAST_OF_TRIANGLES = 16", "LEAST_OF_TRIANGLES = 2"),
     ("smaller-child", "reinsert.c", "b->triangles > a->triangles ? b : a", "b->triangles > a->triangles ? a : b"),
-    ("focus-weight", "reinsert.c", "(struct focus){node->box, 1 / area}", "(struct focus){node->box, 1}"),
+    ("focus-weight", "reinsert.c", "foci->scale[foci->count++] = 1 / area;", "foci->scale[foci->count++] = 1;"),
     ("short-search", "reinsert.c", "MOST_LOOKED_AT = 1000", "MOST_LOOKED_AT = 10"),
-    ("stale-boxes", "reinsert.c", "  refit(nodes, nodes[beside].parent);\n", ""),
+    ("stale-boxes", "reinsert.c", "  refit_from(search, nodes[beside].parent);\n", ""),
+    ("stale-visits", "reinsert.c", "    node->visits = visits(&search->foci, &box);\n", ""),
+    ("stale-above", "reinsert.c", "  refit_from(search, nodes[parent].parent);\n", ""),
+    ("clip-one-side", "clip.c", "(side ? da >= 0 : da <= 0)", "(side ? da >= 0 : da < 0)"),
+    ("clip-inwards", "clip.c", "step((float)bounds->min[axis], false)", "step((float)bounds->min[axis], true)"),
+    ("clip-no-cut", "clip.c", "        add_value(&sides[1], other, value);\n", ""),
     ("too-deep", "reinsert.c", " && place.depth + 1 + height <= links->max_depth", ""),
     ("order-of-parts", "reinsert.c", "left->visits > right->visits ? -1 : 1", "left->visits > right->visits ? 1 : -1"),
     ("one-pass", "reinsert.c", "pass < passes && result", "pass < 1 && result"),

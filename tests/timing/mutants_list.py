@@ -156,7 +156,12 @@ MUTANTS = [
     # --- step 5 and the heads ---
     ("fast/time/issue.h", "if (latency > 1) {", "if (latency > 2) {"),
     ("fast/time/issue.h", "tp->atomics |= (uint64_t)1 << inst->rd;", "tp->atomics |= (uint64_t)1 << inst->ra;"),
-    ("fast/time/head.c", "if (!tp->atomics) {", "if (1) {"),
+    ("fast/function/burst_steps.h", "(program->timing[index].waits & (uint32_t)tp->atomics)", "0"),
+    ("fast/tm/tm.c", "tm->tp[request->tp].begin_reg[request->rd] = request->value", "request->value"),
+    ("fast/time/head.h", "tm->heads.address[tp] = tm->tp[tp].loads[load];",
+     "tm->heads.address[tp] = tm->tp[tp].loads[0];"),
+    ("fast/time/issue.h", "tm->heads.at[number] < last || tp->ends_slowly", "tm->heads.at[number] < last"),
+    ("fast/time/heads.h", "heads->at[__builtin_ctzll(who)] + 1u", "heads->at[__builtin_ctzll(who)]"),
     ("fast/create.c", "machine->calls.before_write = trax_fast_range_written;", "machine->calls.before_write = NULL;"),
     ("fast/function/blocks.c", "if (trax_fast_is_loaded(&chip->blocks, address)) {", "if (0) {"),
     ("fast/function/blocks.h", "*block = *block < state ? state : *block;", "*block = state & 0;"),
@@ -395,7 +400,8 @@ MUTANTS = [
     ("fast/function/burst_steps.h", "if (state > last_loadable)",
      "if (state > last_loadable && 0)"),
     # A burst that is executed again loads from blocks that are shared meanwhile.
-    ("fast/function/burst_steps.h", "EXACTLY || alone ? TRAX_BLOCK_SHARED : TRAX_BLOCK_WRITTEN", "TRAX_BLOCK_WRITTEN"),
+    ("fast/function/burst_steps.h", "limit < TRAX_BURST || alone ? TRAX_BLOCK_SHARED : TRAX_BLOCK_WRITTEN",
+     "TRAX_BLOCK_WRITTEN"),
     # A jump with a bubble is not quick.
     ("fast/function/burst_steps.h", "config->tp.branch_bubble_cycles > 0 ? TRAX_STEP_SLOW : 0",
      "config->tp.branch_bubble_cycles > 1 ? TRAX_STEP_SLOW : 0"),
