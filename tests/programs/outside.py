@@ -115,9 +115,9 @@ END_SCENE
 DATA = {"data.txt": text(300), "small.txt": b"hello, world\n"}
 
 CHIP = ("--config", "4x32", "--main-on", "0")
-GENES = "".join(f">gene{i}\n" + "".join("ACGT"[(j * j + j // 7 + (i >> j % 4) * (j % 5 == 0)) % 4]
-                                        for j in range(90)) + "\n"
-                for i in range(24)).encode()
+GENES = "".join(
+    f">gene{i}\n" + "".join("ACGT"[(j * j + j // 7 + (i >> j % 4) * (j % 5 == 0)) % 4] for j in range(90)) + "\n"
+    for i in range(24)).encode()
 
 PROGRAMS = [
     Program("bzip2", "bzip2", "bzip2",

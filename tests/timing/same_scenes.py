@@ -34,7 +34,8 @@ CSV_NAMES = {}
 ADDED = re.compile(
     r"(tms\.\d+\.)?(tps\.\d+\.)?(rays_by_kind\.|simt\.|dcache\.broadcast$|cause(s|_percent)\.(lockstep|divergence)$)|"
     r"lockstep$|divergence$|"
-    r"configuration\.(simt\.|dram\.|memory\.model$|memory\.atomic_interval_cycles$|dcache\.fill_cycles$)")
+    r"configuration\.(simt\.|dram\.|memory\.model$|memory\.atomic_interval_cycles$|dcache\.fill_cycles$)"
+)
 OF_THE_HOST = {"program", "host_seconds", "instructions_per_host_second"}
 
 SCENES = {
