@@ -30,11 +30,13 @@ packages=(
   libembree-dev libpng-dev libjpeg-dev libtinyexr-dev liblzma-dev zlib1g-dev libgmp-dev  # ray tracer's host side
   newlib-source                                                           # the mathematical functions of binary64
   glmark2-data                                                            # the demo's bunny
+  draco                                                                   # trax-eval fetch-scenes: Crytek Sponza
 )
 test_packages=(
   make git llvm-19 llvm-19-tools clang-19                                 # the tutorial applies a patch with git
   libcmocka-dev libmpfr-dev gdb gdb-multiarch
   flake8                                                                  # the style of Python
+  python3-cffi python3-numpy python3-pandas python3-pytest python3-pip    # the package for Python
   parallel 'chromium|chromium-browser'                                    # runs handed to GNU parallel; the evaluation's page in a browser
   slurmctld slurmd slurm-client                                           # the same by Slurm; its services do nothing without a configuration
   clangd-19 clang-tidy-19 meson                                           # recipes of docs/compiler.md

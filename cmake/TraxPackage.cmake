@@ -16,8 +16,8 @@ set(CPACK_DEBIAN_PACKAGE_SECTION devel)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # What no library says: clang's own headers, those of C++, trax-eval's interpreter.
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "libclang-common-${LLVM_VERSION_MAJOR}-dev, libc++-${LLVM_VERSION_MAJOR}-dev, python3")
-# For programs that link the emulator.
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "parallel, pkgconf, libelf-dev, libdw-dev, libconfig-dev, libjansson-dev, libxxhash-dev, zlib1g-dev")
+# For programs that link the emulator, and for its package of Python.
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "parallel, draco, npm, python3-cffi, python3-numpy, python3-pandas, pkgconf, libelf-dev, libdw-dev, libconfig-dev, libjansson-dev, libxxhash-dev, zlib1g-dev")
 set(CPACK_PROJECT_CONFIG_FILE ${CMAKE_CURRENT_LIST_DIR}/debian/tools.cmake)
 set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_CURRENT_LIST_DIR}/debian/files.cmake)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_LIST_DIR}/debian/prerm)

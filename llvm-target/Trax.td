@@ -39,7 +39,7 @@ def TraxAsmWriter : AsmWriter {
 // Code for programs linked with -mstack=global (docs/abi.md, "Program start").
 def FeatureGlobalStack
     : SubtargetFeature<"global-stack", "HasGlobalStack", "true", "The stack is in global memory">;
-// Code for both.
+// Code for stacks in either memory.
 def FeatureEitherStack
     : SubtargetFeature<"either-stack", "HasEitherStack", "true", "The stack may be in local or in global memory">;
 

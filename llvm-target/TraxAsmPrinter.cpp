@@ -48,7 +48,7 @@ private:
 
 #include "TraxGenMCPseudoLowering.inc"
 
-/// Says where the functions expect the stack: the linker compares it.
+/// Emits where the functions expect the stack, for the linker to compare.
 void TraxAsmPrinter::emitStartOfAsmFile(Module &M) {
   auto &Streamer = static_cast<TraxTargetStreamer &>(*OutStreamer->getTargetStreamer());
   for (const Function &F : M)

@@ -1,4 +1,4 @@
-//===- TraxBranches.cpp - Conditions as branches want them ---------------===//
+//===- TraxBranches.cpp - Simpler conditions of branches ------------------===//
 //
 // Before instruction selection, which sees one block at a time:
 //

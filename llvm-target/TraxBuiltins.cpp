@@ -129,14 +129,14 @@ PreservedAnalyses TraxBuiltinsPass::run(Module &M, ModuleAnalysisManager &) {
 #define GROUPS(ID, NAME, TYPE, INSTRUCTION) case TraxBuiltin::ID:
 #include "TraxBuiltins.def"
     case TraxBuiltin::Opaque:
-    case TraxBuiltin::Rsqrt: // total: may be computed where the source would not have
+    case TraxBuiltin::Rsqrt: // traps never: may be executed where the source would not
       F.setDoesNotAccessMemory();
       F.setWillReturn();
       F.addFnAttr(Attribute::NoSync);
       F.addFnAttr(Attribute::NoFree);
       F.setSpeculatable();
       break;
-    case TraxBuiltin::Rdsr: // may read the cycle counter: not to be merged, or moved over one another
+    case TraxBuiltin::Rdsr: // may read the cycle counter: neither merged nor reordered
       F.addFnAttr(Attribute::NoFree);
       markConstantReads(F);
       break;

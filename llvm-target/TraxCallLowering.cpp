@@ -118,8 +118,8 @@ bool TraxTargetLowering::isTailCallPossible(const CallLoweringInfo &CLI, const C
   return none_of(CLI.Outs, [](const ISD::OutputArg &Out) { return Out.Flags.isByVal(); });
 }
 
-/// Copies an aggregate to where it is passed, within the call's sequence: no call of memcpy. What is long goes through
-/// a loop.
+/// Copies an aggregate to its place among the arguments. A call of memcpy is not possible within a call's sequence, so
+/// a loop copies a long one.
 static SDValue copyArgument(SDValue Chain, const SDLoc &DL, SDValue To, SDValue From, ISD::ArgFlagsTy Flags,
                             MachinePointerInfo Where, SelectionDAG &DAG) {
   constexpr unsigned LongestInline = 64;
@@ -141,7 +141,7 @@ static SDValue copyArgument(SDValue Chain, const SDLoc &DL, SDValue To, SDValue 
                        MachinePointerInfo());
 }
 
-/// PseudoCopyLoop to, from, bytes, unit: four units a turn; bytes is a multiple of that and not 0.
+/// PseudoCopyLoop to, from, bytes, unit: copies four units an iteration. bytes is a positive multiple of that.
 MachineBasicBlock *TraxTargetLowering::emitCopyLoop(MachineInstr &MI, MachineBasicBlock *This) const {
   MachineFunction &MF = *This->getParent();
   MachineRegisterInfo &MRI = MF.getRegInfo();
@@ -322,7 +322,7 @@ SDValue TraxTargetLowering::lowerBuiltinCall(CallLoweringInfo &CLI, SmallVectorI
   if (!Builtin)
     return SDValue();
 
-  // A function of that name but of another type is somebody's own.
+  // A function with this name and another type is the user's.
   const TraxBuiltin::Signature Signature = TraxBuiltin::signature(*Builtin);
   auto HasTypes = [](const auto &Values, ArrayRef<MVT> Types) {
     return Values.size() == Types.size() &&

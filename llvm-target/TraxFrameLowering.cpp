@@ -78,8 +78,8 @@ public:
 
 } // namespace
 
-/// The scheduler moves nothing across these, so they are there without debug information too, which then changes no
-/// code. The printer leaves them out.
+/// The scheduler moves nothing across these directives. They are emitted also without -g, so that -g changes no code;
+/// the printer then leaves them out.
 static void emitCFI(MachineBasicBlock &MBB, MachineBasicBlock::iterator I, const DebugLoc &DL,
                     const MCCFIInstruction &CFI, MachineInstr::MIFlag Flag) {
   MachineFunction &MF = *MBB.getParent();
@@ -108,7 +108,7 @@ void TraxFrameLowering::emitPrologue(MachineFunction &MF, MachineBasicBlock &MBB
     emitCFI(MBB, MBBI, DL, MCCFIInstruction::cfiDefCfaOffset(nullptr, StackSize), MachineInstr::FrameSetup);
   }
 
-  // Behind the stores of the saved registers.
+  // After the stores of the saved registers.
   std::advance(MBBI, CSI.size());
   for (const CalleeSavedInfo &Saved : CSI)
     emitCFI(MBB, MBBI, DL,
@@ -122,7 +122,7 @@ void TraxFrameLowering::emitPrologue(MachineFunction &MF, MachineBasicBlock &MBB
   emitCFI(MBB, MBBI, DL, MCCFIInstruction::cfiDefCfa(nullptr, TRI.getDwarfRegNum(Trax::R3, true), 0),
           MachineInstr::FrameSetup);
   if (needsRealignment(MF)) {
-    // Counted in .stack_sizes, which is to bound the frame.
+    // .stack_sizes counts this, because it must bound the frame.
     MFI.setUnsafeStackSize(MFI.getMaxAlign().value() - getStackAlign().value());
     unsigned Shift = Log2(MFI.getMaxAlign());
     if (Shift <= 15) {

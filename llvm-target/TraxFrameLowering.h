@@ -30,7 +30,7 @@ public:
   bool hasReservedCallFrame(const MachineFunction &MF) const override;
   int getInitialCFAOffset(const MachineFunction &) const override { return 0; }
   Register getInitialCFARegister(const MachineFunction &) const override { return Trax::R2; }
-  /// CFIInstrInserter does it, which also knows of prologues in the middle of a function.
+  /// CFIInstrInserter does this. It also handles prologues in the middle of a function.
   bool enableCFIFixup(MachineFunction &) const override { return false; }
   bool enableCalleeSaveSkip(const MachineFunction &MF) const override;
   bool enableShrinkWrapping(const MachineFunction &) const override { return true; }

@@ -60,7 +60,7 @@ private:
   explicit TraxDAGToDAGISelLegacy(TraxDAGToDAGISel *S)
       : SelectionDAGISelLegacy(ID, std::unique_ptr<SelectionDAGISel>(S)), Selector(S) {}
 
-  TraxDAGToDAGISel *Selector; // the base class owns it and shows it to nobody
+  TraxDAGToDAGISel *Selector; // owned by the base class, which gives no access
 };
 
 } // namespace
@@ -118,7 +118,7 @@ void TraxDAGToDAGISel::Select(SDNode *N) {
   SelectCode(N);
 }
 
-/// The values that an instruction reads from one field on become a group of registers.
+/// Makes a group of registers of the values that an instruction reads by one field.
 void TraxDAGToDAGISel::selectGroups(SDNode *N) {
   SDLoc DL(N);
   const unsigned Opcode = N->getConstantOperandVal(0);
@@ -140,8 +140,8 @@ void TraxDAGToDAGISel::selectGroups(SDNode *N) {
   ReplaceNode(N, CurDAG->getMachineNode(Opcode, DL, N->getValueType(0), Operands));
 }
 
-/// The lower bits of a word, and the magnitude of a float, are two shifts where they are taken once. In a loop they are
-/// one instruction and a mask, which then stays in a register.
+/// A mask of low bits, as of a float's magnitude, becomes two shifts outside of loops. In a loop it becomes one
+/// instruction with a mask that stays in a register.
 bool TraxDAGToDAGISel::selectMask(SDNode *N) {
   uint32_t Mask = 0x7FFFFFFF;
   if (N->getOpcode() == ISD::AND) {

@@ -1,4 +1,4 @@
-//===- TraxISelLowering.h - What the machine can do, and the rest --------===//
+//===- TraxISelLowering.h - Operations that the machine has or lacks -----===//
 #ifndef TRAX_TRAXISELLOWERING_H
 #define TRAX_TRAXISELLOWERING_H
 

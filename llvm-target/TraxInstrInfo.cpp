@@ -297,7 +297,7 @@ unsigned TraxInstrInfo::insertBranch(MachineBasicBlock &MBB, MachineBasicBlock *
 
 void TraxInstrInfo::insertIndirectBranch(MachineBasicBlock &MBB, MachineBasicBlock &, MachineBasicBlock &,
                                          const DebugLoc &, int64_t, RegScavenger *) const {
-  // A jump reaches 4 MB either way. Say so rather than make an indirect jump that no test could justify.
+  // A jump reaches 4 MB either way. A longer function is an error, since no program needs an indirect jump here.
   const Function &F = MBB.getParent()->getFunction();
   F.getContext().diagnose(DiagnosticInfoUnsupported(F, "functions of more than 4 MB of code are not supported"));
 }

@@ -45,7 +45,7 @@ static Value *createPlain(IRBuilder<> &Builder, ConstrainedFPIntrinsic &Call) {
   return Builder.CreateIntrinsic(Call.getType(), Plain, Operands);
 }
 
-/// A NaN becomes the one that the machine gives. fmin does just that to a binary32 number; folded, it would not.
+/// Replaces a NaN by the machine's. fmin does that to a binary32 number, unless LLVM folds it.
 static Value *createCanonical(IRBuilder<> &Builder, Value *X) {
   Type *Ty = X->getType();
   if (Ty->getScalarType()->isFloatTy() && !isa<Constant>(X))

@@ -1,4 +1,4 @@
-//===- TraxMachineFunctionInfo.h - What a function remembers -------------===//
+//===- TraxMachineFunctionInfo.h - State of a function's code generation --===//
 #ifndef TRAX_TRAXMACHINEFUNCTIONINFO_H
 #define TRAX_TRAXMACHINEFUNCTIONINFO_H
 

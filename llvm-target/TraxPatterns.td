@@ -66,7 +66,7 @@ def andi_bit : ImmLeaf<i32, [{ return Imm >= 0 && Imm < 15; }]>;
 def BitMask : SDNodeXForm<imm, [{
   return CurDAG->getTargetConstant(1 << N->getZExtValue(), SDLoc(N), MVT::i32);
 }]>;
-// A bit that was masked where it is and then moved to the lowest place.
+// A bit that is masked in place and then shifted to bit 0.
 def moved_bit : PatFrag<(ops node:$masked), (srl node:$masked, (i32 imm)), [{
   SDValue Masked = N->getOperand(0);
   return Masked.getOpcode() == ISD::AND && isa<ConstantSDNode>(Masked.getOperand(1)) &&
@@ -154,7 +154,7 @@ multiclass SelectPatterns<ValueType vt> {
   def : Pat<(vt (select (i32 GPR:$c), (vt GPR:$t), (vt GPR:$f))), (CMOVNZ GPR:$f, GPR:$t, GPR:$c)>;
   def : Pat<(vt (select (i32 (setne (i32 GPR:$c), 0)), (vt GPR:$t), (vt GPR:$f))), (CMOVNZ GPR:$f, GPR:$t, GPR:$c)>;
   def : Pat<(vt (select (i32 (seteq (i32 GPR:$c), 0)), (vt GPR:$t), (vt GPR:$f))), (CMOVZ GPR:$f, GPR:$t, GPR:$c)>;
-  // A bit is as good where it is.
+  // A conditional move tests for zero, so the bit need not be shifted.
   def : Pat<(vt (select (i32 (and (i32 (srl (i32 GPR:$c), andi_bit:$bit)), 1)), (vt GPR:$t), (vt GPR:$f))),
             (CMOVNZ GPR:$f, GPR:$t, (i32 (ANDI GPR:$c, (BitMask imm:$bit))))>;
   def : Pat<(vt (select (i32 (moved_bit (i32 GPR:$c))), (vt GPR:$t), (vt GPR:$f))), (CMOVNZ GPR:$f, GPR:$t, GPR:$c)>;
@@ -281,7 +281,7 @@ defm : FloatCompareOpposite<[SETULT], (i32 (FLE GPR:$b, GPR:$a))>;
 defm : FloatCompareOpposite<[SETUEQ], (i32 (OR (i32 (FLT GPR:$a, GPR:$b)), (i32 (FLT GPR:$b, GPR:$a))))>;
 defm : FloatCompareOpposite<[SETUO], (i32 (AND (i32 (FEQ GPR:$a, GPR:$a)), (i32 (FEQ GPR:$b, GPR:$b))))>;
 
-// A number is equal to itself.
+// A float equals itself unless it is a NaN.
 let AddedComplexity = 4 in {
 def : Pat<(i32 (setcc (f32 GPR:$a), (f32 GPR:$a), SETO)), (FEQ GPR:$a, GPR:$a)>;
 def : Pat<(i32 (setcc (f32 GPR:$a), (f32 GPR:$a), SETUO)), (XORI (i32 (FEQ GPR:$a, GPR:$a)), 1)>;

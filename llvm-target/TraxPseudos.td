@@ -53,11 +53,11 @@ def PseudoRDSRConst : TraxPseudo<(outs GPR:$rd), (ins srnum:$imm)>, PseudoInstEx
 let isReMaterializable = true, Size = 8, SchedRW = [UnitInt] in
 def PseudoLUIADDI : TraxPseudo<(outs GPR:$rd), (ins uimm16:$upper, simm16:$lower)>;
 
-// halt in the middle of a block: the front end need not have marked what follows unreachable.
+// halt in the middle of a block: the code after it may not be marked as unreachable.
 let hasSideEffects = true in
 def PseudoHALT : TraxPseudo<(outs), (ins)>, PseudoInstExpansion<(HALT)>;
 
-// Holds the thread up until the register can be used.
+// Waits until the register can be used.
 let hasSideEffects = true in
 def PseudoWAIT : TraxPseudo<(outs), (ins GPR:$ra)>, PseudoInstExpansion<(ADDI R0, GPR:$ra, 0)>;
 
@@ -65,7 +65,8 @@ def PseudoWAIT : TraxPseudo<(outs), (ins GPR:$ra)>, PseudoInstExpansion<(ADDI R0
 let mayLoad = true, mayStore = true, usesCustomInserter = true, hasNoSchedulingInfo = true in
 def PseudoCopyLoop : TraxPseudo<(outs), (ins GPR:$to, GPR:$from, i32imm:$bytes, i32imm:$unit)>;
 
-// __builtin_setjmp and __builtin_longjmp, see TraxSjLj.cpp. The setup is where all registers may be other ones; it is nothing.
+// __builtin_setjmp and __builtin_longjmp, see TraxSjLj.cpp. The setup emits no code: it
+// marks where all registers may have other values.
 let hasSideEffects = true, hasNoSchedulingInfo = true in {
 let usesCustomInserter = true in
 def PseudoSETJMP : TraxPseudo<(outs GPR:$rd), (ins GPR:$buffer)>;

@@ -18,8 +18,8 @@ public:
   const uint32_t *getNoPreservedMask() const override;
   BitVector getReservedRegs(const MachineFunction &MF) const override;
   const TargetRegisterClass *getPointerRegClass(const MachineFunction &MF, unsigned Kind) const override;
-  // In units of 1/2^14 of the entry's frequency. The cost is small, but a value that only an early return needs stays
-  // in its argument's register because of it, so that registers are saved after that return.
+  // In units of 1/2^14 of the entry's frequency. Even this small cost keeps a value that only an early return needs in
+  // its argument's register, so that registers are saved after that return.
   unsigned getCSRFirstUseCost() const override { return 5; }
   Register getFrameRegister(const MachineFunction &MF) const override;
 

@@ -7,6 +7,9 @@ file(REMOVE ${root}/bin/clang++ ${root}/bin/trax-clang ${root}/bin/trax-clang++)
 file(RENAME ${root}/bin/clang ${root}/bin/trax-clang)
 file(CREATE_LINK trax-clang ${root}/bin/trax-clang++ SYMBOLIC)
 
+# Debian's Python finds the package there.
+file(WRITE ${root}/lib/python3/dist-packages/trax.pth "/usr/lib/trax/python\n")
+
 # Debian's LLVM is where every library is.
 file(GLOB programs ${root}/bin/*)
 foreach(program ${programs})
@@ -47,5 +50,5 @@ file(WRITE ${root}/share/lintian/overrides/trax
   "trax: no-code-sections [usr/lib/trax/lib*.a]\n"
   "# newlib's notice is quoted whole. In newer releases it has the Apache license, of parts that are not used here.\n"
   "trax: copyright-file-contains-full-apache-2-license\n")
-file(GLOB_RECURSE written ${doc}/* ${root}/share/lintian/* ${root}/share/man/*)
+file(GLOB_RECURSE written ${doc}/* ${root}/share/lintian/* ${root}/share/man/* ${root}/lib/python3/*)
 file(CHMOD ${written} PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)

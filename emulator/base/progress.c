@@ -30,14 +30,14 @@ static void print_time_left(FILE *out, double rest, double waited) {
     fprintf(out, ", %lu:%02lu left", whole / 60, whole % 60);
 }
 
-/* Whether the line must be drawn again. A new step starts the clock. */
-static bool is_due(trax_progress_line *line, const char *step, double fraction, double now) {
-  const bool is_new = strncmp(line->step, step, sizeof line->step - 1) != 0;
+/* Whether the line must be drawn again. A new task starts the clock. */
+static bool is_due(trax_progress_line *line, const char *task, double fraction, double now) {
+  const bool is_new = strncmp(line->task, task, sizeof line->task - 1) != 0;
   if (is_new || (line->first < 0 && fraction >= 0)) {
     line->begun = now;
     line->first = fraction;
     line->drawn_at = is_new ? 0 : line->drawn_at;
-    snprintf(line->step, sizeof line->step, "%s", step);
+    snprintf(line->task, sizeof line->task, "%s", task);
   }
   if (is_new || fraction != line->latest)
     line->moved_at = now;
@@ -45,11 +45,11 @@ static bool is_due(trax_progress_line *line, const char *step, double fraction, 
   return now - line->drawn_at >= REDRAW_SECONDS;
 }
 
-bool trax_progress_line_show(trax_progress_line *line, const char *step, double fraction, const char *detail) {
+bool trax_progress_line_show(trax_progress_line *line, const char *task, double fraction, const char *detail) {
   if (!line->terminal)
     return false;
   const double now = trax_seconds();
-  if (!is_due(line, step, fraction, now))
+  if (!is_due(line, task, fraction, now))
     return false;
   /* The line is one write, so that an interrupt between writes cannot leave a part of it. */
   char text[512];
@@ -59,7 +59,7 @@ bool trax_progress_line_show(trax_progress_line *line, const char *step, double 
   line->drawn_at = now;
   line->drawn = true;
   drawn = line;
-  fprintf(out, "\r%s: %s", line->program, line->step);
+  fprintf(out, "\r%s: %s", line->program, line->task);
   if (detail)
     fprintf(out, ", %.300s", detail);
   if (fraction >= 0)

@@ -58,6 +58,14 @@ static trax_status commit(struct trax_calls *calls, bool open_ones, trax_error *
   return failure ? TRAX_ERROR : TRAX_OK;
 }
 
+bool trax_calls_pending(const struct trax_machine *machine) {
+  const struct trax_calls *calls = machine->calls.context;
+  for (const struct trax_name *it = calls ? calls->names : NULL; it; it = it->next)
+    if (!it->file || it->file->differs)
+      return true;
+  return false;
+}
+
 trax_status trax_calls_commit(struct trax_machine *machine, trax_error *error) {
   return machine->calls.context ? commit(machine->calls.context, false, error) : TRAX_OK;
 }

@@ -36,6 +36,8 @@ trax_status trax_calls_end(struct trax_machine *machine, bool completed, trax_er
 
 /* Keeps changes of files until trax_calls_commit, so that a run that is resumed finds the files as they were. */
 void trax_calls_defer(struct trax_machine *machine);
+/* Whether changes of files have been kept. */
+bool trax_calls_pending(const struct trax_machine *machine);
 /* Makes the changes that have been kept, but for files that are open. */
 trax_status trax_calls_commit(struct trax_machine *machine, trax_error *error);
 /* The state: names, descriptors, contents that the host's files do not have, how much of the input has been read.

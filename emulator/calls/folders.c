@@ -249,8 +249,8 @@ static int check_search(struct walk *walk) {
 }
 
 /* A part that is a name. *ends: it is the last one, and not a link to be followed. */
-static int step_by_name(struct walk *walk, enum trax_follow follow, const char *after, const struct trax_place *place,
-                        bool *ends) {
+static int advance_by_name(struct walk *walk, enum trax_follow follow, const char *after,
+                           const struct trax_place *place, bool *ends) {
   const bool is_last = !after[strspn(after, "/")];
   const struct trax_name *known = trax_name_at(walk->calls, walk->here, place->name);
   const int here = trax_folder_descriptor(walk->calls, walk->here);
@@ -271,7 +271,7 @@ static int step_by_name(struct walk *walk, enum trax_follow follow, const char *
 }
 
 /* Goes one part further. *ends: the place is found. */
-static int step(struct walk *walk, enum trax_follow follow, struct trax_place *place, bool *ends) {
+static int advance(struct walk *walk, enum trax_follow follow, struct trax_place *place, bool *ends) {
   const char *part = walk->left + strspn(walk->left, "/"), *left = walk->left;
   const size_t length = strcspn(part, "/");
   const char *after = part + length, *rest = after + strspn(after, "/");
@@ -287,7 +287,7 @@ static int step(struct walk *walk, enum trax_follow follow, struct trax_place *p
   if (denied)
     return denied;
   if (place->last == TRAX_LAST_NAME) {
-    const int failure = step_by_name(walk, follow, after, place, ends);
+    const int failure = advance_by_name(walk, follow, after, place, ends);
     if (failure || walk->left != left) /* a link was followed */
       return failure;
   } else {
@@ -313,7 +313,7 @@ int trax_place_find(struct trax_calls *calls, const char *path, enum trax_follow
   trax_folder_refer(folder);
   int failure = walk.left ? 0 : ENOMEM;
   for (bool ends = false; !failure && !ends;)
-    failure = step(&walk, follow, place, &ends);
+    failure = advance(&walk, follow, place, &ends);
   free(walk.left);
   if (failure)
     trax_folder_release(calls, walk.here);

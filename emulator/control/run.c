@@ -1,8 +1,9 @@
 /* The run of a machine by one of the engines: beginning, advancing, end, and what is called between cycles. */
 #define _POSIX_C_SOURCE 200809L /* clock_gettime */
+#include "engine/run.h"
 #include "calls/calls.h"
 #include "control/engines.h"
-#include "engine/run.h"
+#include "machine/ray_cycles.h"
 #include "sampling/slots.h"
 
 #include <inttypes.h>
@@ -62,6 +63,8 @@ static trax_status create_run(struct run *run, struct trax_machine *machine, con
   const trax_run_options *options = &run->options;
   const struct trax_calls_streams streams = {options->input, options->output,
                                              options->errors ? options->errors : options->output, options->interrupt};
+  if (options->ray_cycles && trax_ray_cycles_create(machine, error) != TRAX_OK)
+    return TRAX_ERROR;
   if (trax_calls_begin(machine, &streams, error) != TRAX_OK ||
       trax_run_create(&run->run, machine, engine, &run->options, error) != TRAX_OK)
     return TRAX_ERROR;
@@ -88,6 +91,8 @@ trax_status trax_machine_begin(trax_machine *machine, const trax_run_options *op
     return TRAX_ERROR;
   if (options->slots && !engine->is_timed)
     return trax_fail(error, "the engine %s has no time: slots cannot be sampled", engine->name);
+  if (options->ray_cycles && !engine->counts_rays)
+    return trax_fail(error, "the engine %s does not count the cycles of rays", engine->name);
   const double begun = host_seconds();
   struct run *run = calloc(1, sizeof *run);
   if (!run)

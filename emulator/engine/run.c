@@ -88,7 +88,7 @@ static uint64_t earliest(const struct trax_run *run, uint64_t until) {
 static trax_status run_until(struct trax_run *run, uint64_t until) {
   const struct trax_engine *engine = run->engine;
   run->ended = true; /* unless `until` is reached */
-  while (true) {
+  while (!run->complete) {
     if (run->t >= until) {
       run->ended = false;
       return TRAX_OK;
@@ -115,6 +115,7 @@ static trax_status run_until(struct trax_run *run, uint64_t until) {
     }
     trax_poll_pass(&run->poll, run->t > before ? run->t - before : TRAX_POLL_INTERVAL);
   }
+  return TRAX_OK;
 }
 
 trax_status trax_run_advance(struct trax_run *run, uint64_t until) {

@@ -16,6 +16,7 @@ struct trax_run {
   struct trax_text text; /* the program, decoded */
   uint64_t begin;        /* the first cycle; not 0 if the run resumes another one */
 
+  bool complete; /* it resumes a run whose program had ended: there is nothing to simulate */
   bool begun, ended;
   uint64_t t;         /* the next cycle; after the end, the length of the run */
   uint64_t limit;     /* of cycles */

@@ -129,7 +129,7 @@ static uint64_t run_warp(const struct recording *items, size_t count, uint64_t *
   *longest += most;
   for (;;) {
     /* The threads at the lowest address advance together up to the first jump or the next thread's pc. */
-    uint32_t lowest = UINT32_MAX, next = UINT32_MAX, steps = UINT32_MAX;
+    uint32_t lowest = UINT32_MAX, next = UINT32_MAX, together = UINT32_MAX;
     for (size_t i = 0; i < count; i++) {
       const uint32_t pc = pc_of(&cursors[i]);
       if (pc < lowest)
@@ -140,17 +140,17 @@ static uint64_t run_warp(const struct recording *items, size_t count, uint64_t *
     if (lowest == UINT32_MAX)
       return slots;
     for (size_t i = 0; i < count; i++)
-      if (pc_of(&cursors[i]) == lowest && cursors[i].at->count - cursors[i].done < steps)
-        steps = cursors[i].at->count - cursors[i].done;
-    if (next != UINT32_MAX && (next - lowest) / 4 < steps)
-      steps = (next - lowest) / 4;
+      if (pc_of(&cursors[i]) == lowest && cursors[i].at->count - cursors[i].done < together)
+        together = cursors[i].at->count - cursors[i].done;
+    if (next != UINT32_MAX && (next - lowest) / 4 < together)
+      together = (next - lowest) / 4;
     for (size_t i = 0; i < count; i++)
       if (pc_of(&cursors[i]) == lowest) {
-        cursors[i].done += steps;
+        cursors[i].done += together;
         if (cursors[i].done == cursors[i].at->count)
           cursors[i].at++, cursors[i].done = 0;
       }
-    slots += steps;
+    slots += together;
   }
 }
 

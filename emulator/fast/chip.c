@@ -144,6 +144,7 @@ static void settle(void *context, uint64_t t) {
   trax_fast_settle(chip);
   for (uint32_t i = 0; i < chip->tms; i++) {
     trax_tm_settle(&chip->tm[i], t);
+    trax_fast_settle_rays(&chip->tm[i]);
     chip->tm[i].stats->queue_peak = chip->tm[i].queue.peak;
   }
 }
@@ -199,9 +200,10 @@ static uint32_t queued(const void *context, uint32_t tm, uint64_t t) {
 #define ENGINE(NAME, MEANING, IS_POSSIBLE)                                                                             \
   {                                                                                                                    \
     .name = NAME, .meaning = MEANING, .is_possible = IS_POSSIBLE, .is_timed = true, .is_observed = true,               \
-    .create = create, .destroy = trax_chip_destroy, .advance = advance, .commit = commit, .collect = collect,          \
-    .settle = settle, .export_state = export_state, .import_state = import_state, .thread = thread, .set_pc = set_pc,  \
-    .progressed = progressed, .queued = queued, .visit = trax_state_visit, .check = trax_state_check                   \
+    .counts_rays = true, .create = create, .destroy = trax_chip_destroy, .advance = advance, .commit = commit,         \
+    .collect = collect, .settle = settle, .export_state = export_state, .import_state = import_state,                  \
+    .thread = thread, .set_pc = set_pc, .progressed = progressed, .queued = queued, .visit = trax_state_visit,         \
+    .check = trax_state_check                                                                                          \
   }
 
 const struct trax_engine trax_fast_engine = ENGINE("fast", "the default, for what the host has", NULL);

@@ -47,6 +47,10 @@ void trax_chip_destroy(void *chip); /* may be NULL */
 void trax_fast_collect(struct trax_chip *chip);
 /* Completes statistics and charges for the cycles that are over. */
 void trax_fast_settle(struct trax_chip *chip);
+/* With trax_tm.ray_counts: counts the cycles of rays after the issue of a trap, and up to now, for a TM that has been
+   settled. */
+void trax_fast_count_rays(struct trax_tm *tm, unsigned number, int32_t code, uint32_t value);
+void trax_fast_settle_rays(struct trax_tm *tm);
 /* Notifies an observer of the refusals of the current cycle. */
 void trax_fast_notify_refusals(const struct trax_tm *tm, const struct trax_fast_refused *refused);
 

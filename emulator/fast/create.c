@@ -81,6 +81,10 @@ static trax_status create_tm(struct trax_tm *tm, uint32_t number, struct trax_ch
   tm->stats = &machine->tm_stats[number];
   tm->tp_stats = &machine->tp_stats[(size_t)number * tps];
   tm->exit_statuses = &machine->exit_statuses[(size_t)number * tps];
+  if (machine->ray_cycles) {
+    tm->ray_counts = &machine->ray_cycles->tms[number];
+    tm->rays = &machine->ray_cycles->threads[(size_t)number * tps];
+  }
   tm->tp = create_aligned(tps, sizeof *tm->tp);
   tm->count_deltas = calloc(chip->program.inst_count + 1, sizeof *tm->count_deltas);
   if (!tm->tp || !tm->count_deltas || !create_fetch(tm) || !create_data(tm) || !create_units(tm))
@@ -88,10 +92,8 @@ static trax_status create_tm(struct trax_tm *tm, uint32_t number, struct trax_ch
   tm->awake = trax_group_mask(0, tps);
   tm->running = tps;
   tm->heads.steps = tm->tp->step;
-  for (unsigned i = 0; i < TRAX_MAX_TPS_PER_TM; i++) { /* TPs that do not exist have TP 0's steps: vectors read them */
+  for (unsigned i = 0; i < TRAX_MAX_TPS_PER_TM; i++) /* TPs that do not exist have TP 0's steps: vectors read them */
     trax_fast_begin_heads(&tm->heads, i, i < tps ? i * (uint32_t)(sizeof *tm->tp / sizeof(uint16_t)) : 0);
-    tm->loads_of[i] = tm->tp[i < tps ? i : 0].loads;
-  }
   for (unsigned i = 0; i < tps; i++) {
     struct trax_tp *tp = &tm->tp[i];
     tp->pc = tp->resume_pc = trax_machine_entry_of(machine, number * tps + i);

@@ -124,6 +124,8 @@ static void visit_tm(const struct visitor *visitor, struct trax_tm *tm) {
   VISIT_NUMBERS(int32_t, tm->exit_statuses, tm->tps);
   /* The program and the states of blocks are not visited: they stay valid after a roll back. */
   VISIT_DERIVED(tm->count_deltas, tm->chip->program.inst_count + 1);
+  VISIT_DERIVED(tm->ray_counts, tm->ray_counts ? 1 : 0); /* no checkpoint has them */
+  VISIT_DERIVED(tm->rays, tm->rays ? tm->tps : 0);
   VISIT_DERIVED(tm->resident, tm->icaches);
   VISIT_DERIVED(tm->resident_lines, tm->icaches);
   VISIT_DERIVED(tm->fetch_rr_masks, (size_t)tm->icaches * tm->vectors);

@@ -126,20 +126,28 @@ static void check_l2(struct trax_state_checker *checker, const struct trax_l2 *l
   }
 }
 
-/* Checks that arriving lines have an arrival, that each used miss register is in one list, and that free ones are in
- * none.
- */
+/* Checks that the lines with an arrival, and no others, are in the lists of arriving lines, in its order, that each
+   used miss register is in one list, and that free ones are in none. */
 static void check_lines_listed(struct trax_state_checker *checker, const struct trax_l2 *l2) {
+  uint32_t arriving = 0;
   for (uint32_t i = 0; i < l2->mshr_limit; i++)
     trax_state_expect(checker, checker->lines_listed[l2->used[i]] == (i < l2->used_count),
                       "second-level cache: miss register %u is in no list, or without a line", l2->used[i]);
-  for (unsigned i = 0; i < TRAX_MAX_CHANNELS; i++)
-    for (trax_request_id id = l2->arriving[i].first; id != TRAX_NO_REQUEST;) { /* check_list has checked the ids */
-      if (!trax_state_expect(checker, id >= TRAX_LINE_REQUEST && l2->mshr[id - TRAX_LINE_REQUEST].arrival != TRAX_NEVER,
+  for (uint32_t i = 0; i < l2->used_count; i++)
+    arriving += l2->mshr[l2->used[i]].arrival != TRAX_NEVER;
+  for (unsigned i = 0; i < TRAX_MAX_CHANNELS; i++) {
+    uint64_t before = 0;
+    for (trax_request_id id = l2->arriving[i].first; id != TRAX_NO_REQUEST;
+         arriving--) { /* check_list has checked ids */
+      const struct trax_l2_mshr *mshr = id >= TRAX_LINE_REQUEST ? &l2->mshr[id - TRAX_LINE_REQUEST] : NULL;
+      if (!trax_state_expect(checker, mshr && mshr->arrival != TRAX_NEVER && mshr->arrival >= before,
                              "coming line: request 0x%" PRIx32, id))
         return;
-      id = l2->mshr[id - TRAX_LINE_REQUEST].request.next;
+      before = mshr->arrival;
+      id = mshr->request.next;
     }
+  }
+  trax_state_expect(checker, arriving == 0, "second-level cache: a line with an arrival does not come");
 }
 
 /* The requests that the machine can have. */

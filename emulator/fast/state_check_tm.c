@@ -13,6 +13,8 @@ static bool is_soon(const struct trax_state_checker *checker, uint64_t cycle) {
 /* What the requests in a TM's queue are for. */
 struct wanted {
   uint32_t data_lines, instruction_lines;
+  uint8_t data_line[1 << TRAX_REQUEST_BITS];      /* by miss register: whether its line is requested */
+  uint64_t instruction_line[TRAX_MAX_TPS_PER_TM]; /* by cache: mask of its pending lines that are requested */
   uint16_t writes[TRAX_MAX_TPS_PER_TM], increments[TRAX_MAX_TPS_PER_TM];
   uint64_t registers[TRAX_MAX_TPS_PER_TM]; /* masks of registers that arrivals will make usable, TRAX_NO_REGISTER too */
 };
@@ -31,6 +33,29 @@ static uint32_t find_pending(const struct trax_icache *icache, uint32_t line) {
   return i;
 }
 
+/* Each pending line has one request, and each request a pending line: an arrival finds the line that it is for. */
+static void want_instruction_line(struct trax_state_checker *checker, const struct trax_tm *tm,
+                                  const struct trax_request *request, uint32_t place, struct wanted *wanted) {
+  const struct trax_icache *icache = &tm->icache[request->icache];
+  uint64_t *lines = &wanted->instruction_line[request->icache];
+  const uint32_t i = find_pending(icache, request->line);
+  wanted->instruction_lines++;
+  if (trax_state_expect(checker, i < icache->pending_count && !(*lines >> i & 1),
+                        "TM %u, request %u: no TP waits for instruction line %" PRIu32, tm->number, place,
+                        request->line))
+    *lines |= (uint64_t)1 << i;
+}
+
+/* The same for miss registers. */
+static void want_data_line(struct trax_state_checker *checker, const struct trax_tm *tm,
+                           const struct trax_request *request, uint32_t place, struct wanted *wanted) {
+  const uint32_t i = find_mshr(&tm->dcache, request->line);
+  wanted->data_lines++;
+  if (trax_state_expect(checker, i < tm->dcache.mshr_count && !wanted->data_line[i],
+                        "TM %u, request %u: no miss register has line %" PRIu32, tm->number, place, request->line))
+    wanted->data_line[i] = 1;
+}
+
 static void check_request(struct trax_state_checker *checker, const struct trax_tm *tm, uint32_t place,
                           struct wanted *wanted) {
   const struct trax_request *request = &tm->queue.requests[place];
@@ -47,15 +72,10 @@ static void check_request(struct trax_state_checker *checker, const struct trax_
                       "TM %u, request %u: completes in cycle %" PRIu64, tm->number, place, request->completion);
   switch ((trax_request_kind)request->kind) {
   case TRAX_REQUEST_INSTRUCTION_LINE:
-    wanted->instruction_lines++;
-    trax_state_expect(
-        checker, find_pending(&tm->icache[request->icache], request->line) < tm->icache[request->icache].pending_count,
-        "TM %u, request %u: no TP waits for instruction line %" PRIu32, tm->number, place, request->line);
+    want_instruction_line(checker, tm, request, place, wanted);
     break;
   case TRAX_REQUEST_DATA_LINE:
-    wanted->data_lines++;
-    trax_state_expect(checker, find_mshr(&tm->dcache, request->line) < tm->dcache.mshr_count,
-                      "TM %u, request %u: no miss register has line %" PRIu32, tm->number, place, request->line);
+    want_data_line(checker, tm, request, place, wanted);
     break;
   case TRAX_REQUEST_ATOMIC:
     trax_state_expect(
@@ -126,7 +146,7 @@ static void check_dcache(struct trax_state_checker *checker, const struct trax_t
     trax_state_expect(
         checker, dcache->fills_end[i] <= dcache->all_fills_end && dcache->all_fills_end <= checker->farthest,
         "TM %u, bank %u of the data cache: filled up to cycle %" PRIu64, tm->number, i, dcache->fills_end[i]);
-  if (!trax_state_expect(checker, dcache->mshr_count <= dcache->mshr_limit && dcache->mshr_count == wanted->data_lines,
+  if (!trax_state_expect(checker, dcache->mshr_count == wanted->data_lines,
                          "TM %u: %" PRIu32 " miss registers, %" PRIu32 " lines", tm->number, dcache->mshr_count,
                          wanted->data_lines))
     return;
@@ -156,9 +176,6 @@ static uint64_t check_icaches(struct trax_state_checker *checker, const struct t
     const uint64_t group = trax_group_mask(i, tm->config->icache.tps_per_cache);
     trax_state_check_tags(checker, &icache->tags, "instruction cache");
     trax_state_check_arbiters(checker, icache->bank, 64, "bank of an instruction cache");
-    if (!trax_state_expect(checker, icache->pending_count <= tm->tps,
-                           "TM %u: %" PRIu32 " instruction lines are on their way", tm->number, icache->pending_count))
-      return waiting;
     lines += icache->pending_count;
     for (uint32_t j = 0; j < icache->pending_count; j++) {
       const uint64_t who = icache->pending[j].waiting;
@@ -238,10 +255,21 @@ static void check_units(struct trax_state_checker *checker, const struct trax_tm
   }
 }
 
+/* The lines on their way fit their arrays, which the checks of the requests search. */
+static void check_line_counts(struct trax_state_checker *checker, const struct trax_tm *tm) {
+  trax_state_expect(checker, tm->dcache.mshr_count <= tm->dcache.mshr_limit, "TM %u: %" PRIu32 " miss registers",
+                    tm->number, tm->dcache.mshr_count);
+  for (uint32_t i = 0; i < tm->icaches; i++)
+    trax_state_expect(checker, tm->icache[i].pending_count <= tm->tps,
+                      "TM %u: %" PRIu32 " instruction lines are on their way", tm->number, tm->icache[i].pending_count);
+}
+
 void trax_state_check_tm(struct trax_state_checker *checker, struct trax_tm *tm) {
   const uint64_t all = trax_group_mask(0, tm->tps), t = checker->t;
   struct wanted wanted = {0};
-  check_queue(checker, tm, &wanted);
+  check_line_counts(checker, tm);
+  if (!checker->failed)
+    check_queue(checker, tm, &wanted);
   if (checker->failed)
     return;
   check_dcache(checker, tm, &wanted);

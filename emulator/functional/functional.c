@@ -23,13 +23,13 @@ struct instruction {
   uint8_t op, rd, ra, rb;
 };
 
-struct section {
+struct segment {
   uint32_t begin, bytes;
   struct instruction *inst; /* [bytes / 4 + 1]; the last one is no text */
 };
 
 struct text {
-  struct section *sections; /* [count]; their instructions are in one array */
+  struct segment *segments; /* [count]; their instructions are in one array */
   size_t count;
   struct instruction *inst;           /* [inst_count] */
   const struct instruction *not_text; /* the last one, for every pc that is no text */
@@ -62,8 +62,8 @@ struct chip {
 
 static const struct instruction *inst_at(const struct text *text, uint32_t pc) {
   for (size_t i = 0; i < text->count && pc % 4 == 0; i++)
-    if (pc - text->sections[i].begin < text->sections[i].bytes)
-      return text->sections[i].inst + (pc - text->sections[i].begin) / 4;
+    if (pc - text->segments[i].begin < text->segments[i].bytes)
+      return text->segments[i].inst + (pc - text->segments[i].begin) / 4;
   return text->not_text;
 }
 
@@ -248,18 +248,18 @@ static trax_status predecode(struct text *text, const struct trax_text *from, tr
   run_slice(NULL, NULL, 0, &operations);
   text->inst_count = 1;
   for (size_t i = 0; i < from->count; i++)
-    text->inst_count += (from->sections[i].end - from->sections[i].begin) / 4 + 1;
-  text->sections = calloc(from->count + 1, sizeof *text->sections);
+    text->inst_count += (from->segments[i].end - from->segments[i].begin) / 4 + 1;
+  text->segments = calloc(from->count + 1, sizeof *text->segments);
   text->inst = calloc(text->inst_count, sizeof *text->inst);
-  if (!text->sections || !text->inst)
+  if (!text->segments || !text->inst)
     return trax_fail(error, "out of memory for %zu instructions", text->inst_count);
   struct instruction *inst = text->inst;
   for (size_t i = 0; i < from->count; i++) {
-    const struct trax_text_section *section = &from->sections[i];
-    const uint32_t words = (section->end - section->begin) / 4;
-    text->sections[text->count++] = (struct section){section->begin, words * 4, inst};
+    const struct trax_text_segment *segment = &from->segments[i];
+    const uint32_t words = (segment->end - segment->begin) / 4;
+    text->segments[text->count++] = (struct segment){segment->begin, words * 4, inst};
     for (uint32_t word = 0; word <= words; word++) {
-      const struct trax_decoded *decoded = &section->decoded[word];
+      const struct trax_decoded *decoded = &segment->decoded[word];
       *inst++ = (struct instruction){operations[is_slow(decoded) ? TRAX_OP_ILLEGAL : decoded->op],
                                      decoded->imm,
                                      decoded->op,
@@ -314,7 +314,7 @@ static void destroy(void *context) {
   free(chip->deltas);
   free(chip->thread);
   trax_translation_destroy(chip->translation);
-  free(chip->text.sections);
+  free(chip->text.segments);
   free(chip->text.inst);
   free(chip);
 }

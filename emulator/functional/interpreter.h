@@ -24,7 +24,7 @@ static enum stop run_slice(struct chip *chip, struct thread *thread, uint64_t en
   const struct text *const text = &chip->text;
   int64_t *const deltas = chip->deltas[thread->tm];
   const struct instruction *const base = text->inst;
-  const struct section *const first = text->sections;
+  const struct segment *const first = text->segments;
   const struct instruction *inst = inst_at(text, thread->pc), *begin = inst;
   uint64_t count = thread->executed;
   uint32_t address, word, pc = thread->pc;

@@ -86,8 +86,8 @@ bool trax_gdb_write_memory(struct trax_gdb *gdb, uint32_t thread, uint32_t addre
   if (gdb->over || trax_gdb_memory(gdb, thread, address, size, &place) != size)
     return false;
   for (size_t i = 0; i < gdb->run->text.count; i++) {
-    const struct trax_text_section *section = &gdb->run->text.sections[i];
-    if (address < section->end && (uint64_t)address + size > section->begin)
+    const struct trax_text_segment *segment = &gdb->run->text.segments[i];
+    if (address < segment->end && (uint64_t)address + size > segment->begin)
       return false;
   }
   memcpy(place, bytes, size);

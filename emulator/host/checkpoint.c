@@ -26,7 +26,7 @@
 #include <xxhash.h>
 #include <zlib.h>
 
-enum { PAGE = 4096, VERSION = 6, LEVEL = 1, MOST_EXPANSION = 1100 /* deflate expands at most by this factor */ };
+enum { PAGE = 4096, VERSION = 7, LEVEL = 1, MOST_EXPANSION = 1100 /* deflate expands at most by this factor */ };
 
 static const char magic[8] = "TRAXckpt";
 
@@ -42,6 +42,7 @@ struct header {
   uint64_t run[2];     /* digest of configuration, segments, entry and memory before cycle 0 */
   uint64_t layouts;    /* entries */
   uint64_t calls;      /* bytes of the state of host calls */
+  uint64_t complete;   /* 1: the program has ended; else 0 */
   uint64_t body[2];    /* digest of the header, with zero here, and of the bytes that follow */
 };
 
@@ -178,7 +179,7 @@ static trax_status write_file(const char *path, const struct header *header, con
   return trax_output_commit(&output, error);
 }
 
-static trax_status write_checkpoint(struct trax_checkpoint *checkpoint, struct trax_run *run, uint64_t t,
+static trax_status write_checkpoint(struct trax_checkpoint *checkpoint, struct trax_run *run, uint64_t t, bool complete,
                                     trax_error *error) {
   struct content content = {.checkpoint = checkpoint};
   trax_run_export(run);
@@ -186,7 +187,8 @@ static trax_status write_checkpoint(struct trax_checkpoint *checkpoint, struct t
   if (run->options->output)
     fflush(run->options->output); /* the output so far must not be lost or repeated when the run is resumed */
   struct trax_layout layouts[TRAX_MOST_LAYOUTS];
-  struct header header = {.version = VERSION, .cycle = t, .layouts = trax_layout_of(run->engine, run->chip, layouts)};
+  struct header header = {
+      .version = VERSION, .cycle = t, .layouts = trax_layout_of(run->engine, run->chip, layouts), .complete = complete};
   add(&content, layouts, header.layouts * sizeof *layouts);
   run->engine->visit(run->chip, add_section, &content);
   header.state = content.count - header.layouts * sizeof *layouts;
@@ -213,8 +215,8 @@ static trax_status write_checkpoint(struct trax_checkpoint *checkpoint, struct t
     header.body[1] = digest.high64;
     status = write_file(checkpoint->options.write, &header, body, error);
     checkpoint->written = t;
-    if (status == TRAX_OK) /* a run that is resumed from here on finds the files as they then are */
-      status = trax_calls_commit(run->machine, error);
+    if (status == TRAX_OK && !complete) /* a run that is resumed from here on finds the files as they then are */
+      status = trax_calls_commit(run->machine, error); /* else trax_calls_end makes the changes */
   }
   free(body);
   free(content.bytes);
@@ -231,17 +233,20 @@ static uint64_t next_time(const struct trax_checkpoint_options *options, uint64_
 static trax_status inspect(struct trax_watch *watch, struct trax_run *run, uint64_t t) {
   struct trax_checkpoint *checkpoint = watch->context;
   watch->next = next_time(&checkpoint->options, t);
-  if (t == run->begin || write_checkpoint(checkpoint, run, t, &checkpoint->error) == TRAX_OK)
+  if (t == run->begin || write_checkpoint(checkpoint, run, t, false, &checkpoint->error) == TRAX_OK)
     return TRAX_OK;
   checkpoint->failed = true;
   return TRAX_INTERRUPTED;
 }
 
-/* A run that was interrupted or stopped can be resumed from its last cycle. */
+/* A run that was interrupted or stopped can be resumed from its last cycle. So can one whose program has ended, because
+   this process may be killed before it has changed all files of the host. */
 static void end(struct trax_watch *watch, struct trax_run *run, trax_status status, uint64_t t) {
   struct trax_checkpoint *checkpoint = watch->context;
-  if ((status == TRAX_INTERRUPTED || status == TRAX_STUCK) && !checkpoint->failed && checkpoint->written != t)
-    checkpoint->failed = write_checkpoint(checkpoint, run, t, &checkpoint->error) != TRAX_OK;
+  const bool unfinished = status == TRAX_INTERRUPTED || status == TRAX_STUCK ||
+                          (status == TRAX_OK && trax_calls_pending(checkpoint->machine));
+  if (unfinished && !checkpoint->failed && checkpoint->written != t)
+    checkpoint->failed = write_checkpoint(checkpoint, run, t, status == TRAX_OK, &checkpoint->error) != TRAX_OK;
 }
 
 /* --- reading --- */
@@ -338,6 +343,14 @@ static trax_status check_layouts(const struct trax_checkpoint *checkpoint, struc
   return TRAX_OK;
 }
 
+/* A run is complete only if all of its threads have ended. */
+static bool can_be_complete(struct trax_run *run) {
+  bool ended = true;
+  for (uint32_t thread = 0; thread < run->machine->stats.threads; thread++)
+    ended &= trax_run_thread(run, thread).ended;
+  return ended;
+}
+
 /* Restores the state; called by trax_machine.prepare. */
 static trax_status resume(void *context, struct trax_run *run, trax_error *error) {
   struct trax_checkpoint *checkpoint = context;
@@ -363,8 +376,11 @@ static trax_status resume(void *context, struct trax_run *run, trax_error *error
     return refuse(checkpoint->options.resume, reason.message, error);
   if (run->engine->check(run->chip, header->cycle, wrong))
     return trax_fail(error, "%s: its state cannot be: %s", checkpoint->options.resume, wrong);
+  if (header->complete > 1 || (header->complete && !can_be_complete(run)))
+    return refuse(checkpoint->options.resume, "its state cannot be: the program ends in the midst of its run", error);
   trax_run_import(run, header->cycle);
   run->begin = header->cycle;
+  run->complete = header->complete;
   free(checkpoint->content);
   checkpoint->content = NULL;
   return TRAX_OK;

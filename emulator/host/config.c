@@ -122,7 +122,7 @@ const struct trax_config_key *trax_config_find(const char *name, trax_error *err
   const char *nearest = trax_nearest_name(name, trax_config_key_count, key_name, NULL);
   if (strcmp(name, "dcache.lru") == 0 || strcmp(name, "l2.lru") == 0)
     nearest = name[0] == 'd' ? "dcache.replacement" : "l2.replacement"; /* their former names */
-  /* A key without its section, such as "latency_cycles", is completed in the message. */
+  /* A key without its component, such as "latency_cycles", is completed in the message. */
   for (size_t i = 0; i < trax_config_key_count && !nearest; ++i)
     if (strcmp(trax_config_keys[i].key, name) == 0)
       nearest = trax_config_keys[i].name;
@@ -238,12 +238,12 @@ static void format_value(const struct trax_config_key *key, double value, char *
 }
 
 void trax_config_print(const trax_config *config, FILE *out) {
-  const char *section = "";
+  const char *component = "";
   for (size_t i = 0; i < trax_config_key_count; ++i) {
     const struct trax_config_key *key = &trax_config_keys[i];
-    if (strcmp(section, key->section) != 0)
-      fprintf(out, "%s%s: {\n", *section ? "};\n" : "", key->section);
-    section = key->section;
+    if (strcmp(component, key->component) != 0)
+      fprintf(out, "%s%s: {\n", *component ? "};\n" : "", key->component);
+    component = key->component;
     char value[TRAX_CONFIG_WORD + 2], setting[TRAX_CONFIG_WORD + 48];
     format_value(key, trax_config_value(config, key), value, sizeof value);
     snprintf(setting, sizeof setting, "%s = %s;", key->key, value);
@@ -276,7 +276,7 @@ void trax_config_describe(FILE *out) {
                fmax(key->least, 1), key->most);
       break;
     case TRAX_KIND_REAL:
-      snprintf(range, sizeof range, "%.12g to %.12g, steps of 0.001", key->least, key->most);
+      snprintf(range, sizeof range, "%.12g to %.12g, multiples of 0.001", key->least, key->most);
       break;
     case TRAX_KIND_COUNT:
       snprintf(range, sizeof range, "%.12g to %.12g", key->least, key->most);

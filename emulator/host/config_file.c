@@ -1,4 +1,4 @@
-/* Configuration files (libconfig): sections of keys, and optionally the preset that they modify.
+/* Configuration files (libconfig): components with keys, and optionally the preset that they modify.
 
      preset = "4x32";
      memory: { bandwidth_gbps = 16.0; };
@@ -96,7 +96,7 @@ static struct value_text describe(const config_setting_t *setting) {
     snprintf(value.text, sizeof value.text, "%s", config_setting_get_bool(setting) ? "true" : "false");
     break;
   case CONFIG_TYPE_GROUP:
-    snprintf(value.text, sizeof value.text, "a section");
+    snprintf(value.text, sizeof value.text, "a component");
     break;
   default:
     snprintf(value.text, sizeof value.text, "a list");
@@ -105,10 +105,10 @@ static struct value_text describe(const config_setting_t *setting) {
   return value;
 }
 
-static trax_status apply_setting(struct trax_config *config, const char *section, const config_setting_t *setting,
+static trax_status apply_setting(struct trax_config *config, const char *component, const config_setting_t *setting,
                                  trax_error *error) {
   char name[256];
-  snprintf(name, sizeof name, "%s%s%s", section, *section ? "." : "", config_setting_name(setting));
+  snprintf(name, sizeof name, "%s%s%s", component, *component ? "." : "", config_setting_name(setting));
   if (strcmp(name, TRAX_DRAM_PRESET) == 0) {
     const char *preset = config_setting_get_string(setting);
     return trax_dram_preset_apply(config, preset ? preset : describe(setting).text, error);
@@ -132,16 +132,16 @@ static trax_status apply_setting(struct trax_config *config, const char *section
   return trax_config_store(config, key, value, error);
 }
 
-static bool is_section(const char *name) {
+static bool is_component(const char *name) {
   for (size_t i = 0; i < trax_config_key_count; ++i)
-    if (strcmp(trax_config_keys[i].section, name) == 0)
+    if (strcmp(trax_config_keys[i].component, name) == 0)
       return true;
   return false;
 }
 
-static const char *key_section(const void *context, size_t i) {
+static const char *key_component(const void *context, size_t i) {
   (void)context;
-  return trax_config_keys[i].section;
+  return trax_config_keys[i].component;
 }
 
 static trax_status located(const char *path, const config_setting_t *setting, const trax_error *reason,
@@ -149,18 +149,18 @@ static trax_status located(const char *path, const config_setting_t *setting, co
   return trax_fail(error, "%s:%u: %.800s", path, config_setting_source_line(setting), reason->message);
 }
 
-static trax_status apply_section(struct trax_config *config, const char *path, const config_setting_t *section,
-                                 trax_error *error) {
-  const char *name = config_setting_name(section);
+static trax_status apply_component(struct trax_config *config, const char *path, const config_setting_t *component,
+                                   trax_error *error) {
+  const char *name = config_setting_name(component);
   trax_error reason = {.message = ""};
-  if (!is_section(name)) {
-    const char *nearest = trax_nearest_name(name, trax_config_key_count, key_section, NULL);
-    trax_fail(&reason, "unknown section \"%s\"%s%s%s", name, nearest ? "; did you mean " : "", nearest ? nearest : "",
+  if (!is_component(name)) {
+    const char *nearest = trax_nearest_name(name, trax_config_key_count, key_component, NULL);
+    trax_fail(&reason, "unknown component \"%s\"%s%s%s", name, nearest ? "; did you mean " : "", nearest ? nearest : "",
               nearest ? "?" : "");
-    return located(path, section, &reason, error);
+    return located(path, component, &reason, error);
   }
-  for (int i = 0; i < config_setting_length(section); ++i) {
-    const config_setting_t *setting = config_setting_get_elem(section, (unsigned)i);
+  for (int i = 0; i < config_setting_length(component); ++i) {
+    const config_setting_t *setting = config_setting_get_elem(component, (unsigned)i);
     if (apply_setting(config, name, setting, &reason) != TRAX_OK)
       return located(path, setting, &reason, error);
   }
@@ -186,14 +186,14 @@ static trax_status apply_all(struct trax_config *config, const char *path, const
     if (setting == preset)
       continue;
     if (config_setting_type(setting) == CONFIG_TYPE_GROUP) {
-      if (apply_section(config, path, setting, error) != TRAX_OK)
+      if (apply_component(config, path, setting, error) != TRAX_OK)
         return TRAX_ERROR;
       continue;
     }
-    if (is_section(config_setting_name(setting)))
-      trax_fail(&reason, "%s is %s; it must be a section: %s: { ... };", config_setting_name(setting),
+    if (is_component(config_setting_name(setting)))
+      trax_fail(&reason, "%s is %s; it must be a component: %s: { ... };", config_setting_name(setting),
                 describe(setting).text, config_setting_name(setting));
-    else /* no key is outside a section: this fails with a message that names the section */
+    else /* no key is outside a component: this fails with a message that names the component */
       apply_setting(config, "", setting, &reason);
     return located(path, setting, &reason, error);
   }
@@ -214,7 +214,7 @@ trax_status trax_config_read_file(struct trax_config *config, const char *path, 
     if (config_read_string(&file, text) != CONFIG_TRUE) {
       const char *reason = config_error_text(&file);
       if (reason && strcmp(reason, "memory exhausted") == 0) /* the parser's stack is full */
-        reason = "sections are nested too deeply";
+        reason = "components are nested too deeply";
       status = trax_fail(error, "%s:%d: %s", path, config_error_line(&file), reason);
     } else
       status = apply_all(&result, path, &file, error);

@@ -125,7 +125,7 @@ static trax_status debug(trax_machine *machine, trax_run_options *options, unsig
 static trax_status run(trax_machine *machine, const struct trax_options *options, trax_error *error) {
   trax_progress_line line;
   trax_progress_line_begin(&line, "trax-sim", options->quiet);
-  struct trax_run_progress progress = {.line = &line, .step = "running"};
+  struct trax_run_progress progress = {.line = &line, .task = "running"};
   trax_run_options run_options = {.output = stdout,
                                   .input = stdin,
                                   .errors = stderr,
@@ -133,7 +133,8 @@ static trax_status run(trax_machine *machine, const struct trax_options *options
                                   .total_items = options->total_items,
                                   .interrupt = &trax_signal,
                                   .engine = options->engine->name,
-                                  .host_threads = options->host_threads};
+                                  .host_threads = options->host_threads,
+                                  .ray_cycles = options->ray_cycles != NULL};
   if (line.terminal) {
     run_options.progress = trax_run_progress_show;
     run_options.progress_context = &progress;
@@ -202,6 +203,9 @@ static trax_status write_outputs(trax_machine *machine, const struct trax_option
   if (trax_output_flush(&reason) != TRAX_OK && !reader_gone)
     result = trax_fail(error, "%s", reason.message);
   if (options->stats && trax_stats_write_json(machine, options->stats, &reason) != TRAX_OK && result == TRAX_OK)
+    result = trax_fail(error, "%s", reason.message);
+  if (options->ray_cycles && finished && trax_ray_cycles_write(machine, options->ray_cycles, &reason) != TRAX_OK &&
+      result == TRAX_OK)
     result = trax_fail(error, "%s", reason.message);
   if (options->report && write_report(machine, options->report, &reason) != TRAX_OK && result == TRAX_OK)
     result = trax_fail(error, "%s", reason.message);

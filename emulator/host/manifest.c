@@ -345,19 +345,19 @@ static trax_status value_text(const struct place *place, char text[TRAX_CONFIG_W
 trax_status trax_manifest_configure(const trax_manifest *manifest, trax_config *config, trax_error *error) {
   const struct place root = {.manifest = manifest, .value = manifest->root};
   const struct place configuration = member(&root, "configuration");
-  const char *section_name, *key;
-  json_t *section, *value;
+  const char *component_name, *key;
+  json_t *component, *value;
   if (configuration.value && !json_is_object(configuration.value))
     return refuse(&configuration, error, "must be an object");
-  json_object_foreach(configuration.value, section_name, section) {
-    const struct place in = member(&configuration, section_name);
-    if (!json_is_object(section))
+  json_object_foreach(configuration.value, component_name, component) {
+    const struct place in = member(&configuration, component_name);
+    if (!json_is_object(component))
       return refuse(&in, error, "must be an object");
-    json_object_foreach(section, key, value) {
+    json_object_foreach(component, key, value) {
       const struct place at = member(&in, key);
       char text[TRAX_CONFIG_WORD], name[96];
       trax_error reason;
-      snprintf(name, sizeof name, "%.40s.%.40s", section_name, key);
+      snprintf(name, sizeof name, "%.40s.%.40s", component_name, key);
       if (value_text(&at, text, error) != TRAX_OK)
         return TRAX_ERROR;
       if (trax_config_set(config, name, text, &reason) != TRAX_OK)

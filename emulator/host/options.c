@@ -203,6 +203,8 @@ static const trax_option rows[] = {
      .meaning = "number of items that the program will report, for the time left"},
     TRAX_OPTION_GROUP("Statistics"),
     {"stats", .argument = "FILE", OUTPUT(stats), .meaning = "statistics as JSON; - is standard output"},
+    {"ray-cycles", .argument = "FILE", OUTPUT(ray_cycles),
+     .meaning = "thread-cycles of the rays of each kind, as CSV; as fast as without"},
     {"report", .argument = "FILE", OUTPUT(report), .meaning = "statistics as text; - is standard output"},
     {"help-stats", .kind = TRAX_OPTION_SHOW, .show = trax_stats_describe, .meaning = "describe every statistic, and end"},
     TRAX_OPTION_GROUP("Explanations of a run"),
@@ -279,6 +281,10 @@ static bool has_checkpoints(const struct trax_engine *engine) {
   return engine->visit != NULL;
 }
 
+static bool counts_rays(const struct trax_engine *engine) {
+  return engine->counts_rays;
+}
+
 /* Checks that the engine can(); `what` begins the message, which lists the engines that can. */
 static trax_status need(const struct trax_options *options, bool (*can)(const struct trax_engine *engine),
                         const char *what, trax_error *error) {
@@ -319,6 +325,10 @@ static trax_status check_engine(const struct trax_options *options, trax_error *
     return TRAX_ERROR;
   if (options->watchdog && need(options, is_timed, "--watchdog needs", error) != TRAX_OK)
     return TRAX_ERROR;
+  if (options->ray_cycles && need(options, counts_rays, "--ray-cycles needs", error) != TRAX_OK)
+    return TRAX_ERROR;
+  if (options->ray_cycles && checkpoint->resume)
+    return trax_fail(error, "--resume: the cycles of rays before the checkpoint are not known");
   return options->gdb ? need(options, observes, "--gdb needs", error) : TRAX_OK;
 }
 

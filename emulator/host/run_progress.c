@@ -15,7 +15,7 @@ void trax_run_progress_show(void *context, const trax_progress *status) {
   snprintf(detail, sizeof detail, "%.2f million cycles, %.1f million instructions/s%s", (double)status->cycle / 1e6,
            rate, items);
   const double fraction = status->total_items ? (double)status->items / (double)status->total_items : -1;
-  if (trax_progress_line_show(progress->line, progress->step, fraction, detail)) {
+  if (trax_progress_line_show(progress->line, progress->task, fraction, detail)) {
     progress->shown = true;
     progress->last = *status;
   }

@@ -6,10 +6,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#define TRAX_SECTION(SECTION)
-#define TRAX_ROW(KIND, SECTION, KEY, DEFAULT, LEAST, MOST, UNIT, ORIGIN, MEANING)                                      \
-  {#SECTION "." #KEY, #SECTION, #KEY, KIND, offsetof(struct trax_config, SECTION.KEY), DEFAULT, LEAST, MOST, UNIT,     \
-   MEANING,           ORIGIN},
+#define TRAX_COMPONENT(OF)
+#define TRAX_ROW(KIND, OF, KEY, DEFAULT, LEAST, MOST, UNIT, ORIGIN, MEANING)                                           \
+  {#OF "." #KEY, #OF, #KEY, KIND, offsetof(struct trax_config, OF.KEY), DEFAULT, LEAST, MOST, UNIT, MEANING, ORIGIN},
 #define TRAX_ROW_COUNT(...) TRAX_ROW(TRAX_KIND_COUNT, __VA_ARGS__)
 #define TRAX_ROW_POWER(...) TRAX_ROW(TRAX_KIND_POWER, __VA_ARGS__)
 #define TRAX_ROW_FLAG(...) TRAX_ROW(TRAX_KIND_FLAG, __VA_ARGS__)
@@ -19,9 +18,9 @@
 #define TRAX_ROW_MAPPING(...) TRAX_ROW(TRAX_KIND_MAPPING, __VA_ARGS__)
 enum { OURS = false, PAPER = true };
 
-const struct trax_config_key trax_config_keys[] = {TRAX_CONFIG_KEYS(TRAX_SECTION, TRAX_ROW_COUNT, TRAX_ROW_POWER,
+const struct trax_config_key trax_config_keys[] = {TRAX_CONFIG_KEYS(TRAX_COMPONENT, TRAX_ROW_COUNT, TRAX_ROW_POWER,
                                                                     TRAX_ROW_FLAG, TRAX_ROW_REAL, TRAX_ROW_POLICY,
-                                                                    TRAX_ROW_MODEL, TRAX_ROW_MAPPING, TRAX_SECTION)};
+                                                                    TRAX_ROW_MODEL, TRAX_ROW_MAPPING, TRAX_COMPONENT)};
 const size_t trax_config_key_count = sizeof trax_config_keys / sizeof *trax_config_keys;
 
 const struct trax_replacement_policy trax_replacements[] = {

@@ -11,25 +11,25 @@
 #include <stdint.h>
 
 struct trax_config {
-#define TRAX_SECTION_BEGIN(SECTION) struct {
-#define TRAX_SECTION_END(SECTION)                                                                                      \
+#define TRAX_COMPONENT_BEGIN(COMPONENT) struct {
+#define TRAX_COMPONENT_END(COMPONENT)                                                                                  \
   }                                                                                                                    \
-  SECTION;
-#define TRAX_KEY_COUNT(SECTION, KEY, ...) uint32_t KEY;
-#define TRAX_KEY_FLAG(SECTION, KEY, ...) bool KEY;
-#define TRAX_KEY_REAL(SECTION, KEY, ...) double KEY;
-  TRAX_CONFIG_KEYS(TRAX_SECTION_BEGIN, TRAX_KEY_COUNT, TRAX_KEY_COUNT, TRAX_KEY_FLAG, TRAX_KEY_REAL, TRAX_KEY_COUNT,
-                   TRAX_KEY_COUNT, TRAX_KEY_REAL, TRAX_SECTION_END)
-#undef TRAX_SECTION_BEGIN
-#undef TRAX_SECTION_END
+  COMPONENT;
+#define TRAX_KEY_COUNT(COMPONENT, KEY, ...) uint32_t KEY;
+#define TRAX_KEY_FLAG(COMPONENT, KEY, ...) bool KEY;
+#define TRAX_KEY_REAL(COMPONENT, KEY, ...) double KEY;
+  TRAX_CONFIG_KEYS(TRAX_COMPONENT_BEGIN, TRAX_KEY_COUNT, TRAX_KEY_COUNT, TRAX_KEY_FLAG, TRAX_KEY_REAL, TRAX_KEY_COUNT,
+                   TRAX_KEY_COUNT, TRAX_KEY_REAL, TRAX_COMPONENT_END)
+#undef TRAX_COMPONENT_BEGIN
+#undef TRAX_COMPONENT_END
 #undef TRAX_KEY_COUNT
 #undef TRAX_KEY_FLAG
 #undef TRAX_KEY_REAL
 };
 
 /* Initialiser with the defaults: one TP, everything else as in the paper or, where the paper is silent, our choice. */
-#define TRAX_CONFIG_NOTHING(SECTION)
-#define TRAX_CONFIG_INITIAL(SECTION, KEY, DEFAULT, ...) .SECTION.KEY = DEFAULT,
+#define TRAX_CONFIG_NOTHING(COMPONENT)
+#define TRAX_CONFIG_INITIAL(COMPONENT, KEY, DEFAULT, ...) .COMPONENT.KEY = DEFAULT,
 #define TRAX_CONFIG_DEFAULT                                                                                            \
   {                                                                                                                    \
     TRAX_CONFIG_KEYS(TRAX_CONFIG_NOTHING, TRAX_CONFIG_INITIAL, TRAX_CONFIG_INITIAL, TRAX_CONFIG_INITIAL,               \
@@ -40,7 +40,7 @@ struct trax_config {
 /* One row of the table, for code that visits all keys. */
 struct trax_config_key {
   const char *name; /* "memory.bandwidth_gbps" */
-  const char *section, *key;
+  const char *component, *key;
   enum {
     TRAX_KIND_COUNT,
     TRAX_KIND_POWER,

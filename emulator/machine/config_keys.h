@@ -1,15 +1,15 @@
 /* Every configuration value, declared once: the struct, the defaults, the ranges, the files' keys and the documentation
    come from this table; docs/timing.md says what each value does.
 
-   BEGIN(section) and END(section) enclose the keys of a section. A key is declared by its kind:
+   BEGIN(component) and END(component) enclose the keys of a component. A key is declared by its kind:
      COUNT   uint32_t
      POWER   uint32_t, a power of two, or 0 if the least value is 0
      FLAG    bool (the range is 0 to 1)
-     REAL    double, in steps of 0.001
+     REAL    double, a multiple of 0.001
      POLICY  uint32_t, an enum trax_replacement
      MODEL   uint32_t, an enum trax_memory_model
      MAPPING double, a mapping of addresses (machine/dram_mapping.h)
-   with section, key, default, least, greatest, unit, origin of the default (PAPER, or OURS where the paper is silent)
+   with component, key, default, least, greatest, unit, origin of the default (PAPER, or OURS where the paper is silent)
    and meaning. */
 #ifndef TRAX_MACHINE_CONFIG_KEYS_H
 #define TRAX_MACHINE_CONFIG_KEYS_H
@@ -110,9 +110,9 @@
   FLAG(memory, write_combining, true, 0, 1, "", OURS, "adjacent stores of a TP become one transfer")                                       \
   END(memory)                                                                                                                              \
   BEGIN(dram)                                                                                                                              \
-  COUNT(dram, mtps, 1600, 1, 100000, "10^6/s", OURS, "transfers of each wire of the bus; a tick is two of them")                           \
+  COUNT(dram, mtps, 1600, 1, 100000, "10^6/s", OURS, "bits a second of each wire of the bus; a tick is two of them")                       \
   POWER(dram, bus_bits, 32, 8, 512, "bits", OURS, "width of a channel's data bus")                                                        \
-  POWER(dram, burst_length, 8, 2, 64, "transfers", OURS, "transfers of a burst")                                                           \
+  POWER(dram, burst_length, 8, 2, 64, "beats", OURS, "beats of a burst: words of the bus")                                                  \
   POWER(dram, ranks, 1, 1, TRAX_DRAM_MAX_RANKS, "ranks", OURS, "ranks of a channel")                                                       \
   POWER(dram, banks, 8, 1, TRAX_DRAM_MAX_BANKS, "banks", OURS, "banks of a rank")                                                          \
   POWER(dram, row_bytes, 4096, 64, 65536, "bytes", OURS, "row of a bank")                                                                  \

@@ -1,5 +1,6 @@
 #include "machine/machine.h"
 
+#include "machine/ray_cycles.h"
 #include "machine/watch.h"
 
 #include <stdlib.h>
@@ -53,6 +54,7 @@ void trax_machine_destroy(trax_machine *machine) {
   free(machine->tm_stats);
   free(machine->tp_stats);
   free(machine->exit_statuses);
+  trax_ray_cycles_destroy(machine->ray_cycles);
   free(machine);
 }
 

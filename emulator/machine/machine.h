@@ -13,6 +13,7 @@
 #include "machine/transfers.h"
 #include "trax/emulator.h"
 
+struct trax_ray_cycles;
 struct trax_run;
 struct trax_watch;
 
@@ -41,12 +42,13 @@ struct trax_machine {
 
   /* The outcome; valid after trax_machine_run. */
   trax_status status; /* of the run */
-  bool at_limit;      /* TRAX_STUCK: max_cycles passed; otherwise a watch ended the run */
+  bool at_limit;      /* TRAX_STUCK: max_cycles was reached; otherwise a watch ended the run */
   struct trax_fault fault;
   struct trax_stats stats;
   struct trax_tm_stats *tm_stats; /* [tms] */
   struct trax_tp_stats *tp_stats; /* [threads], by thread number */
   int32_t *exit_statuses;         /* [threads] */
+  struct trax_ray_cycles *ray_cycles; /* NULL: not counted (machine/ray_cycles.h) */
 
   struct trax_fast_path fast_path; /* statistics of the fast engine itself, not of the simulated machine */
 

@@ -56,8 +56,8 @@ static struct trax_decoded decode(uint32_t word, uint32_t pc, const struct trax_
 trax_status trax_text_create(struct trax_text *text, const struct trax_space *space, const struct trax_config *config,
                              trax_error *error) {
   memset(text, 0, sizeof *text);
-  text->sections = calloc(space->segment_count ? space->segment_count : 1, sizeof *text->sections);
-  if (!text->sections)
+  text->segments = calloc(space->segment_count ? space->segment_count : 1, sizeof *text->segments);
+  if (!text->segments)
     return trax_fail(error, "out of memory");
   for (size_t i = 0; i < space->segment_count; i++) {
     const struct trax_segment *segment = &space->segments[i];
@@ -76,23 +76,23 @@ trax_status trax_text_create(struct trax_text *text, const struct trax_space *sp
       decoded[word] = decode(bits, pc, config);
     }
     decoded[words] = no_text;
-    text->sections[text->count++] = (struct trax_text_section){segment->address, segment->address + words * 4, decoded};
+    text->segments[text->count++] = (struct trax_text_segment){segment->address, segment->address + words * 4, decoded};
   }
   return TRAX_OK;
 }
 
 void trax_text_destroy(struct trax_text *text) {
   for (size_t i = 0; i < text->count; i++)
-    free(text->sections[i].decoded);
-  free(text->sections);
+    free(text->segments[i].decoded);
+  free(text->segments);
   memset(text, 0, sizeof *text);
 }
 
 const struct trax_decoded *trax_text_at(const struct trax_text *text, uint32_t pc) {
   if (pc % 4 == 0)
     for (size_t i = 0; i < text->count; i++)
-      if (pc >= text->sections[i].begin && pc < text->sections[i].end)
-        return text->sections[i].decoded + (pc - text->sections[i].begin) / 4;
+      if (pc >= text->segments[i].begin && pc < text->segments[i].end)
+        return text->segments[i].decoded + (pc - text->segments[i].begin) / 4;
   return &no_text;
 }
 

@@ -38,13 +38,13 @@ struct trax_decoded {
   int32_t imm;
 };
 
-struct trax_text_section {
+struct trax_text_segment {
   uint32_t begin, end;
   struct trax_decoded *decoded; /* [(end - begin) / 4 + 1]; the last one is TRAX_RESOURCE_NO_TEXT */
 };
 
 struct trax_text {
-  struct trax_text_section *sections;
+  struct trax_text_segment *segments;
   size_t count;
 };
 

@@ -7,7 +7,7 @@
 
 #include "machine/machine.h"
 
-/* The section of the reports that a figure belongs to. */
+/* The part of the reports that a figure belongs to. */
 enum trax_figure_group {
   TRAX_GROUP_RUN,      /* figures computed from counters */
   TRAX_GROUP_COUNTER,  /* counters of each TM */
@@ -41,9 +41,6 @@ extern const char *const trax_cause_heads[TRAX_CAUSE_COUNT];
 
 /* Checks the rule of accounting on the reported figures: the causes add up to threads x cycles. */
 bool trax_stats_identity(const struct trax_stats *stats);
-
-/* Writes the statistics as JSON, with what the simulation took of the host if `host`. */
-trax_status trax_stats_put_json(const trax_machine *machine, bool host, FILE *out, trax_error *error);
 
 /* Prints the members of the JSON that are not figures, one row each. */
 void trax_stats_describe_members(FILE *out);

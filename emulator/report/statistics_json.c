@@ -12,7 +12,7 @@
 #define MEMBERS(X)                                                                                                     \
   X("trax_sim", "version of the emulator")                                                                             \
   X("program", "the executable, as it was named")                                                                      \
-  X("status", "how the run ended: finished, fault, interrupted, limit (max-cycles passed), or stuck (the watchdog)")   \
+  X("status", "how the run ended: finished, fault, interrupted, limit (max-cycles reached), or stuck (the watchdog)")  \
   X("partial", "true if the program did not finish: the figures are those up to its last cycle")                       \
   X("exit_status", "of the program; 1 for a fault, 134 for an abort; null if it has not ended")                        \
   X("fault", "only after a fault: kind, address, pc, instruction, thread, tm, tp, cycle, symbol, file, line, message " \
@@ -213,8 +213,8 @@ json_t *trax_config_json(const struct trax_config *config) {
     const struct trax_config_key *key = &trax_config_keys[i];
     double value = trax_config_value(config, key);
     char word[TRAX_CONFIG_WORD];
-    json_t *section = level(document, configuration, key->section, strlen(key->section));
-    put(document, section, key->key,
+    json_t *component = level(document, configuration, key->component, strlen(key->component));
+    put(document, component, key->key,
         key->kind == TRAX_KIND_FLAG   ? json_boolean(value != 0)
         : key->kind == TRAX_KIND_REAL ? json_real(value)
         : trax_config_has_words(key)  ? json_string(trax_config_value_word(key, value, word))

@@ -11,6 +11,7 @@
    is near its end. */
 #include "sampling/slots.h"
 
+#include "machine/ray_cycles.h"
 #include "sampling/estimate.h"
 #include "sampling/plan.h"
 
@@ -29,7 +30,8 @@ enum phase { BEGINNING, WARM_UP, UNIT, LEAD, END };
 /* The statistics of a TM and of the memory are arrays of 64-bit counters. */
 enum {
   TM_WORDS = sizeof(struct trax_tm_stats) / sizeof(uint64_t),
-  MEMORY_WORDS = sizeof(struct trax_memory_stats) / sizeof(uint64_t)
+  MEMORY_WORDS = sizeof(struct trax_memory_stats) / sizeof(uint64_t),
+  RAY_WORDS = sizeof(trax_ray_counts) / sizeof(uint64_t)
 };
 
 struct trax_slots {
@@ -51,14 +53,16 @@ struct trax_slots {
   double unit_cycles, unit_cost; /* measured time and expected cost of all units so far */
   uint64_t slots_left_out;
 
-  /* Arrays of all counters: first the TMs', then the TPs' charges, then the memory's. */
-  size_t tp_words, memory_words, words; /* the first index of the TPs' and the memory's counters, and the length */
+  /* Arrays of all counters: first the TMs', then the TPs' charges, the memory's and, if they are counted, the rays'. */
+  size_t tp_words, memory_words, ray_words, words; /* the first indices of the latter three, and the length */
   uint64_t *counts;                     /* the allocation of the next three */
   uint64_t *before, *now, *exact;       /* exact: counted in beginning and end */
   double *measured; /* counted in units, divided by their expected costs, since costly units are drawn more often */
   uint64_t exact_counted;  /* cycles of `exact` */
   double measured_counted; /* cycles of `measured`, weighted alike */
 };
+
+#define WORD_OF(member) (offsetof(struct trax_tm_stats, member) / sizeof(uint64_t))
 
 /* --- counts --- */
 
@@ -67,6 +71,8 @@ static void read_counts(const struct trax_slots *slots, uint64_t *words) {
   memcpy(words, machine->tm_stats, slots->tp_words * sizeof *words);
   memcpy(words + slots->tp_words, machine->tp_stats, (slots->memory_words - slots->tp_words) * sizeof *words);
   memcpy(words + slots->memory_words, &machine->stats.memory, sizeof machine->stats.memory);
+  if (machine->ray_cycles)
+    trax_ray_cycles_sum(machine, *(trax_ray_counts *)(words + slots->ray_words));
 }
 
 static void begin_counts(struct trax_slots *slots, uint64_t t) {
@@ -89,6 +95,29 @@ static void add_unit_counts(struct trax_slots *slots, double weight, uint64_t t)
   for (size_t i = 0; i < slots->words; i++)
     slots->measured[i] += weight * (double)(slots->now[i] - slots->before[i]);
   slots->measured_counted += weight * (double)(t - slots->counted);
+}
+
+/* Sets a part to the rays' counts in `now`, less those in `before` if that is not NULL. */
+static void set_ray_part(const struct trax_slots *slots, struct trax_ray_part *part, const uint64_t *now,
+                         const uint64_t *before) {
+  uint64_t *const counts = part->counts[0];
+  memcpy(counts, now + slots->ray_words, sizeof part->counts);
+  for (size_t i = 0; i < RAY_WORDS && before; i++)
+    counts[i] -= before[slots->ray_words + i];
+  memset(part->rays, 0, sizeof part->rays);
+  for (size_t word = WORD_OF(rays_primary); word < slots->tp_words; word += TM_WORDS)
+    for (unsigned kind = 0; kind < TRAX_RAY_KIND_COUNT; kind++)
+      part->rays[kind] += now[word + kind] - (before ? before[word + kind] : 0);
+}
+
+/* Keeps the rays' counts of the unit that has been measured by `draws` draws. */
+static void add_ray_parts(struct trax_slots *slots, size_t draws, double weight) {
+  struct trax_ray_cycles *rays = slots->run->machine->ray_cycles;
+  for (; rays && draws > 0; draws--) {
+    struct trax_ray_part *part = &rays->parts[rays->part_count++];
+    part->weight = weight;
+    set_ray_part(slots, part, slots->now, slots->before);
+  }
 }
 
 /* --- phases --- */
@@ -177,6 +206,7 @@ static void end_unit(struct trax_slots *slots, double at, uint64_t t) {
   while (slots->done < slots->plan.draw_count && slots->plan.draws[slots->done] == slots->plan.draws[slots->done - 1])
     slots->ratios[slots->done++] = cycles / size; /* the same unit was drawn again */
   add_unit_counts(slots, (double)(slots->done - before) / size, t);
+  add_ray_parts(slots, slots->done - before, 1 / size);
 }
 
 /* Returns the cycle of the next inspection: half-way to the one in which the place should reach the target. */
@@ -254,11 +284,19 @@ struct trax_slots *trax_slots_create(struct trax_run *run, const trax_slot_sampl
   }
   slots->tp_words = machine->config.chip.tms * (size_t)TM_WORDS;
   slots->memory_words = slots->tp_words + (size_t)threads * TRAX_CAUSE_COUNT;
-  slots->words = slots->memory_words + MEMORY_WORDS;
+  slots->ray_words = slots->memory_words + MEMORY_WORDS;
+  slots->words = slots->ray_words + (machine->ray_cycles ? RAY_WORDS : 0);
   slots->counts = calloc(3 * slots->words, sizeof *slots->counts);
   slots->measured = calloc(slots->words, sizeof *slots->measured);
   slots->ratios = calloc(slots->plan.most_draws ? slots->plan.most_draws : 1, sizeof *slots->ratios);
-  if (!slots->counts || !slots->measured || !slots->ratios) {
+  bool created = slots->counts && slots->measured && slots->ratios;
+  if (machine->ray_cycles) {
+    struct trax_ray_cycles *rays = machine->ray_cycles;
+    rays->parts = calloc(1 + slots->plan.most_draws, sizeof *rays->parts);
+    rays->part_count = 1; /* beginning and end */
+    created &= rays->parts != NULL;
+  }
+  if (!created) {
     trax_fail(error, "out of memory for the counts of sampled slots");
     trax_slots_destroy(slots);
     return NULL;
@@ -284,6 +322,24 @@ void trax_slots_destroy(struct trax_slots *slots) {
   free(slots);
 }
 
+/* The same of the rays' counters, whose parts are kept. */
+static void estimate_rays(struct trax_slots *slots, double factor) {
+  const struct trax_machine *machine = slots->run->machine;
+  struct trax_ray_cycles *rays = machine->ray_cycles;
+  memset(rays->tms, 0, machine->config.chip.tms * sizeof *rays->tms);
+  rays->parts[0].weight = 1;
+  set_ray_part(slots, &rays->parts[0], slots->exact, NULL);
+  for (size_t i = 1; i < rays->part_count; i++)
+    rays->parts[i].weight *= factor;
+  for (unsigned kind = 0; kind < TRAX_RAY_ROWS; kind++)
+    for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++) {
+      double sum = 0;
+      for (size_t i = 0; i < rays->part_count; i++)
+        sum += rays->parts[i].weight * (double)rays->parts[i].counts[kind][cause];
+      rays->tms[0][kind][cause] = (uint64_t)llround(sum);
+    }
+}
+
 /* Estimates the counters of the whole run: those of beginning and end, and those of the units, scaled to all units. */
 static void estimate_counts(struct trax_slots *slots, double cycles) {
   struct trax_machine *machine = slots->run->machine;
@@ -303,6 +359,8 @@ static void estimate_counts(struct trax_slots *slots, double cycles) {
       charges[cause] = ESTIMATE(slots->tp_words + thread * TRAX_CAUSE_COUNT + cause);
     trax_estimate_charges(&machine->tp_stats[thread], charges, machine->stats.cycles);
   }
+  if (machine->ray_cycles)
+    estimate_rays(slots, factor);
 #undef ESTIMATE
 }
 
@@ -325,8 +383,6 @@ static void set_total(struct trax_slots *slots, const size_t *offsets, size_t ki
       given = upto;
     }
 }
-
-#define WORD_OF(member) (offsetof(struct trax_tm_stats, member) / sizeof(uint64_t))
 
 /* Sets the rays that are known. Those of a TM are the sum of its kinds, known or not. */
 static void set_rays(struct trax_slots *slots) {
@@ -369,8 +425,11 @@ trax_status trax_slots_finish(struct trax_slots *slots, uint64_t t, trax_error *
       stats->detailed_instructions += machine->tm_stats[i].instructions[op];
   if (slots->failed)
     return trax_fail(error, "%s", slots->error.message);
-  if (!slots->plan.units)
+  if (!slots->plan.units) {
+    if (machine->ray_cycles)
+      machine->ray_cycles->part_count = 0;
     return TRAX_OK;
+  }
   if (slots->phase != END)
     return trax_fail(error,
                      "the program ended before its counter at 0x%08x reached slot %u of %u: the slots are not "

@@ -19,8 +19,9 @@ static bool are_usable(const struct trax_ref_tp *lane, uint32_t registers, uint6
   return true;
 }
 
-/* Checks a lane. False: it is refused. One that has passed passes again, and another one waits for its register.
-   needs: registers after whose check it has passed; 0: there is more to check. */
+/* Checks a lane. False: it is refused. A lane that was accepted stays so, and another one waits for its
+   register.
+   needs: registers after whose check it is accepted; 0: there is more to check. */
 static bool check(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint32_t i, uint32_t needs, uint64_t t) {
   struct trax_ref_tp *lane = &tm->ref->tp[i];
   uint8_t *const waits_for = &tm->lane[i].waits_for;
@@ -38,7 +39,7 @@ static bool check(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint32_t
   return !trax_simt_note_charge(warp, lane);
 }
 
-/* Whether all lanes of the group have passed. */
+/* Whether all lanes of the group are accepted. */
 static bool check_group(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint64_t t) {
   const struct trax_ref_tp *first = trax_simt_speaker(tm, warp->left);
   const bool is_illegal = !warp->is_checked && trax_ref_is_illegal(tm->ref, first);

@@ -24,7 +24,7 @@ struct trax_simt_warp {
   uint64_t active;     /* those of them that no step of this cycle has refused so far */
   uint64_t uncharged;  /* lanes of the group that have not been charged in this cycle */
   bool is_checked;     /* the lanes of the group have been in step 2 */
-  bool has_operands;   /* all of them have passed it */
+  bool has_operands;   /* step 2 has accepted all of them */
   trax_shared unit;    /* that they then ask for, unless they access memory */
   uint64_t issued;     /* what it has issued, by cost (Choice) */
   uint64_t waits_from; /* no running lane has issued last when `issued` was less */

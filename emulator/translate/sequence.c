@@ -2,7 +2,7 @@
 
 #include <assert.h>
 
-/* Whether a relative jump leads to an instruction of its section; *target receives its index. */
+/* Whether a relative jump leads to an instruction of its segment; *target receives its index. */
 static bool is_plain_jump(const struct trax_translation *t, size_t index, size_t *target) {
   const int32_t imm = t->decoded[index]->imm;
   const int64_t to = (int64_t)index + imm / 4;
@@ -54,7 +54,7 @@ static void emit_jump_to(struct trax_translation *t, size_t begin, size_t end) {
   trax_emit(t, "\x48\x8D\x15", 3); /* lea rdx, [entry] */
   trax_emit_distance(t, t->entry);
   trax_emit(t, "\xFF\x24\x4A", 3); /* jmp [rdx + rcx * 2] */
-  /* If it is in another section, or in none. */
+  /* If it is in another segment, or in none. */
   while (t->stub_count > first) {
     const struct trax_stub stub = t->stubs[--t->stub_count];
     if (stub.kind == TRAX_HOLE_COLD)

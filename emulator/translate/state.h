@@ -12,7 +12,7 @@ struct trax_translated {
   uint8_t *global, *local;
   const uint8_t *restrictions;
   uint64_t accessible;
-  uint32_t begin, bytes; /* the program's first section */
+  uint32_t begin, bytes; /* the program's first segment */
   uint32_t pc;           /* the target of the latest jump to a register's value */
   int64_t left;
   uint64_t executions[]; /* [exit] */

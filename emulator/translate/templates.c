@@ -164,7 +164,7 @@ typedef uint32_t int_t;
 #undef TRAX_SEMANTICS
 #include "machine/semantics_end.h"
 
-/* Finds the target of a jump to a register's value: its byte in the first section. */
+/* Finds the target of a jump to a register's value: its byte in the first segment. */
 TEMPLATE trax_template_LOOKUP_int_int_int(uint32_t pc, uint32_t b, uint32_t d) {
   const uint32_t offset = pc - STATE(begin);
   (void)b, (void)d;

@@ -100,9 +100,9 @@ void trax_translation_destroy(struct trax_translation *t) {
 static bool fill(struct trax_translation *t, const struct trax_text *text, const struct trax_space *space) {
   size_t index = 0;
   for (size_t i = 0; i < text->count; i++)
-    for (uint32_t pc = text->sections[i].begin; pc <= text->sections[i].end; pc += 4, index++) {
+    for (uint32_t pc = text->segments[i].begin; pc <= text->segments[i].end; pc += 4, index++) {
       t->pc[index] = pc;
-      t->decoded[index] = &text->sections[i].decoded[(pc - text->sections[i].begin) / 4];
+      t->decoded[index] = &text->segments[i].decoded[(pc - text->segments[i].begin) / 4];
     }
   t->pc[index] = 1;
   t->decoded[index] = trax_text_at(text, 1);
@@ -114,8 +114,8 @@ static bool fill(struct trax_translation *t, const struct trax_text *text, const
     state->global = space->bytes;
     state->restrictions = space->restrictions;
     state->accessible = space->size - TRAX_NULL_END;
-    state->begin = text->count ? text->sections[0].begin : 0;
-    state->bytes = text->count ? text->sections[0].end - state->begin : 0;
+    state->begin = text->count ? text->segments[0].begin : 0;
+    state->bytes = text->count ? text->segments[0].end - state->begin : 0;
   }
   return true;
 }
@@ -132,7 +132,7 @@ struct trax_translation *trax_translation_create(const struct trax_text *text, c
   t->tms = tms;
   t->count = 1;
   for (size_t i = 0; i < text->count; i++)
-    t->count += (text->sections[i].end - text->sections[i].begin) / 4 + 1;
+    t->count += (text->segments[i].end - text->segments[i].begin) / 4 + 1;
   t->decoded = calloc(t->count, sizeof *t->decoded);
   t->pc = calloc(t->count, sizeof *t->pc);
   t->heat = calloc(t->count, sizeof *t->heat);

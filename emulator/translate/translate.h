@@ -23,7 +23,7 @@ struct trax_translated_thread {
   int64_t left; /* instructions; the run ends with the first taken jump after which it is not positive */
 };
 
-/* An instruction's index is its number in the program: those of the sections one after the other, each with one that is
+/* An instruction's index is its number in the program: those of the segments one after the other, each with one that is
    no text behind it. at_once: sequences are translated after they were interpreted once, for tests. Returns NULL if the
    host cannot: that costs speed and nothing else. */
 struct trax_translation *trax_translation_create(const struct trax_text *text, const struct trax_space *space,

@@ -34,7 +34,7 @@ struct Place {
 };
 
 const MCAsmParser *Current;
-SMLoc LastInFile; // the last statement that was no expansion of others
+SMLoc LastInFile; // the last statement outside expansions
 
 bool isExpansion(const MemoryBuffer &Buffer) {
   return Buffer.getBufferIdentifier() == "<instantiation>";
@@ -204,7 +204,7 @@ size_t longestLine(StringRef Text) {
   return Longest;
 }
 
-/// The value of the expression that follows, which is read again afterwards. None: it depends on what is not known yet.
+/// The value of the expression that follows, which stays to be parsed; none if it depends on a later definition.
 std::optional<int64_t> valueAhead(MCAsmParser &Parser) {
   const SMLoc Begin = Parser.getTok().getLoc();
   const SourceMgr &Sources = Parser.getSourceManager();
@@ -292,7 +292,7 @@ void trax::AsmLimits::checkDirective(MCAsmParser &Parser, StringRef Name, SMLoc 
       tooMuch(Parser, Loc);
     return;
   }
-  // A line is not shorter than the parts of a list.
+  // A list has no more elements than its line has characters.
   const double Count = Listed ? double(Line.size()) : double(valueAhead(Parser).value_or(0));
   if (Values && Count > double(MostRepeated))
     stopAssembly(&Sources, Loc, "more than 16,777,216 values; .skip and .zero have no limit of this kind");

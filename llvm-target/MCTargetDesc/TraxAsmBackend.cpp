@@ -41,7 +41,7 @@ public:
 
 } // namespace
 
-/// Limits the bytes that .skip, .org and alignment fill. Until here they are a number; now they would be written.
+/// Limits the bytes that .skip, .org and alignment fill. Before this they are only a number; next they are written.
 void TraxAsmBackend::finishLayout(const MCAssembler &Asm) const {
   constexpr uint64_t Most = 256 << 20;
   MCContext &Context = Asm.getContext();

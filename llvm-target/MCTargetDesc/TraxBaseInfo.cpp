@@ -9,7 +9,7 @@ using namespace llvm;
 #define NAME(CONSTANT, TEXT, NUMBER) TEXT,
 static constexpr StringLiteral SpecialRegisters[] = {TRAX_SPECIAL_REGISTERS(NAME)};
 static constexpr StringLiteral Traps[] = {TRAX_TRAPS(NAME)};
-static constexpr StringLiteral Fences[] = {"", TRAX_FENCES(NAME)}; // nothing is number 0
+static constexpr StringLiteral Fences[] = {"", TRAX_FENCES(NAME)}; // 0 is no fence
 #undef NAME
 
 static StringRef nameOf(ArrayRef<StringLiteral> Names, unsigned Number) {

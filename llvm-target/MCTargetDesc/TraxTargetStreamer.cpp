@@ -31,8 +31,8 @@ uint64_t TraxTargetStreamer::stepsOf(const MCExpr &Value) const {
   }
 }
 
-/// Limits symbols whose values refer to other symbols. LLVM follows all of them again for each value, and to evaluate
-/// it once more from each of them.
+/// Limits symbols whose values refer to other symbols. LLVM follows the whole chain for each value, and
+/// again from each symbol of the chain.
 void TraxTargetStreamer::emitAssignment(MCSymbol *Symbol, const MCExpr *Value) {
   constexpr uint64_t MostSteps = 200'000'000;
   const uint64_t Needed = stepsOf(*Value);

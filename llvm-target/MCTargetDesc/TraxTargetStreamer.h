@@ -13,7 +13,7 @@ class Target;
 /// depend on it (docs/abi.md, "ELF").
 class TraxTargetStreamer : public MCTargetStreamer {
   unsigned Stack = 0;
-  DenseMap<const MCSymbol *, uint64_t> Steps; // references in the values of symbols, followed to the end
+  DenseMap<const MCSymbol *, uint64_t> Steps; // references that the evaluation of a symbol follows
   uint64_t AllSteps = 0;
 
   uint64_t stepsOf(const MCExpr &Value) const;
@@ -22,7 +22,7 @@ public:
   using MCTargetStreamer::MCTargetStreamer;
   void emitAssignment(MCSymbol *Symbol, const MCExpr *Value) override;
 
-  /// False if the file has said something else before.
+  /// False if an earlier directive of the file differs.
   bool setStack(unsigned Place);
 
 protected:

@@ -2,11 +2,11 @@
 
 import functools
 import json
+import re
 import shutil
 import struct
 import subprocess
 import threading
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 BENCH = Path(__file__).resolve().parent
@@ -18,7 +18,7 @@ LIBRARY_SQRT = "-D__builtin_sqrt(x)=__builtin_sqrtf((float)(x))"
 COMMON = ["-std=c17", "-fno-math-errno", "-Wall", "-Wextra", "-Werror", "-I", str(ROOT / "raytracer/device"), "-I",
           str(ROOT / "raytracer/include"), "-I", str(ROOT / "isa/include")]
 RISCV = ["--target=riscv32", "-mabi=ilp32"]
-PACKAGES = {"clang-19": "clang-19", "llvm-ar-19": "llvm-19", "llvm-size-19": "llvm-19", "ld.lld-19": "lld-19",
+PACKAGES = {"clang-19": "clang-19", "nm": "binutils", "llvm-size-19": "llvm-19", "ld.lld-19": "lld-19",
             "qemu-riscv32": "qemu-user", "cc": "gcc"}
 
 
@@ -85,8 +85,8 @@ class Trax:
 class Riscv:
     """Debian's clang for RISC-V, counted by qemu."""
 
-    def __init__(self, build, work, name="riscv", flags=(), library=True, extensions="", jobs=1):
-        self.build, self.work, self.name, self.jobs = build, work, name, jobs
+    def __init__(self, build, work, name="riscv", flags=(), library=True, extensions=""):
+        self.build, self.work, self.name = build, work, name
         self.compiler = ["clang-19", *RISCV, f"-march=rv32im{extensions}_zfinx", "-nostdlibinc", "-isystem",
                          build / "lib/trax/include", "-I", BENCH / "twin",
                          *flags]
@@ -95,24 +95,47 @@ class Riscv:
         how = ["-shared", "-fPIC", BENCH / "count_plugin.c"] if takes_plugins() else [BENCH / "count_trace.c"]
         self.counter = work / f"{name}-count"
         run(["cc", "-O2", "-Wall", "-Wextra", "-Werror", *how, "-o", self.counter])
-        self.library = self.make_library()
+        self.library, self.places, self.growing = self.make_library(), self.find_sources(), threading.Lock()
 
     def make_library(self):
-        """The runtime's functions, with the flags that the runtime is compiled with."""
-        sources = [source for part in ("builtins", "math",
-                                       "string") for source in sorted((ROOT / "runtime" / part).glob("*.c"))]
-        objects = [self.work / f"{self.name}-{source.parent.name}-{source.stem}.o" for source in sources]
+        """Objects and archives, which grow with what kernels need."""
+        return []
+
+    def find_sources(self):
+        """The source of each symbol of the runtime that a kernel may need: our library has the same."""
+        sources = {f"{source.name}.o": source for part in ("builtins", "math", "string")
+                   for source in (ROOT / "runtime" / part).glob("*.c")}
+        listed, _ = run(["nm", "-A", "--defined-only", self.build / "lib/trax/libc.a"])
+        found = re.findall(r":([^:]+):\w+ [TW] (\S+)$", listed, re.MULTILINE)
+        return {symbol: sources[member] for member, symbol in found if member in sources}
+
+    def add_sources(self, sources):
+        """Compiles them with the flags that the runtime is compiled with."""
         command = [*self.compiler, "-std=c17", "-O2", "-ffreestanding", "-fno-builtin", "-fno-math-errno",
-                   "-ffunction-sections", LIBRARY_SQRT,
-                   f"-I{ROOT / 'isa/include'}"]
-        with ThreadPoolExecutor(self.jobs) as pool:
-            list(pool.map(lambda source, made: run([*command, "-c", source, "-o", made]), sources, objects))
-        library = self.work / f"{self.name}.a"
-        run(["llvm-ar-19", "rcs", library, *objects])
-        return library
+                   "-ffunction-sections", LIBRARY_SQRT, f"-I{ROOT / 'isa/include'}"]
+        with self.growing:
+            for source in sources:
+                made = self.work / f"{self.name}-{source.parent.name}-{source.stem}.o"
+                if made not in self.library:
+                    run([*command, "-c", source, "-o", made])
+                    self.library.append(made)
 
     def link(self, objects, output):
-        run(["ld.lld-19", "--gc-sections", *objects, self.library, "-o", output])
+        """Links with what the objects need of the runtime: a linker's errors name it."""
+        while True:
+            added = list(self.library)
+            try:
+                run(["ld.lld-19", "--gc-sections", "--error-limit=0", *objects, "--start-lib", *added, "--end-lib",
+                     "-o", output])
+                return
+            except Failure as failure:
+                lacks = re.findall(r"undefined symbol: (\S+)", str(failure))
+                sources = sorted({self.places[symbol] for symbol in lacks if symbol in self.places})
+                if not sources:
+                    raise
+                self.add_sources(sources)
+                if self.library == added:
+                    raise
 
     def execute(self, program):
         qemu = ["qemu-riscv32", "-cpu", "rv32,zfinx=true,zbb=true,f=false,d=false"]

@@ -90,12 +90,15 @@ class OutsideRiscv(Riscv):
                  newlib / f"{name}.c", "-o", objects[-1]])
         library = self.work / "outside.a"
         run(["llvm-ar-19", "rcs", library, *objects])
-        return library
+        return [library]
 
 
 class OutsideTrax(Trax):
-    def link(self, objects, output):
-        run([*self.compiler, "-mstack=global", "-mstack-size=256k", *objects, "-o", output])
+    """With large stacks."""
+
+    def __init__(self, build, work):
+        super().__init__(build, work)
+        self.compiler += ["-mstack=global", "-mstack-size=256k"]
 
 
 def sources_of(shop, program):
@@ -112,15 +115,14 @@ def measure(shop, machine, name, level):
     files, flags = sources_of(shop, PROGRAMS[name])
     work = machine.work / f"{name}{level}-{machine.name}"
     work.mkdir(exist_ok=True)
-    stack = ["-mstack=global"] if isinstance(machine, Trax) else []
     objects = []
     for source in [*files, BENCH / f"outside/{name}.c"]:
         objects.append(work / f"{len(objects)}.o")
-        run([*machine.compiler, *flags, *stack, level, "-ffunction-sections", "-c", source, "-o", objects[-1]])
+        run([*machine.compiler, *flags, level, "-ffunction-sections", "-c", source, "-o", objects[-1]])
     counts = []
     for repetitions in (1, 2):
         driver, program = work / f"driver{repetitions}.o", work / f"{repetitions}.elf"
-        run([*machine.compiler, *stack, "-O3", f"-DREPETITIONS={repetitions}", "-c", BENCH / "driver.c", "-o", driver])
+        run([*machine.compiler, "-O3", f"-DREPETITIONS={repetitions}", "-c", BENCH / "driver.c", "-o", driver])
         machine.link([driver, *objects], program)
         printed, count = machine.execute(program)
         counts.append(count)

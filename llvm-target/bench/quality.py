@@ -74,11 +74,11 @@ class Row:
 class Comparison:
     """Every machine that a kernel is run on."""
 
-    def __init__(self, build, work, jobs):
+    def __init__(self, build, work):
         self.trax = Trax(build, work)
-        self.riscv = Riscv(build, work, jobs=jobs)
-        self.riscv_strict = Riscv(build, work, "riscv-strict", ["-ffp-contract=off"], jobs=jobs)
-        self.riscv_zbb = Riscv(build, work, "riscv-zbb", extensions="_zbb", jobs=jobs)
+        self.riscv = Riscv(build, work)
+        self.riscv_strict = Riscv(build, work, "riscv-strict", ["-ffp-contract=off"])
+        self.riscv_zbb = Riscv(build, work, "riscv-zbb", extensions="_zbb")
         self.host = Host(work, "host")
         self.host_exact = Host(work, "host-exact", ["-DEXACT_RSQRT"])
         check_counter(self.trax)
@@ -164,7 +164,7 @@ def compare_instructions(options, work):
     if unknown:
         raise Failure(f"no kernel '{unknown[0]}'; there are {', '.join(sources)}")
     chosen = [source for name, source in sources.items() if not options.kernels or name in options.kernels]
-    comparison = Comparison(options.build, work, options.jobs)
+    comparison = Comparison(options.build, work)
     with ThreadPoolExecutor(options.jobs) as pool:
         counts = list(pool.map(comparison.measure, chosen))
     required = [source for source in chosen if source.parent.name == "kernels"]

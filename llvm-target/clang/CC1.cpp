@@ -131,7 +131,7 @@ bool compileForTrax(CompilerInstance &CI) {
   return Success;
 }
 
-/// -print-supported-cpus: the target machine prints them when it is asked for help. One without features, as ours, does
+/// -print-supported-cpus. A target machine prints them when its features ask for help; ours has one processor and does
 /// not.
 int printSupportedCPUs(StringRef Triple) {
   if (trax::isTraxTriple(llvm::Triple(Triple))) {
@@ -218,6 +218,6 @@ int trax::runCC1(llvm::ArrayRef<const char *> Args, const char *Argv0) {
   if (llvm::timeTraceProfilerEnabled())
     Success = writeTimeTrace(*CI) && Success;
   if (CI->getFrontendOpts().DisableFree)
-    llvm::BuryPointer(std::move(CI)); // the process ends, or soon does: nobody needs the memory
+    llvm::BuryPointer(std::move(CI)); // the process is about to end
   return !Success;
 }

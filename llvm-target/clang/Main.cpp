@@ -103,15 +103,25 @@ int runTool(llvm::SmallVectorImpl<const char *> &Args) {
   return 1;
 }
 
+/// A single compilation runs within this process when a link follows it, too: the driver starts a second process then,
+/// for which the libraries are loaded and relocated again, and that takes longer than to compile a small file.
+void compileInProcess(Driver &TheDriver, Compilation &C) {
+  const auto IsCompilation = [](const Command &Job) { return StringRef(Job.getCreator().getName()) == "clang"; };
+  if (TheDriver.CC1Main && llvm::count_if(C.getJobs(), IsCompilation) == 1)
+    for (Command &Job : C.getJobs())
+      Job.InProcess |= IsCompilation(Job);
+}
+
 /// Runs the jobs. A compiler that crashed leaves what is needed to reproduce it, as clang does.
 int execute(Driver &TheDriver, Compilation &C, bool &Crashed) {
   for (const char *Temporary : C.getTempFiles()) // the driver removes them itself only if it ends by itself
     llvm::sys::RemoveFileOnSignal(Temporary);
   trax_reads_share();                                                       // what one job reads, no other may write
   setenv("TRAX_PARENT", std::to_string(getpid()).c_str(), /*overwrite=*/1); // what is started ends with this process
-  if (trax::isTraxTriple(C.getDefaultToolChain().getTriple())) // no job leaves a part of a file, so none is removed
+  if (trax::isTraxTriple(C.getDefaultToolChain().getTriple())) // no job leaves a partial file, so none is removed
     for (const ArgStringMap *Files : {&C.getResultFiles(), &C.getFailureResultFiles()})
       const_cast<ArgStringMap *>(Files)->clear();
+  compileInProcess(TheDriver, C);
   llvm::SmallVector<std::pair<int, const Command *>, 4> Failures;
   int Result = TheDriver.ExecuteCompilation(C, Failures);
   for (const auto &[Status, Failed] : Failures) {
@@ -128,8 +138,8 @@ int execute(Driver &TheDriver, Compilation &C, bool &Crashed) {
   return Result;
 }
 
-/// An output that is one of the inputs, and what two jobs write, is an error, told before anything runs. What the
-/// inputs include, and the outputs of other options, are compared when they are written (FileCalls.h).
+/// Reports an output that is an input or is written by two jobs, before anything runs. Included files, and the outputs
+/// of other options, are compared when they are written (FileCalls.h).
 void checkFiles(Compilation &C, DiagnosticsEngine &Diags) {
   trax_files Files = {};
   trax_error Reason;
@@ -137,7 +147,7 @@ void checkFiles(Compilation &C, DiagnosticsEngine &Diags) {
     trax_files_input(&Files, nullptr, Input.c_str());
   for (const unsigned Id : {options::OPT_fprofile_sample_use_EQ, options::OPT_fprofile_instr_use_EQ,
                             options::OPT_fprofile_use_EQ, options::OPT_include, options::OPT_imacros})
-    for (const std::string &Input : C.getArgs().getAllArgValues(Id)) // not all are read whenever they are given
+    for (const std::string &Input : C.getArgs().getAllArgValues(Id)) // some are read only with other options
       trax_files_input(&Files, nullptr, Input.c_str());
   for (const Command &Job : C.getJobs())
     for (const std::string &Output : Job.getOutputFilenames())
@@ -153,8 +163,8 @@ void checkFiles(Compilation &C, DiagnosticsEngine &Diags) {
   trax_files_release(&Files);
 }
 
-/// The value of --sysroot, from the command line or a configuration file. For -print-search-dirs: the driver prints the
-/// folders as soon as it has read the option, and asks no tool chain in between.
+/// The value of --sysroot, from the command line or a configuration file. Needed for -print-search-dirs, because the
+/// driver prints the folders before it asks a tool chain.
 std::string findSysRoot(const Installation &Installed, const ParsedClangName &Name, ArgVector Args) {
   llvm::erase_if(Args, [](StringRef Given) { return Given.ltrim('-') == "print-search-dirs"; });
   DiagnosticsEngine Silent(new DiagnosticIDs(), new DiagnosticOptions(), new IgnoringDiagConsumer());
@@ -166,7 +176,7 @@ std::string findSysRoot(const Installation &Installed, const ParsedClangName &Na
   return Probe.SysRoot;
 }
 
-/// Does what the command line says. Executed: the jobs ran.
+/// Runs the driver. Executed: whether its jobs ran.
 int drive(ArgVector Args, llvm::StringSaver &Strings, bool &Executed) {
   const Installation Installed(Args[0], !hasArgument(Args, "-no-canonical-prefixes"));
 
@@ -210,7 +220,7 @@ int drive(ArgVector Args, llvm::StringSaver &Strings, bool &Executed) {
   if (Executed)
     Result = execute(TheDriver, *C, Crashed);
   Diags.getClient()->finish();
-  // LLVM's lists still have the timers that were on the stack of what crashed: going through them may never end.
+  // After a crash, LLVM's list still has timers of the lost stack. Going through it may never end.
   if (Crashed) {
     C.reset(); // and its temporary files
     llvm::outs().flush();
@@ -224,7 +234,7 @@ int drive(ArgVector Args, llvm::StringSaver &Strings, bool &Executed) {
 
 int main(int Argc, char **Argv) {
   const llvm::InitLLVM Init(Argc, Argv);
-  signal(SIGXFSZ, SIG_IGN); // to LLVM a file beyond the size limit is a crash, and not a full disk
+  signal(SIGXFSZ, SIG_IGN); // LLVM takes the signal of a file beyond the size limit for a crash
   llvm::setBugReportMsg("PLEASE attach the command line, the preprocessed source and this trace to a bug report.\n");
   if (llvm::sys::Process::FixupStandardFileDescriptors())
     return 1;

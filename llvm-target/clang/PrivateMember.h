@@ -1,7 +1,7 @@
 //===- PrivateMember.h - access to private members of clang's classes -----===//
 //
-// A target cannot be added to clang's libraries from outside: three members that in-tree code sets are private. The
-// language lets an explicit instantiation name private members. Publish is one that returns the member's address.
+// Three members that clang's own targets set are private (docs/llvm-releases.md says why they are needed). An explicit
+// instantiation may name private members. Publish is one that returns the member's address.
 //
 //   struct Rows { using Type = llvm::ArrayRef<Info> OptTable::*; friend Type addressOf(Rows); };
 //   template struct Publish<Rows, &OptTable::OptionInfos>;

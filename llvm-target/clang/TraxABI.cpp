@@ -1,8 +1,8 @@
 //===- TraxABI.cpp - how aggregates are passed ---------------------------===//
 //
-// Clang's calling conventions are chosen by architecture inside its library, and an unknown architecture gets
-// DefaultABIInfo, whose header is not installed. Its vtable is exported, though: the entry of computeInfo is replaced
-// by a function that calls the original and then edits its result through the public CGFunctionInfo.
+// Clang chooses calling conventions by architecture inside its library. An unknown architecture gets DefaultABIInfo,
+// whose header is not installed, but whose vtable is exported. Its entry of computeInfo is replaced by a function that
+// calls the original and then edits the result through the public CGFunctionInfo (docs/llvm-releases.md says why).
 //
 // This file is compiled with -fPIC: the address of the vtable must be the library's own, not a copy's.
 //

@@ -36,7 +36,7 @@ void trax::addOptions() {
   auto &Table = const_cast<OptTable &>(clang::driver::getDriverOptTable());
   ArrayRef<OptTable::Info> &Rows = Table.*addressOf(OptionInfos());
   static std::vector<OptTable::Info> Extended(Rows.begin(), Rows.end());
-  // The table is searched from where a name would stand in the alphabet to its end: there these are found, too.
+  // The search begins at a name's place in the alphabet and goes to the end of the table, so it finds these rows.
   Extended.push_back(joined(options::OPT_mstack_EQ, "-mstack=", "<place>",
                             "trax: where stacks are: 'local' (512 bytes of local memory, default), 'global' (global "
                             "memory, for programs that need more) or 'either' (objects for both)",

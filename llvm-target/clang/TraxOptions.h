@@ -15,7 +15,7 @@ namespace options {
 enum ID : unsigned { OPT_mstack_EQ = clang::driver::options::LastOption, OPT_mstack_size_EQ, OPT_ffixed_r };
 } // namespace options
 
-/// Adds the rows to the driver's table. Before a Driver parses anything, and once.
+/// Adds the rows to the driver's table. Called once, before a Driver parses anything.
 void addOptions();
 
 } // namespace trax

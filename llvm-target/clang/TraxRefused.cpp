@@ -24,7 +24,7 @@ const Group Groups[] = {
     {{OPT_pie, OPT_static_pie}, {OPT_no_pie}},
     {{OPT_shared, OPT_emit_static_lib}, {}},
     {{OPT_flto, OPT_flto_EQ}, {OPT_fno_lto}},
-    {{OPT_fopenmp, OPT_fopenmp_EQ}, {OPT_fno_openmp}},
+    {{OPT_fopenmp_targets_EQ}, {}},
     {{OPT_fstack_protector, OPT_fstack_protector_strong, OPT_fstack_protector_all}, {OPT_fno_stack_protector}},
     {{OPT_fsplit_stack}, {OPT_fno_split_stack}},
     {{OPT_femulated_tls}, {OPT_fno_emulated_tls}},
@@ -62,7 +62,7 @@ bool isFixedRegister(const Arg &Given) {
   return isOneOf(Given, {OPT_ffixed_r, OPT_ffixed_r9, OPT_ffixed_r19});
 }
 
-/// N of -ffixed-rN, or 0: what is reserved for calls cannot be kept free, and r0 is no register to keep.
+/// N of -ffixed-rN. 0 for registers that cannot be kept free: r0, and those that every call uses.
 unsigned fixedRegister(const Arg &Given) {
   if (Given.getOption().matches(OPT_ffixed_r9))
     return 9;
@@ -108,6 +108,11 @@ void trax::refuseOptions(const Driver &D, const llvm::Triple &Triple, const ArgL
   if (const Arg *Stack = Args.getLastArg(OPT_mstack_EQ))
     if (!llvm::is_contained({StringRef("local"), StringRef("global"), StringRef("either")}, Stack->getValue()))
       RefuseValue(*Stack, "are 'local', 'global' and 'either'");
+  // Threads read variables on the stack of the thread that started them.
+  if (Args.hasFlag(OPT_fopenmp, OPT_fopenmp_EQ, OPT_fno_openmp, false) && Args.getLastArgValue(OPT_mstack_EQ) != "global")
+    D.Diag(D.getDiags().getCustomDiagID(clang::DiagnosticsEngine::Error,
+                                        "'-fopenmp' needs '-mstack=global' for target '%0'"))
+        << Triple.str();
   for (const Arg *Given : Args)
     if (isFixedRegister(*Given)) {
       Given->claim();

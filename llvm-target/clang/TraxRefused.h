@@ -13,7 +13,7 @@ class Driver;
 namespace trax {
 
 /// Reports options that clang accepts for any target and this machine cannot support, and wrong values of its own
-/// options. Claims options that demand what is always true here.
+/// options. Claims options that request what is always so here.
 void refuseOptions(const clang::driver::Driver &D, const llvm::Triple &Triple, const llvm::opt::ArgList &Args);
 
 /// The registers of -ffixed-rN, those alone that can be kept free.

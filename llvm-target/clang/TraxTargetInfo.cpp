@@ -40,7 +40,7 @@ const Builtin::Info Builtins[] = {
   {"__builtin_trax_" #NAME, TYPE, ATTRIBUTES "F", nullptr, HeaderDesc::NO_HEADER, ALL_LANGUAGES},
 #include "TraxBuiltins.def"
     // Clang looks up the intrinsics of generic builtins by an architecture that it knows. This row replaces clang's: it
-    // is a call of a function to which TraxBuiltinNames.cpp gives the intrinsic's name.
+    // is a call of a function to which TraxDeclarations.cpp gives the intrinsic's name.
     {"__builtin_debugtrap", "v", "nF", nullptr, HeaderDesc::NO_HEADER, ALL_LANGUAGES},
 };
 
@@ -102,7 +102,7 @@ public:
   // __builtin_setjmp and __builtin_longjmp: TraxSjLj.cpp.
   bool hasSjLjLowering() const override { return true; }
 
-  // A double word is no better aligned for being one.
+  // No object is aligned beyond a word, whatever its type.
   bool allowsLargerPreferedTypeAlignment() const override { return false; }
 
   // Wider ones would need library functions for multiplication and division.

@@ -66,6 +66,8 @@ class Compiler final : public Tool {
       // No library prints what a check found: it ends in a fault report.
       if (Option.starts_with("-fsanitize="))
         Adjusted.push_back(Args.MakeArgString("-fsanitize-trap=" + Option.split('=').second));
+      if (Option == "-fopenmp") // no loop becomes vectors, whatever the clause simd asks for
+        Adjusted.push_back("-Wno-pass-failed");
     }
     CC1Args = std::move(Adjusted);
   }
@@ -108,24 +110,21 @@ public:
   void ConstructJob(Compilation &C, const JobAction &Link, const InputInfo &Output, const InputInfoList &Inputs,
                     const ArgList &Args, const char *) const override {
     const clang::driver::ToolChain &TC = getToolChain();
-    const bool Relocatable = Args.hasArg(OPT_r);
-    const bool NoLibraries = Args.hasArg(OPT_nostdlib, OPT_nodefaultlibs, OPT_nolibc) || Relocatable;
-    const bool NoStartFile = Args.hasArg(OPT_nostdlib, OPT_nostartfiles) || Relocatable;
+    const bool NoLibraries = Args.hasArg(OPT_nostdlib, OPT_nodefaultlibs, OPT_nolibc);
+    const bool NoStartFile = Args.hasArg(OPT_nostdlib, OPT_nostartfiles);
     const bool GlobalStack = stack(Args) == "global";
-    ArgStringList Out{"-o", Output.getFilename()};
-    if (!Relocatable)
-      Out.push_back("--gc-sections");
-    if (Args.hasArg(OPT_Z_Xlinker__no_demangle)) // what clang makes of -Wl,--no-demangle
+    ArgStringList Out{"-o", Output.getFilename(), "--gc-sections"};
+    if (Args.hasArg(OPT_Z_Xlinker__no_demangle)) // clang's form of -Wl,--no-demangle
       Out.push_back("--no-demangle");
     if (!NoStartFile)
       Out.push_back(findFile(C, TC, GlobalStack ? "crt0-global-stack.o" : "crt0.o"));
-    if (GlobalStack)
+    if (GlobalStack) {
       Args.ClaimAllArgs(OPT_mstack_size_EQ);
-    if (!Relocatable && GlobalStack)
       Out.push_back(Args.MakeArgString("--defsym=__trax_stack_size=" + llvm::Twine(parseSize(stackSize(Args)))));
-    for (const auto Id : {OPT_L, OPT_u, OPT_s, OPT_t})
+    }
+    for (const auto Id : {OPT_L, OPT_r, OPT_u, OPT_s, OPT_t}) // trax-ld refuses -r
       Args.AddAllArgs(Out, Id);
-    for (const Arg *Address : Args.filtered(OPT_T_Group)) { // -Ttext=ADDRESS is the option -T to clang
+    for (const Arg *Address : Args.filtered(OPT_T_Group)) { // clang parses -Ttext=ADDRESS as -T
       Address->claim();
       Out.push_back(Args.MakeArgString(Address->getSpelling() + Address->getValue()));
     }
@@ -139,7 +138,7 @@ public:
       // libc.a has the functions of <math.h> and what C++ needs.
       const Arg &Option = Input.getInputArg();
       static constexpr StringRef Contained[] = {"m", "c++", "c++abi", "supc++"};
-      if (Option.getOption().matches(OPT_Z_reserved_lib_stdcxx)) // what clang makes of -lstdc++
+      if (Option.getOption().matches(OPT_Z_reserved_lib_stdcxx)) // clang's form of -lstdc++
         continue;
       if (NoLibraries || !Option.getOption().matches(OPT_l) || !llvm::is_contained(Contained, Option.getValue()))
         Option.renderAsInput(Args, Out);
@@ -153,7 +152,7 @@ public:
   }
 };
 
-/// The arguments for the base class's constructor, which runs long before the command line is known: no RTTI.
+/// The arguments for the base class's constructor, which decides about RTTI before the command line is known.
 const ArgList &ownArguments() {
   static const char *const Own[] = {"-fno-rtti"};
   unsigned Index, Count;

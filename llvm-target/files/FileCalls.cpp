@@ -95,8 +95,8 @@ int systemOpen(const char *Path, int Flags, mode_t Mode) {
   return int(syscall(SYS_openat, AT_FDCWD, Path, Flags, Mode));
 }
 
-/// Several compilers may append to one file at the same time, so it is not replaced: everything is added by one call,
-/// or nothing.
+/// Several compilers may append to one file at the same time, so it is not replaced. One call adds everything or
+/// nothing.
 void append(const char *Path, const Contents &From) {
   struct stat Status = {};
   const bool Exists = stat(Path, &Status) == 0;

@@ -15,14 +15,14 @@
 
 namespace trax {
 
-/// Whether the rule is followed from now on, as it is at first. For other targets clang behaves as it does elsewhere:
+/// Whether the rule is followed from now on (initially: yes). For other targets clang behaves as it does elsewhere:
 /// its modules, for example, are inputs and outputs.
 void followRule(bool Follow);
 
 /// The last file that was opened for writing.
 const void *outputsSoFar();
 
-/// Writes what was collected since then, unless the program has failed (Keep is false), and reports what could not be
+/// Writes what was collected since Since, unless the program has failed (Keep is false), and reports what could not be
 /// written as "PROGRAM: error: ...". Returns false if there was any.
 bool commitOutputs(const char *Program, bool Keep, const void *Since = nullptr);
 

@@ -19,11 +19,11 @@ class SourceMgr;
 
 namespace trax {
 
-/// Handles crashes of this process from now on. One while assembly is parsed, and every one if Always, is reported as
-/// "PROGRAM: error: ..." and ends the process with status 1; any other goes to the handler before.
+/// Handles crashes of this process from now on. A crash while assembly is parsed, or any crash if Always, is reported
+/// as "PROGRAM: error: ..." and ends the process with status 1. Others go to the previous handler.
 void guardCrashes(const char *Program, bool Always);
 
-/// The innermost parser of assembly, whose place a crash is reported with.
+/// Sets the innermost parser of assembly. A crash is reported with its place.
 void enterParser(const llvm::MCAsmParser *Parser);
 
 /// Ends the process by LLVM's fatal error, with the place of Loc in a file. Without Sources, it is the parser's place.

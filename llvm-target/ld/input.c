@@ -107,8 +107,7 @@ static void check_stacks(ld_context *ctx) {
   }
   const ld_symbol *size = ld_symbol_find(ctx, "__trax_stack_size");
   const bool is_global = size && size->kind != LD_UNDEFINED && size->kind != LD_LAZY;
-  if (ctx->error_count == errors && !ctx->options.relocatable && ctx->stack &&
-      is_global != (ctx->stack == TRAX_EF_STACK_GLOBAL))
+  if (ctx->error_count == errors && ctx->stack && is_global != (ctx->stack == TRAX_EF_STACK_GLOBAL))
     ld_error(ctx, "%s: is for stacks in %s, but __trax_stack_size is %s: compile and link with the same -mstack",
              last_with_stack(ctx, ctx->stack)->name, places[ctx->stack], is_global ? "defined" : "not defined");
 }

@@ -9,7 +9,6 @@
      callgraph functions and their calls                 -> context.functions
      stack     the worst stack depth, or an error        -> context.stack_report
      output    the image: headers, contents, symbol table; relocate applies the relocations in it
-     relocatable instead of layout to output, for -r
      map       the optional reports
 
    A pass reports what is wrong by ld_error and goes on as far as it can, so that one run shows all errors; it returns
@@ -138,7 +137,6 @@ typedef struct ld_options {
   uint32_t stack_size; /* bytes that the stack may take; 0: what local memory has */
   ld_stack_check stack_check;
   bool gc_sections, print_gc_sections, print_memory_usage, print_stack;
-  bool relocatable; /* -r */
   bool strip_all, strip_debug;
   bool no_demangle;
   bool fatal_warnings, no_warnings, trace;
@@ -181,7 +179,6 @@ struct ld_section {
   bool discarded;         /* never part of the output: a losing COMDAT group, notes to the linker, ... */
   bool live;              /* part of the output */
   ld_section *group_next; /* ring of a group's members, or NULL */
-  ld_section *linked_to;  /* SHF_LINK_ORDER: its parent, or NULL */
   ld_section *first_dependent, *next_dependent; /* SHF_LINK_ORDER sections that live as long as this one */
   ld_piece *pieces;                             /* not NULL if the section's contents are merged */
   uint32_t piece_count;
@@ -216,16 +213,7 @@ struct ld_symbol {
   ld_object *object;  /* the definer (LD_LAZY: who would be), NULL for the linker; the first referrer if undefined */
   ld_section *section;
   uint32_t value, size;
-  uint32_t output_index; /* in the symbol table of relocatable output */
 };
-
-/* A section group that is kept. */
-typedef struct ld_group {
-  const ld_object *object;
-  size_t signature; /* symbol index */
-  uint32_t flags;
-  LD_VECTOR(ld_section *) members;
-} ld_group;
 
 struct ld_object {
   const char *name; /* "a.o" or "lib.a(a.o)" */
@@ -310,8 +298,7 @@ struct ld_output {
   uint32_t address, size;
   uint32_t load_address; /* of .tdata: where its initial values are in the image; otherwise 0 */
   uint32_t file_offset;
-  uint32_t header_index;                           /* section header table; 0: none */
-  uint32_t symbol_index, reloc_index, reloc_count; /* of relocatable output */
+  uint32_t header_index; /* in the section header table; 0: none */
 };
 
 typedef struct ld_segment {
@@ -375,8 +362,6 @@ bool ld_check_undefined(ld_context *ctx);
 
 /* Applies the relocations of every live section to its bytes in the image. */
 bool ld_relocate(ld_context *ctx);
-/* The value in unloaded sections for the address of a dropped section. */
-uint32_t ld_tombstone(const ld_section *section);
 /* "a.o:(.text+0x4)" */
 const char *ld_place(ld_context *ctx, const ld_section *section, uint32_t offset);
 /* " (in function 'f')" or nothing. */
@@ -384,27 +369,8 @@ const char *ld_in_function(ld_context *ctx, const ld_section *section, uint32_t 
 
 /* --- output.c --- */
 
-typedef struct ld_string_table {
-  char *bytes;
-  size_t size, capacity;
-  ld_map offsets; /* name -> offset + 1 */
-} ld_string_table;
-
-typedef struct ld_symbol_table {
-  LD_VECTOR(Elf32_Sym) entries;
-  size_t local_count; /* the null symbol among them */
-  ld_string_table names;
-} ld_symbol_table;
-
-uint32_t ld_add_string(ld_context *ctx, ld_string_table *table, const char *text);
-/* Writes structures into the image, in the file's byte order. */
-void ld_put(const ld_context *ctx, size_t offset, const void *items, size_t size, Elf_Type type);
 bool ld_build_image(ld_context *ctx);
 bool ld_write_image(ld_context *ctx);
-
-/* --- relocatable.c --- */
-
-bool ld_build_relocatable(ld_context *ctx);
 
 /* --- map.c --- */
 
@@ -429,7 +395,6 @@ struct ld_context {
   LD_VECTOR(ld_section *) sections;
   LD_VECTOR(ld_symbol *) symbols; /* global, in the order of first mention */
   ld_map symbol_map;              /* name -> ld_symbol * */
-  LD_VECTOR(ld_group) kept_groups;
   ld_map groups;  /* COMDAT signature -> the ld_object * that has it */
   ld_map wrapped; /* --wrap: name of a reference -> name to use, const char * */
 

@@ -1,14 +1,9 @@
-/* The whole linker as a function: relocatable objects and archives in, an executable for the TP out. */
+/* The linker as a function: reads objects and archives, writes an executable for the TP. */
 #include "ld.h"
 #include "trax/output.h"
 #include "trax/version.h"
 
 #include <stdlib.h>
-
-static bool build_executable(ld_context *ctx) {
-  return ld_check_undefined(ctx) && ld_layout(ctx) && ld_build_call_graph(ctx) && ld_check_stack(ctx) &&
-         ld_build_image(ctx) && ld_relocate(ctx);
-}
 
 /* Objects and archives are compared with the outputs when it is known where they are. */
 static bool check_files(ld_context *ctx) {
@@ -28,10 +23,10 @@ static bool check_files(ld_context *ctx) {
 static bool link_program(ld_context *ctx) {
   if (!check_files(ctx) || !ld_load_inputs(ctx) || !ld_finish_symbols(ctx))
     return false;
-  if (!ctx->options.relocatable)
-    ld_split_merge_sections(ctx);
+  ld_split_merge_sections(ctx);
   ld_mark_live(ctx);
-  if (ctx->options.relocatable ? !ld_build_relocatable(ctx) : !build_executable(ctx))
+  if (!ld_check_undefined(ctx) || !ld_layout(ctx) || !ld_build_call_graph(ctx) || !ld_check_stack(ctx) ||
+      !ld_build_image(ctx) || !ld_relocate(ctx))
     return false;
   if (ctx->options.fatal_warnings && ctx->warning_count) {
     ld_error(ctx, "%u warning%s, treated as errors", ctx->warning_count, ctx->warning_count == 1 ? "" : "s");

@@ -315,7 +315,6 @@ static void read_group(ld_context *ctx, ld_object *object, size_t index, const G
       *owner = (uintptr_t)object;
   }
   ld_section *first = NULL, *last = NULL;
-  ld_group group = {.object = object, .signature = header->sh_info, .flags = words[0]};
   for (size_t i = 1; i < count; i++) {
     if (words[i] == 0 || words[i] >= object->section_count) {
       ld_error(ctx, "%s: the section group '%s' has a member %u of %zu sections", object->name, signature, words[i],
@@ -333,10 +332,7 @@ static void read_group(ld_context *ctx, ld_object *object, size_t index, const G
       first = member;
     last = member;
     last->group_next = first;
-    ld_push(ctx, &group.members, member);
   }
-  if (first)
-    ld_push(ctx, &ctx->kept_groups, group);
 }
 
 static void read_groups_and_links(ld_context *ctx, ld_object *object) {
@@ -355,7 +351,6 @@ static void read_groups_and_links(ld_context *ctx, ld_object *object) {
                object->section_count);
     } else if (header.sh_link != 0) { /* 0: to nothing, kept like others */
       ld_section *parent = object->sections[header.sh_link];
-      section->linked_to = parent;
       section->next_dependent = parent->first_dependent;
       parent->first_dependent = section;
       section->discarded = parent->discarded;

@@ -23,8 +23,6 @@ static const ld_option option_table[] = {
     {"", NONE, OPT_HEADING, NULL, "What is linked"},
     {"e", JOINED, OPT_ENTRY, "SYMBOL", "start at SYMBOL or at an address (default _start)"},
     {"entry", VALUE, OPT_ENTRY, "SYMBOL", NULL},
-    {"r", NONE, OPT_RELOCATABLE, NULL, "make one relocatable object instead of an executable"},
-    {"relocatable", NONE, OPT_RELOCATABLE, NULL, NULL},
     {"u", JOINED, OPT_UNDEFINED, "SYMBOL", "take and keep the definition of SYMBOL"},
     {"undefined", VALUE, OPT_UNDEFINED, "SYMBOL", NULL},
     {"defsym", VALUE, OPT_DEFSYM, "NAME=VALUE", "define NAME as a sum of numbers and at most one symbol"},
@@ -95,6 +93,8 @@ static const ld_option option_table[] = {
     /* Unsupported. */
     {"shared", NONE, OPT_REJECTED, NULL, "the machine has no shared libraries"},
     {"Bdynamic", NONE, OPT_REJECTED, NULL, "the machine has no shared libraries"},
+    {"r", NONE, OPT_REJECTED, NULL, "several objects become one file in an archive: llvm-ar rc libparts.a a.o b.o"},
+    {"relocatable", NONE, OPT_REJECTED, NULL, "several objects become one file in an archive: llvm-ar rc libparts.a a.o b.o"},
     {"pie", NONE, OPT_REJECTED, NULL, "programs have fixed addresses"},
     {"q", NONE, OPT_REJECTED, NULL, "executables keep no relocations"},
     {"emit-relocs", NONE, OPT_REJECTED, NULL, "executables keep no relocations"},
@@ -106,7 +106,7 @@ static const ld_option option_table[] = {
 
 void ld_print_help(FILE *out) {
   fputs("usage: trax-ld [options] file...\n"
-        "Links relocatable objects and archives into an executable for the TP.\n",
+        "Links objects and archives into an executable for the TP.\n",
         out);
   for (size_t i = 0; i < OPTION_COUNT; i++) {
     const ld_option *option = &option_table[i];

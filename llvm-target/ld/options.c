@@ -176,9 +176,6 @@ static void apply(ld_context *ctx, const ld_option *option, const char *spelled,
   case OPT_SECTION_START:
     set_section_start(ctx, value);
     break;
-  case OPT_RELOCATABLE:
-    options->relocatable = true;
-    break;
   case OPT_REJECTED:
     ld_error(ctx, "%s: %s", spelled, option->help);
     break;
@@ -208,18 +205,6 @@ static void apply(ld_context *ctx, const ld_option *option, const char *spelled,
     ld_push(ctx, &options->wrapped, value);
     break;
   }
-}
-
-/* Reports options that have no meaning with -r, which keeps everything and has no addresses. */
-static void check_relocatable(ld_context *ctx) {
-  const ld_options *options = &ctx->options;
-  const char *other = options->gc_sections          ? "--gc-sections"
-                      : options->strip_all          ? "--strip-all"
-                      : options->print_stack        ? "--print-stack"
-                      : options->print_memory_usage ? "--print-memory-usage"
-                                                    : NULL;
-  if (options->relocatable && other)
-    ld_error(ctx, "-r and %s cannot be combined", other);
 }
 
 bool ld_parse_options(ld_context *ctx, int argc, char **argv) {
@@ -272,7 +257,6 @@ bool ld_parse_options(ld_context *ctx, int argc, char **argv) {
     }
     apply(ctx, option, argument, value, &whole_archive);
   }
-  check_relocatable(ctx);
   if (options->inputs.count == 0 && !options->help && !options->version && ctx->error_count == 0)
     ld_error(ctx, "no input files");
   return ctx->error_count == 0;

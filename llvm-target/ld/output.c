@@ -3,9 +3,21 @@
 
 #include <string.h>
 
+typedef struct string_table {
+  char *bytes;
+  size_t size, capacity;
+  ld_map offsets; /* name -> offset + 1 */
+} string_table;
+
+typedef struct symbol_table {
+  LD_VECTOR(Elf32_Sym) entries;
+  size_t local_count; /* the null symbol among them */
+  string_table names;
+} symbol_table;
+
 /* --- string tables --- */
 
-uint32_t ld_add_string(ld_context *ctx, ld_string_table *table, const char *text) {
+static uint32_t add_string(ld_context *ctx, string_table *table, const char *text) {
   size_t length = strlen(text);
   uintptr_t *known = ld_map_at(ctx, &table->offsets, text, length);
   if (!*known) {
@@ -42,12 +54,12 @@ static bool becomes_local(const ld_symbol *symbol) {
   return symbol->visibility == STV_HIDDEN || symbol->visibility == STV_INTERNAL;
 }
 
-static void add_symbol(ld_context *ctx, ld_symbol_table *table, const ld_symbol *symbol) {
+static void add_symbol(ld_context *ctx, symbol_table *table, const ld_symbol *symbol) {
   /* Thread-local objects have plain addresses here. */
   uint8_t type = symbol->type == STT_TLS ? STT_OBJECT : symbol->type;
   uint8_t binding = becomes_local(symbol) ? STB_LOCAL : symbol->binding;
   uint32_t header = symbol->kind == LD_DEFINED ? symbol->section->output->header_index : 0;
-  Elf32_Sym entry = {.st_name = ld_add_string(ctx, &table->names, symbol->name),
+  Elf32_Sym entry = {.st_name = add_string(ctx, &table->names, symbol->name),
                      .st_value = ld_symbol_address(ctx, symbol),
                      .st_size = symbol->kind == LD_DEFSYM ? 0 : symbol->size,
                      .st_info = ELF32_ST_INFO(binding, type),
@@ -56,15 +68,15 @@ static void add_symbol(ld_context *ctx, ld_symbol_table *table, const ld_symbol 
   ld_push(ctx, &table->entries, entry);
 }
 
-static void add_globals(ld_context *ctx, ld_symbol_table *table, bool local) {
+static void add_globals(ld_context *ctx, symbol_table *table, bool local) {
   for (size_t i = 0; i < ctx->symbols.count; i++)
     if (is_wanted(ctx, ctx->symbols.items[i]) && becomes_local(ctx->symbols.items[i]) == local)
       add_symbol(ctx, table, ctx->symbols.items[i]);
 }
 
-static void collect_symbols(ld_context *ctx, ld_symbol_table *table) {
+static void collect_symbols(ld_context *ctx, symbol_table *table) {
   Elf32_Sym null = {0};
-  ld_add_string(ctx, &table->names, "");
+  add_string(ctx, &table->names, "");
   ld_push(ctx, &table->entries, null);
   add_globals(ctx, table, true); /* first: after the symbol of a file they would belong to that file */
   for (size_t o = 0; o < ctx->objects.count; o++) {
@@ -81,15 +93,15 @@ static void collect_symbols(ld_context *ctx, ld_symbol_table *table) {
 
 typedef LD_VECTOR(Elf32_Shdr) header_list;
 
-static void collect_headers(ld_context *ctx, header_list *headers, ld_string_table *names) {
+static void collect_headers(ld_context *ctx, header_list *headers, string_table *names) {
   Elf32_Shdr null = {0};
-  ld_add_string(ctx, names, "");
+  add_string(ctx, names, "");
   ld_push(ctx, headers, null);
   for (size_t i = 0; i < ctx->outputs.count; i++) {
     const ld_output *output = ctx->outputs.items[i];
     if (!output->header_index)
       continue;
-    Elf32_Shdr header = {.sh_name = ld_add_string(ctx, names, output->name),
+    Elf32_Shdr header = {.sh_name = add_string(ctx, names, output->name),
                          .sh_type = output->type,
                          .sh_flags = output->flags & ~(uint32_t)SHF_TLS, /* its addresses are plain ones */
                          .sh_addr = output->address,
@@ -102,10 +114,10 @@ static void collect_headers(ld_context *ctx, header_list *headers, ld_string_tab
 }
 
 /* A table that follows what is there; its bytes are copied by the caller. */
-static Elf32_Shdr *add_table(ld_context *ctx, header_list *headers, ld_string_table *names, const char *name,
+static Elf32_Shdr *add_table(ld_context *ctx, header_list *headers, string_table *names, const char *name,
                              uint32_t type, size_t size, uint32_t alignment) {
   uint64_t offset = ld_align(ctx->image_size, alignment);
-  Elf32_Shdr header = {.sh_name = ld_add_string(ctx, names, name),
+  Elf32_Shdr header = {.sh_name = add_string(ctx, names, name),
                        .sh_type = type,
                        .sh_offset = (uint32_t)offset,
                        .sh_size = (uint32_t)size,
@@ -115,7 +127,8 @@ static Elf32_Shdr *add_table(ld_context *ctx, header_list *headers, ld_string_ta
   return &headers->items[headers->count - 1];
 }
 
-void ld_put(const ld_context *ctx, size_t offset, const void *items, size_t size, Elf_Type type) {
+/* Writes structures into the image, in the file's byte order. */
+static void put(const ld_context *ctx, size_t offset, const void *items, size_t size, Elf_Type type) {
   Elf_Data from = {.d_buf = (void *)items, .d_type = type, .d_size = size, .d_version = EV_CURRENT};
   Elf_Data to = {.d_buf = ctx->image + offset, .d_type = type, .d_size = size, .d_version = EV_CURRENT};
   elf32_xlatetof(&to, &from, ELFDATA2LSB);
@@ -136,7 +149,7 @@ static void put_file_header(const ld_context *ctx, size_t section_headers, size_
                        .e_shentsize = sizeof(Elf32_Shdr),
                        .e_shnum = (Elf32_Half)section_count,
                        .e_shstrndx = (Elf32_Half)(section_count - 1)};
-  ld_put(ctx, 0, &header, sizeof header, ELF_T_EHDR);
+  put(ctx, 0, &header, sizeof header, ELF_T_EHDR);
 }
 
 static void put_program_headers(const ld_context *ctx) {
@@ -150,7 +163,7 @@ static void put_program_headers(const ld_context *ctx) {
                          .p_memsz = segment->memory_size,
                          .p_flags = segment->flags,
                          .p_align = LD_SEGMENT_ALIGNMENT};
-    ld_put(ctx, sizeof(Elf32_Ehdr) + i * sizeof header, &header, sizeof header, ELF_T_PHDR);
+    put(ctx, sizeof(Elf32_Ehdr) + i * sizeof header, &header, sizeof header, ELF_T_PHDR);
   }
 }
 
@@ -169,8 +182,8 @@ static void put_contents(const ld_context *ctx) {
 
 bool ld_build_image(ld_context *ctx) {
   header_list headers = {0};
-  ld_string_table header_names = {0};
-  ld_symbol_table symbols = {0};
+  string_table header_names = {0};
+  symbol_table symbols = {0};
   size_t symbols_offset = 0, names_offset = 0;
   collect_headers(ctx, &headers, &header_names);
   if (headers.count + 3 >= SHN_LORESERVE) {
@@ -188,7 +201,7 @@ bool ld_build_image(ld_context *ctx) {
     symbols_offset = header->sh_offset;
     names_offset = add_table(ctx, &headers, &header_names, ".strtab", SHT_STRTAB, symbols.names.size, 1)->sh_offset;
   }
-  ld_add_string(ctx, &header_names, ".shstrtab"); /* before the size is taken */
+  add_string(ctx, &header_names, ".shstrtab"); /* before the size is taken */
   size_t header_names_offset =
       add_table(ctx, &headers, &header_names, ".shstrtab", SHT_STRTAB, header_names.size, 1)->sh_offset;
   size_t headers_offset = (size_t)ld_align(ctx->image_size, sizeof(Elf32_Word));
@@ -199,14 +212,14 @@ bool ld_build_image(ld_context *ctx) {
   put_program_headers(ctx);
   put_contents(ctx);
   if (!strip) {
-    ld_put(ctx, symbols_offset, symbols.entries.items, symbols.entries.count * sizeof(Elf32_Sym), ELF_T_SYM);
+    put(ctx, symbols_offset, symbols.entries.items, symbols.entries.count * sizeof(Elf32_Sym), ELF_T_SYM);
     memcpy(ctx->image + names_offset, symbols.names.bytes, symbols.names.size);
   }
   memcpy(ctx->image + header_names_offset, header_names.bytes, header_names.size);
-  ld_put(ctx, headers_offset, headers.items, headers.count * sizeof(Elf32_Shdr), ELF_T_SHDR);
+  put(ctx, headers_offset, headers.items, headers.count * sizeof(Elf32_Shdr), ELF_T_SHDR);
   return true;
 }
 
 bool ld_write_image(ld_context *ctx) {
-  return ld_write_file(ctx, ctx->options.output, ctx->image, ctx->image_size, !ctx->options.relocatable);
+  return ld_write_file(ctx, ctx->options.output, ctx->image, ctx->image_size, /*executable=*/true);
 }

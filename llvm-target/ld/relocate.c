@@ -145,7 +145,7 @@ static void apply(const place *place, uint32_t target, uint32_t address) {
    choice, is wrong here: a dropped function of more than 4 kB would seem to reach from 0 into the text at 0x1000.) In
    lists of ranges that address would introduce a new base and two zeros would end the list, so there it is 1, an empty
    range. */
-uint32_t ld_tombstone(const ld_section *section) {
+static uint32_t tombstone(const ld_section *section) {
   bool is_list = strcmp(section->name, ".debug_loc") == 0 || strcmp(section->name, ".debug_ranges") == 0;
   return is_list ? 1 : UINT32_MAX;
 }
@@ -157,7 +157,7 @@ static bool target_address(const place *place, uint32_t *target) {
   const ld_symbol *symbol = reloc->symbol;
   bool loaded = place->section->flags & SHF_ALLOC;
   if (!loaded && (symbol->kind == LD_UNDEFINED || ld_symbol_is_dropped(symbol, reloc->addend))) {
-    *target = ld_tombstone(place->section);
+    *target = tombstone(place->section);
     return true;
   }
   if (ld_symbol_is_dropped(symbol, reloc->addend)) {

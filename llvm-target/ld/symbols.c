@@ -242,7 +242,7 @@ void ld_start_symbols(ld_context *ctx) {
     ld_symbol *symbol = intern(ctx, options->defsyms.items[i].name);
     *symbol = (ld_symbol){.name = symbol->name, .kind = LD_DEFSYM, .binding = STB_GLOBAL, .value = (uint32_t)i};
   }
-  if (!options->relocatable && !ld_parse_number(options->entry, &address))
+  if (!ld_parse_number(options->entry, &address))
     require(ctx, options->entry);
   for (size_t i = 0; i < options->undefined.count; i++)
     require(ctx, options->undefined.items[i]);
@@ -358,12 +358,11 @@ bool ld_finish_symbols(ld_context *ctx) {
       symbol->kind = LD_UNDEFINED;
       symbol->object = NULL;
       symbol->in_archive = true;
-    } else if (symbol->kind == LD_COMMON && !ctx->options.relocatable) {
+    } else if (symbol->kind == LD_COMMON) {
       place_common(ctx, symbol);
     }
   }
-  if (!ctx->options.relocatable)
-    define_boundaries(ctx);
+  define_boundaries(ctx);
   check_defsyms(ctx);
   return ctx->error_count == 0;
 }

@@ -1,5 +1,5 @@
-/* The twin tells its log, if it has one, which rays it traces, and which nodes and triangles they read (trax/access.h).
-   Programs of the TPs contain none of this. */
+/* The twin writes the rays that it traces, and the nodes and triangles that they read, to its log if it has one
+   (trax/access.h). Programs of the TPs contain none of this. */
 #ifndef TRAX_DEVICE_ACCESS_H
 #define TRAX_DEVICE_ACCESS_H
 
@@ -31,7 +31,7 @@ static inline void log_slot(uint32_t slot) {
   trax_native.rays = 0;
 }
 
-/* pixel: struct pixel's word; rays: the ray as it is counted, 0 for one from the eye. */
+/* pixel: struct pixel's word; rays: the ray's term of trax_count_kinds, 0 for one from the eye. */
 static inline void log_ray(uint32_t pixel, uint32_t sample, uint32_t rays, struct vector origin,
                            struct vector direction, int32_t farthest, bool found, const struct hit *hit) {
   if (!trax_access_log || !trax_access_log->ray)

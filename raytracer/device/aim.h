@@ -15,8 +15,8 @@ struct light {
   int32_t cosine_bits; /* of the angle to the normal; not positive: the light is behind the surface */
 };
 
-/* Takes the cosine at the ray's start. Pictures in which that shows are rendered by path.h (TRAX_FEATURE_NEAR_LIGHT).
- */
+/* The cosine is that at the ray's start. path.h renders pictures in which the difference would show
+   (TRAX_FEATURE_NEAR_LIGHT). */
 static inline void aim_at_light(struct light *light, const struct surface *surface, const float *position) {
   struct vector way = minus(load_vector(position), surface->start);
   float square = dot(way, way);
@@ -24,11 +24,11 @@ static inline void aim_at_light(struct light *light, const struct surface *surfa
   float cosine = dot(surface->normal, way) * surface->inverse_length * inverse;
   light->direction = times(inverse, way);
   light->distance_bits = float_bits(square * inverse) - LIGHT_SLACK;
-  /* A light within 2^-40 of the point has no direction to speak of. */
+  /* A light within 2^-40 of the point has no usable direction. */
   light->cosine_bits = float_bits(square) >= float_bits(0x1p-80f) ? float_bits(cosine) : 0;
 }
 
-/* The light that reaches a point if nothing is in the way. */
+/* The light that reaches a point if nothing blocks it. */
 struct arrival {
   struct vector direction; /* towards the light, unit length */
   int32_t distance_bits;   /* the shadow ray's length; FARTHEST_BITS: unlimited */

@@ -1,4 +1,4 @@
-/* What is computed with vectors, in the order written: sums x first. */
+/* Arithmetic of vectors. Sums are in the order written, x first. */
 #ifndef TRAX_DEVICE_ALGEBRA_H
 #define TRAX_DEVICE_ALGEBRA_H
 
@@ -23,7 +23,7 @@ static inline struct vector times(float factor, struct vector v) {
   return (struct vector){factor * v.x, factor * v.y, factor * v.z};
 }
 
-/* Of colours: component by component. */
+/* The product of two colours, component by component. */
 static inline struct vector filtered(struct vector a, struct vector b) {
   return (struct vector){a.x * b.x, a.y * b.y, a.z * b.z};
 }
@@ -36,12 +36,12 @@ static inline struct vector cross(struct vector a, struct vector b) {
   return (struct vector){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/* The greatest component's bits, of one that has no negative component. */
+/* The bits of the greatest component. No component may be negative. */
 static inline int32_t greatest_bits(struct vector v) {
   return larger(larger(float_bits(v.x), float_bits(v.y)), float_bits(v.z));
 }
 
-/* The same of the components' magnitudes. */
+/* The bits of the greatest component's magnitude. */
 static inline int32_t greatest_magnitude(struct vector v) {
   return larger(larger(magnitude(v.x), magnitude(v.y)), magnitude(v.z));
 }
@@ -54,7 +54,7 @@ static inline float at_most(float value, float most) {
   return bits_float(float_bits(value) < float_bits(most) ? float_bits(value) : float_bits(most)); /* both positive */
 }
 
-/* The square root: 0 for what is negative, and for what is below 2^-80, whose reciprocal would be large. */
+/* The square root. 0 for negative numbers, and for those below 2^-80, whose reciprocals would be large. */
 static inline float root(float square) {
   return float_bits(square) < float_bits(0x1p-80f) ? 0 : square * trax_rsqrt(square);
 }

@@ -26,7 +26,7 @@ static inline float bits_float(int32_t bits) {
 #define HIDE_ORIGIN(value) ((void)0)
 #endif
 
-/* Before a loop that takes few turns. */
+/* Before a loop of few iterations. */
 #ifdef __clang__
 #define KEEP_ROLLED _Pragma("clang loop unroll(disable)")
 #else

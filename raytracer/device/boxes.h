@@ -1,6 +1,6 @@
-/* Whether a ray enters a box, and where. Boxes are tested plane by plane and left behind each plane by which the ray is
-   known to miss, and all comparisons are of integers: a node costs between 1 and 6 adds and multiplies a child, and a
-   load for each plane. */
+/* Whether a ray enters a box, and where. A box is tested one plane at a time. The test stops at the first plane that
+   rules out a hit. All comparisons are of integers. So a child costs 1 to 6 adds and multiplies, and a load for each
+   plane that is tested. */
 #ifndef TRAX_DEVICE_BOXES_H
 #define TRAX_DEVICE_BOXES_H
 
@@ -8,28 +8,28 @@
 
 #include <stdbool.h>
 
-/* Where along the ray a plane is, as bits. */
+/* The bits of a plane's distance along the ray. */
 static inline __attribute__((always_inline)) int32_t plane_distance(uint32_t layout, const char *plane, float origin,
                                                                     float inverse) {
   return nodes_are_quantised(layout) ? quantised_plane(plane, origin, inverse) : binary_plane(plane, origin, inverse);
 }
 
-/* A distance as planes have it. */
+/* A distance in the unit of the planes' distances. */
 static inline __attribute__((always_inline)) int32_t limit_of(uint32_t layout, int32_t distance_bits) {
   return nodes_are_quantised(layout) ? distance_on_grid(distance_bits) : distance_bits;
 }
 
-/* As integers, since the compiler would keep the negative of a pointer's offset in a register of its own. */
+/* place - offset, by integers: for pointers the compiler would keep -offset in a register of its own. */
 static inline __attribute__((always_inline)) const char *before(const char *place, uint32_t offset) {
   return (const char *)((uintptr_t)place - offset);
 }
 
-/* Where the ray enters a box of a node, as bits, if it does so before `limit`. `box` is where in the node its planes
-   are.
+/* The bits of the distance at which the ray enters a box of a node, if that is before `limit`. `box` is the offset of
+   the box's planes in the node.
 
-   Distances are compared as integers. Of two negative ones that may go wrong, but to enter anywhere before 0 is as good
-   as another place, and who leaves before 0 has missed: of an axis's two negative distances the near plane's is the
-   greater. */
+   Distances are compared as integers, which is wrong for two negative ones. But any entry before 0 is as good as
+   another, and a box whose exit distance is negative is missed: as an integer, the near plane's negative distance is
+   the greater of an axis's two. */
 static inline __attribute__((always_inline)) bool enter_box(uint32_t layout, const char *node, int box,
                                                             const struct ray *ray, int32_t limit, int32_t *enter) {
   const struct box_ray *way = &ray->box;

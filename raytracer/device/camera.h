@@ -23,13 +23,13 @@ static inline uint32_t pixel_y(struct pixel pixel) {
   return pixel.packed >> 16;
 }
 
-/* Where a number lies on Hilbert's curve through a square of 2^log2_side a side, at most 2^5, from its upper left
-   corner to the upper right one. Each pair of bits chooses a quadrant, and turns or mirrors all that is below it: all
-   of these are found at once, by exclusive ors over the pairs above (Warren, "Hacker's Delight", 2nd edition, section
+/* The place of a number on Hilbert's curve through a square of side 2^log2_side, at most 2^5, from the upper left
+   corner to the upper right one. Each pair of bits chooses a quadrant, and turns or mirrors everything within it. All
+   turns are computed at once, by exclusive ors over the higher pairs (Warren, "Hacker's Delight", 2nd edition, section
    16-2). */
 static inline void curve_place(uint32_t number, uint32_t log2_side, uint32_t *x, uint32_t *y) {
   const uint32_t pairs = 0x155, within = (1u << 2 * log2_side) - 1; /* the lower bit of each pair */
-  uint32_t bits = (number & within) | (pairs & ~within);            /* pairs of 1 turn nothing */
+  uint32_t bits = (number & within) | (pairs & ~within);            /* a pair 01 turns nothing */
   uint32_t high = bits >> 1 & pairs;
   uint32_t turns = ((bits & pairs) + high) ^ pairs;
   turns ^= turns >> 2;
@@ -44,7 +44,7 @@ static inline void curve_place(uint32_t number, uint32_t log2_side, uint32_t *x,
   *y = (down | down >> 4) & 0x1F;
 }
 
-/* False: the slot is past the picture's edge. */
+/* False if the slot is past the picture's edge. */
 static inline bool slot_pixel(const struct trax_render_params *frame, uint32_t slot, struct pixel *pixel) {
   uint32_t log2_side = frame->tile_log2_side, tile = slot >> 2 * log2_side;
   uint32_t tile_row = (uint32_t)((uint64_t)(2 * tile) * frame->row_multiplier >> 32) >> frame->row_shift;
@@ -57,9 +57,9 @@ static inline bool slot_pixel(const struct trax_render_params *frame, uint32_t s
   return x < frame->width && y < frame->height;
 }
 
-/* Where in its pixel the ray number `sample` goes through, from the pixel's upper left corner. The first is in the
-   middle; the others follow the sequence R2 (Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018):
-   any number of them is spread evenly. In integers, so exact. */
+/* The point of the pixel that ray number `sample` goes through, from the pixel's upper left corner. The first is the
+   middle; the others follow the sequence R2 (Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018),
+   of which any number of points is spread evenly. Integers make it exact. */
 static inline struct place sample_place(uint32_t sample) {
   uint32_t x = 0x80000000u + sample * 0xC13FA9A9u; /* 2^32 / g and 2^32 / g^2, where g^3 = g + 1 */
   uint32_t y = 0x80000000u + sample * 0x91E10DA5u;

@@ -16,7 +16,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Are hits exact? A program of the TPs that includes this file has no others; the twin has both. */
+/* Whether hits are exact. Always so in a program of the TPs that includes this file; the twin has both kinds. */
 #ifdef TRAX_EXACT_HITS
 #define HITS_ARE_EXACT TRAX_EXACT_HITS
 #else
@@ -25,8 +25,8 @@
 
 /* --- sums of products --- */
 
-/* In units of 2^-447, the product of three of the least floats. trax_normalise sees to it that no factor is beyond
-   2^33: then the sum of 36 products has less than 32 * EXACT_WORDS bits. */
+/* In units of 2^-447, the product of three of the least floats. trax_normalise keeps all factors below
+   2^33. Then the sum of 36 products has less than 32 * EXACT_WORDS bits. */
 #define EXACT_WORDS 18
 
 /* Functions of their own: they run rarely, and the traversal's registers stay free. */
@@ -36,18 +36,18 @@ struct exact_ray {
   float origin[3], direction[3];
 };
 
-/* value * 2^exponent, but for a power of two that all sums have in common. */
+/* value * 2^exponent. A power of two that all sums have in common is left out. */
 struct exact_value {
   float value;
   int32_t exponent;
 };
 
-/* A float's digits as an integer. */
+/* A float's significand as an integer. */
 static inline uint32_t digits_of(uint32_t bits) {
   return (bits & 0x7FFFFFu) | (bits & 0x7F800000u ? 0x800000u : 0);
 }
 
-/* The exponent of the last of them, from that of 2^-149. */
+/* The exponent of its last bit, less that of 2^-149. */
 static inline uint32_t weight_of(uint32_t bits) {
   uint32_t exponent = bits >> 23 & 255;
   return exponent ? exponent - 1 : 0;
@@ -59,7 +59,7 @@ static inline void add_product(uint32_t *sum, uint32_t a, uint32_t b, uint32_t c
   uint64_t ab = (uint64_t)digits_of(a) * digits_of(b);
   uint64_t low = (ab & 0xFFFFFFFFu) * digits_of(c), high = (ab >> 32) * digits_of(c) + (low >> 32);
   uint32_t word[3] = {(uint32_t)low, (uint32_t)high, (uint32_t)(high >> 32)};
-  /* Two's complement: to subtract, all bits are turned and 1 is added. */
+  /* Two's complement: a subtraction inverts all bits and adds 1. */
   uint32_t turned = (uint32_t)((int32_t)(a ^ b ^ c ^ sign) >> 31), carry = turned & 1, below = 0;
   uint32_t *at = sum + (place >> 5), *end = sum + EXACT_WORDS;
   for (int i = 0; i < 4; i++) {
@@ -94,7 +94,7 @@ EXACT_STEP void add_determinants(uint32_t *sum, const float *x, const float *p, 
   }
 }
 
-/* The sum, to 2^-24 of it. Sets *sum to 0. */
+/* The sum, rounded to a relative error of 2^-24. Sets *sum to 0. */
 EXACT_STEP struct exact_value take_sum(uint32_t *sum) {
   uint32_t negative = (uint32_t)((int32_t)sum[EXACT_WORDS - 1] >> 31), carry = negative & 1, high = 0, low = 0;
   int32_t top = 0;
@@ -114,7 +114,7 @@ EXACT_STEP struct exact_value take_sum(uint32_t *sum) {
   return (struct exact_value){bits_float(float_bits(value) | (int32_t)(negative & 0x80000000u)), 32 * top - zeros};
 }
 
-/* a / b; 0 where that vanishes beside 1. */
+/* a / b; 0 if that is negligible beside 1. */
 static inline float exact_quotient(struct exact_value a, struct exact_value b) {
   int32_t exponent = a.exponent - b.exponent;
   exponent = exponent < -252 ? -252 : exponent > 252 ? 252 : exponent;
@@ -157,7 +157,7 @@ EXACT_STEP bool exact_hit(const struct exact_ray *ray, const float *a, struct ex
   return true;
 }
 
-/* Does the ray see v0, v1, v2 clockwise? As a sign bit. */
+/* Whether the ray sees v0, v1, v2 clockwise, as a sign bit. */
 EXACT_STEP int32_t exactly_turned(const float *direction, const float *a) {
   uint32_t sum[EXACT_WORDS] = {0};
   add_determinants(sum, direction, a + 3, a, a + 6, false, 0);
@@ -178,11 +178,11 @@ static inline void prepare_exact_triangle_ray(struct exact_triangle_ray *ray, st
   prepare_triangle_ray(&ray->sheared, origin, direction, inverse);
 }
 
-/* False: two edge values are certainly on different sides, so the ray misses the triangle. The watertight test, but
-   with all lengths scaled by a power of two to less than 2, so that no product leaves the range of floats. In units of
-   2^-24, and with S, the greatest magnitude of a coordinate across the ray: the vertices as seen from the origin are
-   off by 2, their product with the shear (6, from a reciprocal of error 5) by 16, so coordinates across the ray by 22,
-   and edge values by 4 * 22 S + 2 * 22 * 22 * 2^-24 + 4 S S, where S is at most 4. */
+/* False if two edge values certainly have different signs, so that the ray misses the triangle. This is the watertight
+   test with all lengths scaled by a power of two to less than 2, so that no product leaves the range of floats. The
+   errors, in units of 2^-24, where S is the greatest magnitude of a coordinate across the ray: 2 of the vertices as
+   seen from the origin, 16 of their products with the shear (6, from a reciprocal of error 5), hence 22 of coordinates
+   across the ray, and 4 * 22 S + 2 * 22 * 22 * 2^-24 + 4 S S of edge values, where S is at most 4. */
 static inline __attribute__((always_inline)) bool may_hit_triangle(const struct triangle_ray *ray,
                                                                    const char *triangle) {
   const char *at_u = triangle + ray->offset_u, *at_v = triangle + ray->offset_v, *at_w = triangle + ray->offset_w;
@@ -237,10 +237,10 @@ hit_triangle_exactly(const struct exact_triangle_ray *ray, const char *triangle,
 
 /* --- the surface and the light --- */
 
-/* As find_surface. Edges are scaled by a power of two, so that the normal stays in the range of floats,
-   and which of its sides is the viewer's is found without error. The point is found from the vertices or along the ray,
-   whichever has the lesser bound: with R, the greatest component of the way from the eye, and O, that of the eye, the
-   point along the ray is off by 6u R + u O a coordinate, and the shadow ray's test has no error of its own. */
+/* The exact form of find_surface. Edges are scaled by a power of two, so that the normal stays in the range of floats.
+   The viewer's side of it is found without error. The point comes from the vertices or from the ray, whichever has the
+   smaller error bound: along the ray that is 6u R + u O a coordinate, where R is the greatest component of the way from
+   the eye, and O that of the eye. The shadow ray's test has no error of its own. */
 #define OFFSET_PER_WAY 0x1p-19f
 
 static inline __attribute__((always_inline)) void find_surface_exactly(struct surface *surface, const struct hit *hit,
@@ -280,8 +280,8 @@ static inline __attribute__((always_inline)) void find_surface_exactly(struct su
   surface->normal = n;
 }
 
-/* Scales by a power of two to less than 2. `exponent` is its reciprocal's bits, 0 if the way is too short to have a
-   direction. */
+/* Scales by a power of two to less than 2. `exponent` receives the bits of the power's reciprocal, 0 if the way is too
+   short to have a direction. */
 static inline struct vector scale_way(struct vector way, int32_t *exponent) {
   *exponent = greatest_magnitude(way) & 0x7F800000;
   return times(bits_float(0x7F000000 - *exponent), way);
@@ -315,7 +315,7 @@ static inline float aim_exactly(struct arrival *arrival, struct vector from, str
   return at_most(scaled * scaled, 0x1p80f);
 }
 
-/* The normal of the triangle that is scaled by a power of two: a small one's would vanish. */
+/* The normal, from edges scaled by a power of two: that of a small triangle would vanish. */
 static inline struct vector exact_triangle_normal(const float *v) {
   if (!HITS_ARE_EXACT)
     return triangle_normal(v);
@@ -326,7 +326,7 @@ static inline struct vector exact_triangle_normal(const float *v) {
   return triangle_normal(scaled);
 }
 
-/* --- in place of the plain ones from here on --- */
+/* --- these replace the plain functions from here on --- */
 
 #define triangle_ray exact_triangle_ray
 #define prepare_triangle_ray prepare_exact_triangle_ray

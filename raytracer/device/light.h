@@ -10,7 +10,7 @@
 
 #include <stdbool.h>
 
-/* Clamps to 0 and TRAX_MAX_RADIANCE. A NaN stays one, to be seen. */
+/* Clamps to 0 and TRAX_MAX_RADIANCE. A NaN stays a NaN, so that it shows. */
 static inline float bounded(float value) {
   return magnitude(value) > 0x7F800000 ? value : at_most(at_least(value, 0), TRAX_MAX_RADIANCE);
 }
@@ -19,7 +19,7 @@ static inline struct vector bounded_colour(struct vector colour) {
   return (struct vector){bounded(colour.x), bounded(colour.y), bounded(colour.z)};
 }
 
-/* Samples a point of a light by `place`. False: no light arrives. */
+/* Samples a point of a light by `place`. False if no light arrives. */
 static inline bool light_arrives(struct arrival *arrival, const struct trax_device_light *light, struct vector point,
                                  struct place place) {
   struct vector target = load_vector(light->place);
@@ -48,8 +48,8 @@ static inline bool light_arrives(struct arrival *arrival, const struct trax_devi
   return true;
 }
 
-/* pi times the pdf in solid angle of a point of an emitter at the root of `square`, seen at a cosine; choices: the
-   number of lights that the shadow ray chooses from, all emitters being one. */
+/* pi times the pdf in solid angle of a point of an emitter. square: of the distance; cosine: at the emitter; choices:
+   the number of lights that the shadow ray chooses from, where all emitters count as one. */
 static inline float emitter_pdf(float per_area, float square, float cosine, float choices) {
   return bounded(3.14159265f * per_area * square / at_least(choices * cosine, 0x1p-40f));
 }
@@ -58,7 +58,7 @@ static inline float emitter_pdf(float per_area, float square, float cosine, floa
 static inline bool emitter_arrives(struct arrival *arrival, bool one_sided, const struct trax_path_params *path,
                                    uint32_t pick, struct vector point, struct place place) {
   const struct trax_emitter *emitters = path_table(path->emitters);
-  uint32_t low = 0, high = path->emitter_count; /* the last whose predecessors have no more than pick */
+  uint32_t low = 0, high = path->emitter_count; /* the last emitter with a cumulative probability of at most pick */
   while (high - low > 1) {
     uint32_t middle = (low + high) >> 1;
     if (emitters[middle].cumulative <= pick)

@@ -27,8 +27,9 @@ struct trax_buffer image, params, paths;
 struct trax_buffer record;
 #endif
 
-/* The paper's workload: the pixel's word. All rays go through one copy of the traversal, so that the program fits in
-   the instruction cache. *number is asked for once all rays are traced, and is there when the pixel is done. */
+/* Renders a pixel of the paper's workload and returns its word. All rays go through one copy of the traversal, so that
+   the program fits in the instruction cache. *number is requested when all rays are traced, and has arrived when the
+   pixel is done. */
 static inline __attribute__((always_inline)) uint32_t render_pixel(const struct trax_render_params *run,
                                                                    uint32_t layout, struct pixel pixel, uint32_t queue,
                                                                    uint32_t *number) {
@@ -46,7 +47,7 @@ static inline __attribute__((always_inline)) uint32_t render_pixel(const struct 
     for (;;) {
       struct ray ray;
       prepare_ray(&ray, layout, origin, direction, run->box_margin, &run->grid);
-      HIDE_ORIGIN(shadow); /* or the loop's turns are told apart, and registers chosen less well */
+      HIDE_ORIGIN(shadow); /* else the compiler specialises the iterations, and allocates registers less well */
       bool found =
           trace_ray(layout, scene.data, ((const struct trax_scene_header *)scene.data)->root, &ray, shadow, &hit);
       ACCESS_RAY(pixel.packed, sample, shadow, origin, direction, shadow ? hit.distance_bits : FARTHEST_BITS, found,
@@ -103,8 +104,8 @@ static inline __attribute__((always_inline)) uint32_t render_pixel(const struct 
   }
 }
 
-/* The general program has all kinds of pictures, each in a function with a frame of its own; none returns to main,
-   which would need its frame all the while. */
+/* The general program renders each kind of picture in a function with a frame of its own. None returns, since main
+   would need its frame all the time. */
 #if !defined __trax__
 #define RENDER_ALL
 #elif defined TRAX_SPECIALISED_FEATURES
@@ -172,7 +173,7 @@ static RENDER_ALL void render_all_paths(const struct trax_render_params *run) {
   END_THREAD();
 }
 
-/* On the TP it ends its thread: what does not return need not save its caller's registers. */
+/* On the TP it ends its thread. A function that does not return saves no registers of its caller. */
 NO_RETURN int main(void) {
   const struct trax_render_params *run = RUN_PARAMS;
   check_scene(scene.data);

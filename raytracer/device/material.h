@@ -9,7 +9,7 @@
 
 #include <stdbool.h>
 
-/* The point that is shaded. Directions are of unit length and lead away from it. */
+/* The point that is shaded. Directions have unit length and lead away from it. */
 struct scatterer {
   struct vector view;   /* towards the origin of the ray */
   struct vector flat;   /* the triangle's normal, towards the view */
@@ -68,7 +68,7 @@ static inline float fresnel(float cosine, float ratio, float *transmitted) {
     return 1;
   float other = root(square);
   *transmitted = other;
-  /* One of the cosines is positive. With index 1, a grazing angle reflects all. */
+  /* At least one cosine is positive. With index 1, a grazing ray is reflected completely. */
   float across_sum = at_least(ratio * cosine + other, 0x1p-40f), along_sum = at_least(cosine + ratio * other, 0x1p-40f);
   float across = (ratio * cosine - other) / across_sum, along = (cosine - ratio * other) / along_sum;
   return 0.5f * (across * across + along * along);
@@ -199,7 +199,7 @@ static inline struct vector reflectance(const struct scatterer *at, bool layered
 }
 
 /* Samples a direction of incident light; choice is from 0 to 1. Returns BRDF times cosine divided by the pdf; *pdf is
-   pi times that. {0, 0, 0}: no direction. */
+   pi times the pdf. {0, 0, 0} if there is no direction. */
 static inline struct vector scatter(const struct scatterer *at, bool layered, struct place place, float choice,
                                     struct vector *way, float *pdf) {
   if (layered && choice < layer_share(at))

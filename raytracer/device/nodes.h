@@ -1,6 +1,6 @@
-/* The two layouts of nodes. Each has a file of its own for what a ray is prepared with and where along it a plane is:
-   nodes_binary.h, nodes_quantised.h. The layout is a constant wherever code is compiled for one, and nothing is left of
-   the other. Further layouts are experiments (evaluation/experiments/nodes). */
+/* The two layouts of nodes. nodes_binary.h and nodes_quantised.h prepare a ray and compute a plane's distance for each.
+   The layout is a constant in code that is compiled for one, so that nothing is left of the other. Further layouts are
+   experiments (evaluation/experiments/nodes). */
 #ifndef TRAX_DEVICE_NODES_H
 #define TRAX_DEVICE_NODES_H
 
@@ -10,7 +10,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Are planes numbers on the scene's grid? */
+/* Whether planes are numbers on the scene's grid. */
 static inline bool nodes_are_quantised(uint32_t layout) {
   return layout != TRAX_NODES_BINARY;
 }
@@ -27,8 +27,8 @@ static inline int children_of(uint32_t layout) {
   return 12 * plane_bytes(layout);
 }
 
-/* A ray, prepared for boxes. A plane is at (plane - origin) * inverse, or, if it is a number, at plane * inverse -
-   origin. The margin by which boxes are widened is in the origins: one for near and one for far planes. */
+/* A ray, prepared for boxes. A plane is at (plane - origin) * inverse, or, if it is a number on the grid, at plane *
+   inverse - origin. The origins, one for near and one for far planes, include the margin by which boxes are widened. */
 struct box_ray {
   struct vector near_origin, far_origin, inverse;
 };

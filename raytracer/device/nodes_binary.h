@@ -12,7 +12,7 @@ static inline void prepare_for_binary(struct box_ray *box, struct vector origin,
   box->far_origin = minus(origin, margin);
 }
 
-/* Where along the ray a plane is, as bits. */
+/* The bits of a plane's distance along the ray. */
 static inline int32_t binary_plane(const char *plane, float origin, float inverse) {
   return float_bits((load_float(plane) - origin) * inverse);
 }

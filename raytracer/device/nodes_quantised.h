@@ -1,7 +1,7 @@
 /* Quantised nodes: planes are numbers of 16 bits on one grid for the whole scene (struct trax_quantised_node).
 
-   A plane's number is used as a float as it is: that is the number times 2^-149, a subnormal, which this machine
-   multiplies like any other. So it takes no instruction to convert, but its reciprocal 2^149 must be in the factors:
+   The bits of a plane's number are used as a float: a subnormal, the number times 2^-149, which this machine multiplies
+   like any other. So conversion takes no instruction, but 2^149 must be in the factors:
    distances along the ray are in units of 2^64 here, which keeps all of them within the range of floats as long as the
    direction's largest component is within 2^-2 and 2^10 and cells within 2^-44 and 2^6 (trax_normalise). */
 #ifndef TRAX_DEVICE_NODES_QUANTISED_H
@@ -37,7 +37,7 @@ static inline int32_t quantised_plane(const char *plane, float origin, float inv
   return float_bits(times_plane(*(const uint16_t *)(const void *)plane, inverse) - origin);
 }
 
-/* A distance in these units, as bits; what is nearly 0 becomes a little more. */
+/* The bits of a distance in these units. Nearly 0 becomes a little more. */
 static inline int32_t distance_on_grid(int32_t distance_bits) {
   return larger(distance_bits - (GRID_EXPONENT << 23), 0x00800000);
 }

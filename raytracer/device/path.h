@@ -58,17 +58,17 @@ struct path {
   uint32_t depth;        /* surfaces so far */
   uint32_t lights_left;  /* shadow rays that the surface is still to send */
   uint32_t ambient_left; /* occlusion rays, too */
-  uint32_t holes;        /* that the current ray has passed, */
+  uint32_t holes;        /* that the current ray went through, */
   float travelled;       /* and the distance to the last of them */
-  uint32_t goes_on;      /* the ray after the shadow rays, as trax_count_kinds takes it; 0: none */
+  uint32_t goes_on;      /* the ray after the shadow rays, as a term of trax_count_kinds; 0: none */
   struct vector start;   /* of the rays that leave the point; LIT_AT_POINT */
 };
 _Static_assert(sizeof(struct path) <= TRAX_PATH_BYTES, "render_params.h");
 
 #define MOST_HOLES 1024 /* a ray ends at the next */
 
-/* Does it matter whether light arrives at the point or where the ray towards it starts? Not with one light that is far
-   away (TRAX_FEATURE_NEAR_LIGHT): then path->point is that start, and nothing else is kept. */
+/* Whether the hit point and the start of the shadow ray must be told apart. Not so with one light that is far away
+   (TRAX_FEATURE_NEAR_LIGHT): then path->point is the start, and the hit point is not kept. */
 #define LIT_AT_POINT(run) (NEEDS(run, LIGHTS) || NEEDS(run, NEAR_LIGHT) || (NEEDS(run, PATHS) && NEEDS(run, EMISSION)))
 #define PATH_START(run, path) (LIT_AT_POINT(run) ? (path)->start : (path)->point)
 #define SURE_DEPTH 3 /* roulette begins at this depth */
@@ -159,7 +159,7 @@ static inline void describe_scatterer(const struct trax_render_params *run, stru
   if (NEEDS(run, SMOOTH)) {
     smooth_surface(surface, hit, run->normals_distance);
     struct vector normal = times(surface->inverse_length, surface->normal);
-    /* A mirror whose smooth normal is turned away uses its triangle's. */
+    /* A mirror whose smooth normal faces away from the view uses its triangle's. */
     if (scatters || float_bits(dot(normal, at->view)) > 0)
       at->normal = normal;
   }
@@ -167,7 +167,7 @@ static inline void describe_scatterer(const struct trax_render_params *run, stru
   at->specular = load_vector(material->specular);
   at->roughness = material->roughness;
   path->layered = material->kind == TRAX_MATERIAL_GGX;
-  if (NEEDS(run, TEXTURES)) { /* of a metal, which has no diffuse colour, the specular one */
+  if (NEEDS(run, TEXTURES)) { /* for a metal, which has no diffuse colour, of the specular one */
     bool metal = NEEDS(run, GLOSSY) && path->layered && greatest_bits(at->diffuse) == 0;
     if (metal)
       at->specular = filtered(texel, at->specular);
@@ -203,7 +203,7 @@ static inline struct vector ambient_of(const struct trax_render_params *run, con
   return times(ambient, reflectance);
 }
 
-/* Shades a hit that is no hole: adds its emission, and prepares shadow rays and the next ray. */
+/* Shades a hit on an opaque surface: adds its emission, and prepares shadow rays and the next ray. */
 static inline void meet_surface(const struct trax_render_params *run, struct path *path, struct surface *surface,
                                 const struct trax_device_material *material, const struct hit *hit,
                                 struct vector texel) {
@@ -315,10 +315,10 @@ static inline bool next_light(const struct trax_render_params *run, struct path 
   return false;
 }
 
-/* Can a triangle be transparent, by its alpha mask or its side? */
+/* Whether a triangle can be a hole, by its alpha mask or its side. */
 #define HAS_HOLES(run) (NEEDS(run, ALPHA) || NEEDS(run, ONE_SIDED))
 
-/* Moves the start of the ray behind the hit if that is a hole. Returns whether it is. */
+/* If the hit is a hole, moves the start of the ray behind it. Returns whether it is. */
 static inline bool pass_hole(const struct trax_render_params *run, struct path *path, bool shadow,
                              const struct surface *surface, const struct trax_device_material *material,
                              const struct hit *hit, float texel_alpha) {
@@ -328,7 +328,7 @@ static inline bool pass_hole(const struct trax_render_params *run, struct path *
   if (!hole || path->holes >= MOST_HOLES)
     return false;
   path->origin = surface->behind;
-  if (shadow && path->distance_bits != FARTHEST_BITS) { /* aimed at the light again, so that errors do not add up */
+  if (shadow && path->distance_bits != FARTHEST_BITS) { /* aimed at the light again, so that errors do not accumulate */
     struct arrival arrival = {.direction = path->direction, .distance_bits = 0};
     aim_at(&arrival, path->origin, path->target);
     path->direction = arrival.direction;
@@ -376,7 +376,7 @@ PATH_STEP bool follow_ray(const struct trax_render_params *run, struct path *pat
   return found;
 }
 
-/* Shades the result of the ray. Returns the next ray, as it is counted; 0: none. */
+/* Shades the result of the ray. Returns the next ray as its term of trax_count_kinds, 0 if there is none. */
 PATH_STEP uint32_t after_ray(const struct trax_render_params *run, struct path *path, uint32_t rays, bool found) {
   bool shadow = IS_SHADOW(run, rays);
   if (found && (!shadow || HAS_HOLES(run))) {
@@ -413,7 +413,7 @@ PATH_STEP uint32_t after_ray(const struct trax_render_params *run, struct path *
   return next;
 }
 
-/* Adds the sample to the pixel. Returns whether there is another one. */
+/* Adds the sample to the pixel. Returns whether another sample follows. */
 PATH_STEP bool end_sample(const struct trax_render_params *run, struct path *path) {
   path->sum = plus(path->sum, bounded_colour(path->light));
   if (NEEDS(run, SAMPLES) && ++path->sample < run->samples)
@@ -423,7 +423,7 @@ PATH_STEP bool end_sample(const struct trax_render_params *run, struct path *pat
   return false;
 }
 
-/* Keeps little across the calls: this frame and the largest of theirs are all of the stack. */
+/* Keeps little across the calls, because the stack has this frame and the largest of theirs. */
 static inline void render_path_pixel(const struct trax_render_params *run, struct path *path, struct pixel pixel) {
   path->pixel = pixel.packed;
   path->key = hash_word(pixel.packed ^ hash_word(RUN_PATH(run)->seed));

@@ -1,4 +1,4 @@
-/* A ray, prepared once for the tests that it takes part in many times. */
+/* A ray, prepared once for its many tests. */
 #ifndef TRAX_DEVICE_RAY_H
 #define TRAX_DEVICE_RAY_H
 
@@ -11,22 +11,22 @@
 
 struct ray {
   struct box_ray box;
-  /* The near planes of a box are its minima where the direction is positive, its maxima where it is negative: where in
-     a box they are (0, or as many bytes as three planes take), so that no test compares planes. */
+  /* The near planes of a box are its minima where the direction is positive, its maxima where it is negative. These are
+     their offsets in a box (0, or the bytes of three planes), so that no test compares planes. */
   uint32_t near_offset_x, near_offset_y, near_offset_z;
 
   struct triangle_ray triangle;
 };
 
-/* A component of the direction for box tests: zeros, and what is as good as zero, keep their sign and become 2^-30 of
-   the largest component, so that its reciprocal is finite and 0 * infinity cannot arise. The ray turns by no more than
+/* A component of the direction for box tests. Zeros and negligible components keep their sign and become 2^-30 of the
+   largest component, so that its reciprocal is finite and 0 * infinity cannot arise. The ray turns by no more than
    2^-30, less than the rounding that box_margin already allows for. */
 static inline float away_from_zero(float component, int32_t least_bits) {
   return bits_float(larger(magnitude(component), least_bits) | (float_bits(component) & SIGN_BIT));
 }
 
-/* What brings a direction of any length but 0 into the range that prepare_ray asks for: a power of two, so distances
-   along the scaled direction are those along the direction divided by it. Rays of the ray tracer need none. */
+/* The power of two that scales a direction of any length but 0 into the range of prepare_ray. Distances along the
+   scaled direction are those along the direction, divided by it. Rays of the ray tracer need no scaling. */
 static inline float direction_scale(struct vector direction) {
   int32_t exponent = greatest_magnitude(direction) & 0x7F800000;
   return bits_float(larger(0x7F000000 - exponent, 0x00800000));
@@ -36,15 +36,15 @@ static inline float with_sign_of(float magnitude, float sign) {
   return bits_float(float_bits(magnitude) | (float_bits(sign) & SIGN_BIT));
 }
 
-/* Where a box's near plane is for a component of the direction. */
+/* The offset of a box's near plane for a component of the direction. */
 static inline uint32_t near_offset(float component, uint32_t far_planes) {
   uint32_t offset = (uint32_t)(float_bits(component) >> 31) & far_planes;
-  HIDE_ORIGIN(offset); /* else its negative would take a register, too */
+  HIDE_ORIGIN(offset); /* else the negative offset would take another register */
   return offset;
 }
 
 /* Prepares a ray; the direction need not have unit length, but its largest component must be within 2^-21 and 2^40, so
-   that the product below neither vanishes nor overflows. Binary nodes ask for no grid. */
+   that the product below neither vanishes nor overflows. Binary nodes need no grid. */
 static inline __attribute__((always_inline)) void prepare_ray(struct ray *ray, uint32_t layout, struct vector origin,
                                                               struct vector direction, float box_margin,
                                                               const struct trax_ray_grid *grid) {
@@ -52,8 +52,8 @@ static inline __attribute__((always_inline)) void prepare_ray(struct ray *ray, u
   struct vector way = {away_from_zero(direction.x, least), away_from_zero(direction.y, least),
                        away_from_zero(direction.z, least)};
 
-  /* One division for the three reciprocals: the divider is shared by all TPs of a TM. Each is within 5 units of 2^-24,
-     relatively. */
+  /* One division for the three reciprocals: the divider is shared by all TPs of a TM. The relative error of each is
+     below 5 units of 2^-24. */
   float xy = way.x * way.y;
   float product = 1.0f / (xy * way.z);
   struct vector inverse = {way.y * way.z * product, way.x * way.z * product, xy * product};

@@ -36,7 +36,7 @@ static inline void record_hit(const struct trax_render_params *run, struct pixel
     return;
   record_sample(run, pixel, sample)->triangle =
       hit->triangle ? (uint32_t)(hit->triangle - (const char *)scene.data) : 0;
-  if (!hit->triangle) /* of a single sample pixel_of is not asked */
+  if (!hit->triangle) /* pixel_of is not called for a single sample */
     for (int channel = 0; channel < 3; channel++)
       record_channels.channel[channel] = (float)(int32_t)(run->background >> 8 * channel & 255);
 }

@@ -4,11 +4,11 @@
      TRAX_SPECIALISED_FEATURES   the features that the picture needs
      TRAX_TREE_DEPTH             that of this scene
      TRAX_NODE_LAYOUT            that of this scene
-     trax_constants              the parameters, and what is behind them: the first colour of the palette, or struct
+     trax_constants              the parameters and what follows them: the first colour of the palette, or struct
                                  trax_path_params; the compiler folds their loads into the instructions
 
-   and its scene's references are addresses, which saves an addition for each node and leaf, and a leaf's is negated, so
-   that a branch tells it from a node's. */
+   References of its scene are addresses, which saves an addition for each node and leaf. Those of leaves are negated,
+   so that one branch tells them from those of nodes. */
 #ifndef TRAX_DEVICE_RUN_H
 #define TRAX_DEVICE_RUN_H
 
@@ -27,20 +27,20 @@ extern struct trax_buffer scene, params, image;
 #define RUN_FEATURES(run) ((run)->features)
 #endif
 
-/* Does the picture need what features.def calls NAME? */
+/* Whether the picture needs the feature NAME of features.def. */
 #define NEEDS(run, NAME) ((RUN_FEATURES(run) >> TRAX_FEATURE_##NAME & 1u) != 0)
 
-/* Are the rays of the paper's workload counted where they begin? Else a pixel's are counted together, at its end. */
+/* Whether rays of the paper's workload are counted where they begin. Else those of a pixel are counted at its end. */
 #ifdef TRAX_SPECIALISED_FEATURES
 #define MARKS_RAYS(run) NEEDS(run, RAY_KINDS)
 #else
 #define MARKS_RAYS(run) 0
 #endif
 
-/* path.h, or the paper's workload? */
+/* Whether path.h renders the picture, rather than the paper's workload. */
 #define NEEDS_PATHS(run) ((RUN_FEATURES(run) & TRAX_PATH_FEATURES) != 0)
 
-/* Has the paper's instruction cache room for two loops over nodes? Not beside samples, smooth normals or path.h. */
+/* Whether two loops over nodes fit in the paper's instruction cache: not with samples, smooth normals or path.h. */
 #ifdef TRAX_SPECIALISED_FEATURES
 #define LOOPS_FOR_BOTH_SIGNS                                                                                           \
   (!(NEEDS(0, SAMPLES) || NEEDS(0, SMOOTH) || (TRAX_SPECIALISED_FEATURES & TRAX_PATH_FEATURES)))
@@ -55,7 +55,7 @@ extern struct trax_buffer scene, params, image;
 #define RUN_LAYOUT(run) ((run)->node_layout)
 #endif
 
-/* Of a general program that is told nothing else. */
+/* The defaults of a general program. */
 #ifndef TRAX_TREE_DEPTH
 #define TRAX_TREE_DEPTH TRAX_SCENE_MAX_DEPTH
 #endif
@@ -89,7 +89,7 @@ static inline bool leads_to_leaf(trax_scene_ref reference) {
 #endif
 }
 
-/* Where a leaf is and how many triangles it has, of a reference that leads to one. */
+/* A leaf's place and number of triangles, from a reference to a leaf. */
 static inline trax_scene_ref leaf_of(trax_scene_ref reference) {
 #ifdef TRAX_SPECIALISED_FEATURES
   return -reference;

@@ -15,7 +15,7 @@ struct place {
 
 #define PIXEL_MIDDLE ((struct place){0.5f, 0.5f})
 
-/* Where a path's decisions take their points: that of its pixel, and for each surface, */
+/* The dimensions of a path's decisions: for its pixel, and for each surface, */
 enum {
   DIMENSION_PIXEL = 0,
   DIMENSION_LIGHT = 1,   /* which point of a light */
@@ -40,8 +40,8 @@ static inline uint32_t reverse_bits(uint32_t x) {
   return x << 16 | x >> 16;
 }
 
-/* Whether a bit is flipped depends on those below it, and on the seed: Owen's scrambling of the number whose bits these
-   are in reverse. */
+/* Flips each bit depending on the bits below it and the seed. This is Owen's scrambling of the number with the reversed
+   bits. */
 static inline uint32_t scramble_upwards(uint32_t x, uint32_t seed) {
   x += seed;
   x ^= x * 0x6C50B47Cu;
@@ -51,7 +51,7 @@ static inline uint32_t scramble_upwards(uint32_t x, uint32_t seed) {
 }
 
 /* Sobol's second matrix is Pascal's triangle modulo 2: bit k is the sum of the bits whose numbers have all bits of k.
-   Of numbers below 2^16. */
+   x is below 2^16. */
 static inline uint32_t pascal_sums(uint32_t x) {
   x ^= x >> 1 & 0x5555u;
   x ^= x >> 2 & 0x3333u;
@@ -75,7 +75,7 @@ static inline struct place place_of(struct words words) {
   return (struct place){(float)(int32_t)(words.x >> 8) * 0x1p-24f, (float)(int32_t)(words.y >> 8) * 0x1p-24f};
 }
 
-/* The same in every pixel, and the middle for the first sample: no noise, and one sample is the most likely one. */
+/* The same point in every pixel, so that there is no noise. The first sample takes the middle. */
 static inline struct place even_point(uint32_t sample, uint32_t dimension) {
   struct words first = scrambled_point(0, hash_word(dimension)), words = scrambled_point(sample, hash_word(dimension));
   return place_of((struct words){words.x ^ first.x ^ 0x80000000u, words.y ^ first.y ^ 0x80000000u}); /* still a net */

@@ -17,13 +17,13 @@ struct surface {
   struct vector normal; /* towards the viewer; its largest component at most 1 */
   float inverse_length; /* of the normal */
   struct vector behind; /* where a ray that goes on through the surface starts */
-  bool turned;          /* the viewer is where v0, v1, v2 are clockwise */
+  bool turned;          /* the viewer sees v0, v1, v2 clockwise */
 };
 
 /* How far the shadow ray's origin is moved along the normal, so that rounding cannot put it behind its own triangle: a
    bound on all errors off the triangle's plane, in terms of M, the greatest magnitude among v0's coordinates, and E,
    that among the edges' components. With u = 2^-24:
-   - the point relative to v0, a sum of the edges (what errors the weights have lies in the plane): 5u E a coordinate;
+   - the point relative to v0, a sum of the edges (errors of the weights lie in the plane): 5u E a coordinate;
    - the point itself: u M a coordinate;
    - the shadow ray's test of the same triangle: vertices, at most 2E from the point, are off by at most 14u 2E across
    the ray (see frame.c) and the distance along it by 12u 2E. As displacements off the plane these sum to less than
@@ -37,8 +37,8 @@ static inline __attribute__((always_inline)) void find_surface(struct surface *s
   const float *v0 = (const float *)(const void *)hit->triangle, *v1 = v0 + 3, *v2 = v0 + 6;
   struct vector a = load_vector(v0), e = minus(load_vector(v1), a), f = minus(load_vector(v2), a), n = cross(e, f);
 
-  /* By a power of two to 1 at most, so that no square below leaves the range of floats; then towards the
-     viewer. A needle's normal may vanish in rounding. */
+  /* Scaled by a power of two to at most 1, so that no square below leaves the range of floats; then turned towards the
+     viewer. A needle's normal may round to zero. */
   struct vector sight = minus(a, eye);
   int32_t size = greatest_magnitude(n);
   if (size == 0) {
@@ -53,8 +53,8 @@ static inline __attribute__((always_inline)) void find_surface(struct surface *s
   float bound = bits_float(greatest_magnitude(a)) * OFFSET_PER_POSITION + bits_float(edge) * OFFSET_PER_EDGE;
   struct vector out = times(bound * inverse_length, n);
 
-  /* Half as far back along the sight, but not beyond the eye: nothing is in between, so this leads away from every
-     surface near by, where the normal in a corner may lead along another wall, or into it. */
+  /* Also half as far back along the sight, but not beyond the eye. Nothing is in between, so this leads away from
+     every near surface. In a corner, the normal alone may lead along another wall, or into it. */
   struct vector inside = plus(times(hit->weight1, e), times(hit->weight2, f));
   sight = plus(sight, inside);
   int32_t far = greatest_magnitude(sight) & 0x7F800000;
@@ -85,12 +85,12 @@ static inline uint32_t triangle_material(const char *triangle) {
   return load_word(triangle + 36);
 }
 
-/* What the surface sends back of the light from everywhere; at most 1 together with that of the point light. */
+/* The ambient light that the surface reflects; with that of the point light at most 1. */
 static inline float ambient_light(const struct trax_render_params *frame, const struct surface *surface) {
   return frame->ambient + dot(surface->normal, load_vector(frame->fill)) * surface->inverse_length;
 }
 
-/* The square root, and 2^-20 for what is nearly 0 or less: a whole number of pixel values is still 0. */
+/* The square root; 2^-20 for numbers near 0 and below, which rounds to the pixel value 0. */
 static inline float root_of_light(float light) {
   light = bits_float(larger(float_bits(light), float_bits(0x1p-40f)));
   return light * trax_rsqrt(light);

@@ -1,6 +1,6 @@
-/* Which slot a thread takes next (trax/render_params.h says what slots are). A specialised program may have TRAX_QUEUES
-   queues, in which every so many-th tile waits. A TM begins with its own, so that with as many queues as TMs a tile is
-   seen through one cache. A thread that finds its queue empty goes on with the next one. */
+/* Which slot a thread takes next (trax/render_params.h defines slots). A specialised program may have TRAX_QUEUES
+   queues; tile t waits in queue t % TRAX_QUEUES. A TM begins with its own queue, so that with a queue for each TM a
+   tile is rendered through one cache. A thread whose queue is empty goes on with the next one. */
 #ifndef TRAX_DEVICE_SLOTS_H
 #define TRAX_DEVICE_SLOTS_H
 
@@ -14,7 +14,7 @@
 #define TRAX_QUEUES 1
 #endif
 
-/* On a chip of more TMs than there are queues several have one. */
+/* If the chip has more TMs than queues, several TMs share one. */
 static inline uint32_t first_queue(void) {
   if (TRAX_QUEUES == 1)
     return 0;
@@ -24,13 +24,13 @@ static inline uint32_t first_queue(void) {
   return queue;
 }
 
-/* Asks for a number of a queue. It takes as long as a transfer from memory, and the thread goes on until it is used. */
+/* Requests a number of a queue. It arrives as late as data from memory; the thread goes on until the number is used. */
 static inline uint32_t ask_for_number(unsigned next[TRAX_QUEUES], uint32_t queue) {
   return trax_atomic_inc(&next[queue]);
 }
 
-/* The slot of a number that was asked for, or of another queue's, if this one has no more. False: there is none left.
-   next: of each queue, the numbers taken, including those taken when it was empty. */
+/* The slot of a requested number, or of another queue's if this one is empty. False if no slot is left. next: the
+   numbers taken from each queue, including those taken when it was empty. */
 static inline bool take_slot(const struct trax_render_params *run, unsigned next[TRAX_QUEUES], uint32_t number,
                              uint32_t *queue, uint32_t *slot) {
   const uint32_t tile_bits = 2 * run->tile_log2_side;
@@ -44,7 +44,7 @@ static inline bool take_slot(const struct trax_render_params *run, unsigned next
     if (*queue == first_queue())
       return false;
   }
-  HIDE_ORIGIN(*slot); /* or the compiler would compute a picture of one pixel, and not with the machine's divider */
+  HIDE_ORIGIN(*slot); /* else the compiler computes a picture of one pixel, without the machine's divider */
   return true;
 }
 

@@ -28,7 +28,7 @@ static inline int32_t floor_of(float value) {
   return whole - (value < (float)whole);
 }
 
-/* u and v are finite and their products with the texture's sides are less than 2^31: scene_format.h bounds both. */
+/* u and v are finite, and their products with the texture's sides below 2^31, by the bounds of scene_format.h. */
 static inline __attribute__((always_inline)) struct texel
 texture_at(const char *scene_bytes, const struct trax_texture *texture, float u, float v) {
   uint32_t log2_width = texture->log2_width, log2_height = texture->log2_height, flags = texture->flags;
@@ -52,7 +52,7 @@ texture_at(const char *scene_bytes, const struct trax_texture *texture, float u,
   return sum;
 }
 
-/* At the hit of a triangle; number is the material's, from 1. */
+/* The texel at the hit of a triangle. number: of the material's texture, from 1. */
 static inline struct texel texture_of_hit(const char *scene_bytes, uint32_t number, const struct hit *hit) {
   const struct trax_scene_header *header = (const struct trax_scene_header *)(const void *)scene_bytes;
   const float *corner = (const float *)(const void *)(hit->triangle + (header->sections[TRAX_SCENE_UVS].offset -

@@ -11,9 +11,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* The stack has the farther child of every inner node above the current one that is still to be visited: no more than
-   the tree is deep. Below them is an entry that no limit leaves out, of a leaf that is none: so its end takes no
-   register and no branch of its own. */
+/* The stack has the farther children that are still to be visited, at most one for each level of the tree. Its lowest
+   entry is a leaf without triangles that no limit rules out, so that the end of the stack takes no register and no
+   branch of its own. */
 struct stack_entry {
   trax_scene_ref reference;
   int32_t enter; /* where the ray enters its box */
@@ -22,12 +22,12 @@ struct stack_entry {
 static inline __attribute__((always_inline)) void push(struct stack_entry **top, trax_scene_ref reference,
                                                        int32_t enter) {
   **top = (struct stack_entry){reference, enter};
-  HIDE_ORIGIN(*top); /* else the next top would be computed before, and moved */
+  HIDE_ORIGIN(*top); /* else the next top is computed before, and moved */
   ++*top;
 }
 
-/* Goes from a node to the nearer of the children that the ray enters; the other one is put on the stack. False: it
-   enters none. */
+/* Goes from a node to the nearer of the children that the ray enters, and pushes the other one. False if it enters
+   none. */
 static inline __attribute__((always_inline)) bool visit_node(uint32_t layout, const char *node, const struct ray *ray,
                                                              int32_t limit, trax_scene_ref *reference,
                                                              struct stack_entry **top) {
@@ -49,8 +49,8 @@ static inline __attribute__((always_inline)) bool visit_node(uint32_t layout, co
   return true;
 }
 
-/* Goes from a node down to a leaf, or stays at one. False: the way ends before, at a node of which the ray enters no
-   child. Where the layout is known at run time only its own code is chosen here. */
+/* Goes from a node down to a leaf, or stays at one. False if the ray enters no child of a node on the way. If the
+   layout is known only at run time, this chooses its code. */
 static inline __attribute__((always_inline)) bool descend(uint32_t layout, const char *scene, const struct ray *ray,
                                                           int32_t limit, trax_scene_ref *reference,
                                                           struct stack_entry **top) {
@@ -64,8 +64,8 @@ static inline __attribute__((always_inline)) bool descend(uint32_t layout, const
   return true;
 }
 
-/* The same, where there is room for it by a copy of the loop for either sign of the ray's x: addresses of planes of x
-   are then the node's and a constant. */
+/* The same. If the instruction cache has room, by a copy of the loop for either sign of the ray's x: then addresses of
+   planes of x are the node's and a constant. */
 static inline __attribute__((always_inline)) bool descend_by_sign(uint32_t layout, const char *scene,
                                                                   const struct ray *ray, int32_t limit,
                                                                   trax_scene_ref *reference, struct stack_entry **top) {
@@ -77,13 +77,13 @@ static inline __attribute__((always_inline)) bool descend_by_sign(uint32_t layou
                                             : descend(layout, scene, &positive, limit, reference, top);
 }
 
-/* The nearest hit before hit->distance_bits into *hit, or, if any hit will do, whether there is one. The probabilities
-   tell the register allocator what matters: rays visit many more nodes than triangles. */
+/* Finds the nearest hit before hit->distance_bits, or, if any hit suffices, whether there is one. The probabilities
+   tell the register allocator that rays visit many more nodes than triangles. */
 static inline __attribute__((always_inline)) bool trace_ray(uint32_t layout, const char *scene, trax_scene_ref root,
                                                             const struct ray *ray, bool any, struct hit *hit) {
   struct stack_entry stack[TRAX_TREE_DEPTH + 1], *top = stack;
   trax_scene_ref reference = root;
-  int32_t limit = limit_of(layout, hit->distance_bits); /* boxes that begin there or later are left out */
+  int32_t limit = limit_of(layout, hit->distance_bits); /* boxes that the ray enters later are left out */
 
   if (root == 0)
     return false;
@@ -96,7 +96,7 @@ static inline __attribute__((always_inline)) bool trace_ray(uint32_t layout, con
       const char *triangle = scene_at(scene, TRAX_SCENE_REF_OFFSET(reference));
       const char *end = triangle + TRAX_SCENE_REF_COUNT(reference) * sizeof(struct trax_triangle);
       do {
-        HIDE_ORIGIN(triangle); /* else three pointers would be stepped instead of one */
+        HIDE_ORIGIN(triangle); /* else three pointers advance instead of one */
         ACCESS_TRIANGLE(triangle);
         if (hit_triangle(&ray->triangle, triangle, any, hit) && any)
           return true;
@@ -107,7 +107,7 @@ static inline __attribute__((always_inline)) bool trace_ray(uint32_t layout, con
     KEEP_ROLLED
     do {
       --top;
-      HIDE_ORIGIN(top); /* else there would be two of it */
+      HIDE_ORIGIN(top); /* else there are two copies of it */
     } while (top->enter >= limit);
     reference = top->reference;
   }

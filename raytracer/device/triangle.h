@@ -18,19 +18,19 @@ struct hit {
   float weight1, weight2; /* barycentric, of v1 and v2 */
 };
 
-/* A smaller determinant is taken for zero, or its reciprocal might be infinite. It is twice the triangle's area as seen
-   along the ray, in a scene that is 2^-4 wide at least (trax_normalise). */
+/* A smaller determinant counts as zero, because its reciprocal might be infinite. The determinant is twice the
+   triangle's area as seen along the ray, in a scene that is at least 2^-4 wide (trax_normalise). */
 #define LEAST_DETERMINANT_BITS 0x00800000 /* 2^-126 */
 
-/* The ray is in the triangle: does it hit it before *hit? scaled is the distance times the determinant: the division
-   waits until the hit is all but certain. edge1 and edge2 are the weights times the determinant. Of equal distances the
-   one wins that comes_first: so the first comparison, whose product and reciprocal are within 3 units of 2^-24, must
-   let pass what may turn out to be equal. */
+/* Whether a ray that passes through the triangle hits it before *hit. scaled is the distance times the determinant: the
+   division waits until the hit is nearly certain. edge1 and edge2 are the weights times the determinant. Of equal
+   distances the triangle that comes_first wins. So the first comparison, whose product and reciprocal are within 3
+   units of 2^-24, must admit distances that may be equal. */
 #define UNITS_OF_DOUBT 4
 
-/* An order of triangles that knows nothing of the tree: by the bits of their vertices, and only of those at one place
-   by where they stand in the file. So neither the shape of the tree nor the order in which it is traversed shows in a
-   picture, nor how often a triangle stands in it. Asked where two hits are equally far away: rarely. */
+/* An order of triangles that does not depend on the tree: by the bits of their vertices, and for equal vertices by
+   their order in the file. So a picture does not depend on the shape of the tree, on the order of traversal, or on how
+   often a triangle is in the tree. Rarely called: when two hits are equally far away. */
 static inline bool comes_first(const char *triangle, const char *other) {
   const uint32_t *words = (const uint32_t *)(const void *)triangle, *others = (const uint32_t *)(const void *)other;
   KEEP_ROLLED
@@ -71,7 +71,7 @@ struct triangle_ray {
   float shear_u, shear_v, scale_w;
 };
 
-/* inverse: the reciprocals of the direction's components, of which only the largest one's is used. */
+/* inverse: the reciprocals of the direction's components. Only that of the largest component is used. */
 static inline void prepare_triangle_ray(struct triangle_ray *ray, struct vector origin, struct vector direction,
                                         struct vector inverse) {
   int32_t size = greatest_magnitude(direction);
@@ -99,7 +99,7 @@ static inline __attribute__((always_inline)) struct vector sheared_corner(const 
   return (struct vector){u, v, w};
 }
 
-/* Of edge values: not on the same side. Zeros of either sign are on both sides. */
+/* Whether two edge values are on opposite sides. Zeros of either sign are on both sides. */
 static inline bool opposite(float a, float b) {
   uint32_t a_bits = (uint32_t)float_bits(a), b_bits = (uint32_t)float_bits(b);
   HIDE_ORIGIN(a_bits);
@@ -107,8 +107,8 @@ static inline bool opposite(float a, float b) {
   return (int32_t)(a_bits ^ b_bits) < 0 && a_bits << 1 != 0 && b_bits << 1 != 0;
 }
 
-/* Is the triangle hit before hit->distance_bits? If so *hit becomes this one; if any hit will do, only the answer
-   counts. */
+/* Whether the triangle is hit before hit->distance_bits. If so, *hit becomes this hit; if any hit suffices, only the
+   answer counts. */
 static inline __attribute__((always_inline)) bool hit_triangle(const struct triangle_ray *ray, const char *triangle,
                                                                bool any, struct hit *hit) {
   struct vector b = sheared_corner(ray, triangle, 1), c = sheared_corner(ray, triangle, 2);

@@ -13,8 +13,7 @@ trax_status __wrap_scene_load_text(struct scene_bytes *bytes, const char *path, 
                                    trax_error *error);
 trax_status __wrap_scene_load_referred(struct scene_bytes *bytes, const char *path, struct scene_limits limits);
 
-/* A NUL is behind the last byte, or there is no byte more than there should be: a sanitizer sees what is read beyond.
- */
+/* Allocates exactly the file's bytes and, for texts, a NUL, so that a sanitizer sees reads beyond them. */
 static trax_status load(struct scene_bytes *bytes, const char *path, size_t more, trax_error *error) {
   const char *slash = strrchr(path, '/');
   const fuzz_file *file = fuzz_case_find(fuzz_files, slash ? slash + 1 : path);

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { most_triangles = 3000 }; /* of which a tree is built */
+enum { most_triangles = 3000 }; /* with more no tree is built */
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
   enum { most_words = 8 };
@@ -27,7 +27,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
       fuzz_build(&mesh);
     trax_mesh_release(&mesh);
   } else if (!error.message[0]) {
-    abort(); /* refused without a reason */
+    abort(); /* an error without a reason */
   }
   fuzz_case_free(&fuzz_case);
   return 0;

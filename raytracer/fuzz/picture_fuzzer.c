@@ -67,7 +67,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
     }
     trax_picture_release(&picture);
   } else if (!error.message[0])
-    abort(); /* refused without a reason */
+    abort(); /* an error without a reason */
   make_texture(bytes, size);
   return 0;
 }

@@ -1,6 +1,5 @@
-/* Scene files under libFuzzer. The checksum of a case is made right first, or no case would be looked at further. What
-   the checks accept is rendered by the native twin, a few pixels with everything on: it must neither leave the file
-   nor hang. */
+/* Scene files under libFuzzer. The checksum of a case is corrected first, so that cases get past its check. The native
+   twin renders accepted files, a few pixels with all features: it must neither leave the file nor hang. */
 #include "fuzz_case.h"
 #include "render.h"
 
@@ -65,7 +64,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
     trax_scene_measure(&stats, &scene);
     render(&scene, bytes[size - 1] & 1);
   } else if (!error.message[0])
-    abort(); /* refused without a reason */
+    abort(); /* an error without a reason */
   free(copy);
   return 0;
 }

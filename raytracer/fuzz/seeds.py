@@ -259,10 +259,9 @@ with tempfile.TemporaryDirectory() as work:
                 add("trax-picture", file.read())
     box = os.path.join(here, "..", "..", "tests", "render", "box.obj")
     for number, words in enumerate(
-        ([mesh, "--smooth"], [mesh, "--material", "b=glass", "--no-source-ids"], [mesh, "--no-textures"],
-         [box, "--nodes", "binary"], [box, "--nodes", "quantised", "--no-source-ids", "--leaf",
-                                      "2"], [box, "--material", "red=mirror", "--material",
-                                             "white=ggx:0.3"], [box, "--smooth", "--leaf", "1"])):
+        ([mesh, "--smooth"], [mesh, "--material", "b=glass"], [mesh, "--no-textures"],
+         [box, "--nodes", "binary"], [box, "--nodes", "quantised", "--leaf", "2"],
+         [box, "--material", "red=mirror", "--material", "white=ggx:0.3"], [box, "--smooth", "--leaf", "1"])):
         scene = os.path.join(work, f"{number}.trax")
         subprocess.run([os.path.join(build, "bin", "trax-scene"), "-q", *words, "-o", scene], check=True)
         with open(scene, "rb") as file:

@@ -96,7 +96,7 @@ trax_status measure_hits(const struct job *job, trax_error *error) {
   if (trax_output_open(&output, job->options->hits, error) != TRAX_OK)
     return TRAX_ERROR;
   figures_print(output.file, figures, sizeof figures / sizeof *figures);
-  return trax_output_commit(&output, error); /* which notices what could not be written */
+  return trax_output_commit(&output, error); /* which finds earlier failures to write */
 }
 
 trax_status write_hits(const struct job *job, trax_error *error) {
@@ -140,7 +140,7 @@ trax_status compare(const struct trax_picture *picture, const struct job *job, b
     printf("            %.4f %% of the floats within 2/255 of their brightness, largest difference %.3g/255\n", percent,
            difference.most);
   *agrees = percent >= 99.9;
-  if (job->frame->params->features & TRAX_FEATURE_BIT(PATHS)) { /* of which one in thousands takes another turn */
+  if (job->frame->params->features & TRAX_FEATURE_BIT(PATHS)) { /* one path in thousands takes another direction */
     const double deviation = 100 * (other_light > 0 ? light / other_light - 1 : light > 0);
     printf("            light of the whole picture %+.4f %%\n", deviation);
     *agrees = percent >= 99 && deviation > -0.2 && deviation < 0.2;

@@ -7,10 +7,10 @@
 /* Renders the picture by one of the engines that need no emulator. */
 trax_status run_on_host(struct trax_picture *picture, const struct job *job, enum engine engine, trax_error *error);
 
-/* --compare. *agrees: whether all comparisons came out well. */
+/* --compare. *agrees: whether all comparisons agree. */
 trax_status compare(const struct trax_picture *picture, const struct job *job, bool *agrees, trax_error *error);
 
-/* --hits: what --compare says of hits, as JSON. */
+/* --hits: the figures of --compare about hits, as JSON. */
 trax_status measure_hits(const struct job *job, trax_error *error);
 
 /* --id-picture. */

@@ -1,4 +1,4 @@
-/* trax-compare: do two pictures agree? */
+/* trax-compare: compares two pictures. */
 #include "figures.h"
 #include "layers.h"
 #include "trax/message.h"

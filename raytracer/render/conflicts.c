@@ -1,4 +1,4 @@
-/* Which of trax-render's options exclude or need each other. */
+/* Checks which of trax-render's options exclude or need each other. */
 #include "options.h"
 
 #include "trax/output.h"
@@ -8,15 +8,16 @@
 
 bool options_rendered(const struct options *options) {
   return options->output || options->progress_png || options->prepare || options->keep || options->stats ||
-         options->compare || options->cost_picture || options->cost_values || trax_explain_wanted(&options->explain);
+         options->ray_cycles || options->compare || options->cost_picture || options->cost_values ||
+         trax_explain_wanted(&options->explain);
 }
 
 trax_status options_check(const struct options *options, trax_error *error) {
   if (options->mesh_count == 0)
     return trax_fail(error, "no mesh given; trax-render --help shows how");
-  if (options->prepare &&
-      (options->output || options->stats || options->compare || options->hits || options->id_picture ||
-       options->ray_trace || options->cost_picture || options->cost_values || trax_explain_wanted(&options->explain)))
+  if (options->prepare && (options->output || options->stats || options->ray_cycles || options->compare ||
+                           options->hits || options->id_picture || options->ray_trace || options->cost_picture ||
+                           options->cost_values || trax_explain_wanted(&options->explain)))
     return trax_fail(error, "--prepare renders nothing, so there is nothing to write, explain or compare");
   if (options->prepare && options->progress_png)
     return trax_fail(error, "--prepare renders nothing, so there is nothing to show");
@@ -31,8 +32,8 @@ trax_status options_check(const struct options *options, trax_error *error) {
   if (options->layers && !(options->output && trax_output_has_ending(options->output, "exr")))
     return trax_fail(error, "--layers needs -o FILE.exr");
   if (options->layers && options->engine <= ENGINE_REFERENCE &&
-      (options->program || options->no_specialise || options->sampled || options->stats || options->keep ||
-       options->compare || options->cost_picture || options->cost_values || options->progress_png ||
+      (options->program || options->no_specialise || options->sampled || options->stats || options->ray_cycles ||
+       options->keep || options->compare || options->cost_picture || options->cost_values || options->progress_png ||
        trax_explain_wanted(&options->explain)))
     return trax_fail(error,
                      "--layers needs a program that records and therefore has no run time to report: it excludes "
@@ -51,6 +52,8 @@ trax_status options_check(const struct options *options, trax_error *error) {
   if (options->sampled && options->source)
     return trax_fail(error, "--sampled: of another --source the native twin's picture would be another one");
   if (options->engine > ENGINE_REFERENCE) {
+    if (options->ray_cycles)
+      return trax_fail(error, "--ray-cycles needs the emulator: the other engines simulate no time");
     if (options->stats)
       return trax_fail(error, "--stats needs the emulator: the other engines have no machine to tell about");
     if (options->cost_picture || options->cost_values || trax_explain_wanted(&options->explain))
@@ -79,8 +82,8 @@ trax_status options_check(const struct options *options, trax_error *error) {
   if (options->explain.source_folder_count && !options->explain.explore)
     return trax_fail(error, "--source-folder without --explore");
   if (options->frames > 1 &&
-      (options->stats || options->keep || options->cost_picture || options->cost_values || options->compare ||
-       options->id_picture || options->ray_trace || trax_explain_wanted(&options->explain)))
+      (options->stats || options->ray_cycles || options->keep || options->cost_picture || options->cost_values ||
+       options->compare || options->id_picture || options->ray_trace || trax_explain_wanted(&options->explain)))
     return trax_fail(error, "--frames makes pictures only: --stats, --keep, --compare and the like are for one");
   if (options->ray_trace && options->engine >= ENGINE_EMBREE)
     return trax_fail(error, "--ray-trace: the rays are the device program's, which Embree does not run");

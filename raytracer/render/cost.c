@@ -19,7 +19,7 @@ trax_status trax_cost_find(const char *name, unsigned *what, trax_error *error) 
     *what = COST_ISSUED;
     return TRAX_OK;
   }
-  for (*what = COST_ISSUED + 1; trax_stats_cause(*what + 1); ++*what) /* all but the last: no pixel's */
+  for (*what = COST_ISSUED + 1; trax_stats_cause(*what + 1); ++*what) /* all but the last, which no pixel has */
     if (strcmp(name, trax_stats_cause(*what)) == 0)
       return TRAX_OK;
   return trax_fail(

@@ -9,9 +9,9 @@ static uint32_t round_up(uint32_t bytes) {
   return (bytes + TRAX_SCENE_ALIGNMENT - 1) & ~(TRAX_SCENE_ALIGNMENT - 1);
 }
 
-/* What features may read, in the order of trax_scene_build. References lead to nodes and triangles, and normals are at
-   a fixed distance from triangles, so these must stay where they are: they do if they come first. The others are found
-   by the section table. Of a file in another order nothing is left out. */
+/* The sections that features may read, in the order of trax_scene_build. References lead to nodes and triangles, and
+   normals are at a fixed distance from triangles, so these must keep their places: they come first. The others are
+   found by the section table. A file in another order is kept whole. */
 static const enum trax_scene_section_kind kept[] = {TRAX_SCENE_NODES, TRAX_SCENE_TRIANGLES, TRAX_SCENE_NORMALS,
                                                     TRAX_SCENE_UVS,   TRAX_SCENE_TEXTURES,  TRAX_SCENE_TEXELS};
 enum { KEPT = sizeof kept / sizeof *kept, KEPT_IN_PLACE = 3 };
@@ -27,7 +27,7 @@ static bool in_order(const struct trax_scene_header *header) {
   return true;
 }
 
-/* Textures, in the header's new places, know where their texels went from the file's. */
+/* Adjusts the textures, which are in the header's new places already, to the new place of their texels. */
 static void move_texels(unsigned char *bytes, const struct trax_scene_header *header, uint32_t from) {
   const struct trax_scene_section *section = &header->sections[TRAX_SCENE_TEXTURES];
   struct trax_texture *textures = (struct trax_texture *)(void *)(bytes + section->offset);
@@ -62,7 +62,7 @@ trax_status trax_device_scene_init(struct trax_device_scene *scene, const struct
   }
   move_texels(scene->bytes, &header, frame->scene->header->sections[TRAX_SCENE_TEXELS].offset);
   header.file_size = end;
-  header.checksum = 0; /* it is no file */
+  header.checksum = 0; /* the bytes are no scene file */
   memcpy(scene->bytes, &header, sizeof header);
   scene->size = end;
   return TRAX_OK;

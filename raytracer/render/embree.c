@@ -60,7 +60,7 @@ double embree_start_bound(const struct embree *embree, const struct trax_triangl
              : trax_start_bound(greatest(v0), edges);
 }
 
-/* Along the normal and back along the sight. */
+/* The start is moved along the normal and back along the sight. */
 struct double3 embree_start(const struct embree *embree, const struct trax_triangle *triangle, struct double3 point,
                             struct double3 normal, struct double3 origin) {
   const struct double3 sight = minus(point, origin);
@@ -69,7 +69,7 @@ struct double3 embree_start(const struct embree *embree, const struct trax_trian
   return plus_scaled(plus_scaled(point, bound, normal), -back, sight);
 }
 
-/* The light through a place of a pixel. What the rays meet goes to *seen. */
+/* The light through a place of a pixel. *seen receives what the rays meet. */
 static struct double3 trace_sample(const struct embree *embree, struct pixel pixel, struct place place,
                                    struct trax_layers *seen, uint64_t *rays) {
   const struct trax_render_params *params = embree->frame->params;

@@ -41,8 +41,8 @@ trax_status embree_commit(RTCDevice device, RTCScene scene, const struct trax_sc
 bool embree_hit(const struct embree *embree, struct double3 origin, struct double3 direction, struct exact_hit *hit);
 bool embree_blocked(const struct embree *embree, struct double3 origin, struct double3 direction, double distance);
 
-/* How far off its triangle a ray starts that leaves it, as in device/shade.h: its hit was found by a ray from `origin`,
-   `sight` away. */
+/* The distance from a triangle at which rays that leave it start, as in device/shade.h. The hit was found by a ray from
+   `origin`, `sight` away. */
 double embree_start_bound(const struct embree *embree, const struct trax_triangle *triangle, struct double3 origin,
                           struct double3 sight);
 /* A point where rays start on the viewer's side. normal: towards the viewer, of unit length. */
@@ -57,20 +57,20 @@ static inline bool embree_needs(const struct embree *embree, enum trax_feature f
 struct double3 embree_path(const struct embree *embree, struct pixel pixel, uint32_t sample, struct trax_layers *seen,
                            uint64_t *rays);
 
-/* embree_light.c: where the light comes from. */
+/* embree_light.c: light that arrives at a point. */
 struct embree_arrival {
-  struct double3 direction, target; /* towards it; of one that is nowhere, the direction alone */
+  struct double3 direction, target; /* towards the light; a directional light has no target */
   double distance;
-  struct double3 irradiance; /* of a surface at right angles to the direction */
+  struct double3 irradiance; /* of a surface perpendicular to the direction */
 };
 /* False: out of memory. */
 bool embree_prepare_lights(struct embree *embree);
 /* Samples a point of a light by x and y; false: no light arrives. */
 bool embree_light_at(const struct embree *embree, uint32_t number, struct double3 point, double x, double y,
                      struct embree_arrival *arrival);
-/* The emitter of a part, from 0 to 1, of all power. */
+/* The emitter at a part, from 0 to 1, of the cumulative power. */
 const struct trax_triangle *embree_pick_emitter(const struct embree *embree, double part);
-/* The density in solid angle with which a shadow ray goes to a point of a triangle, so far away in a direction. */
+/* The density in solid angle with which a shadow ray goes to the point of a triangle at a distance in a direction. */
 double embree_emitter_density(const struct embree *embree, const struct trax_triangle *triangle, double distance,
                               struct double3 direction);
 /* Sets the direction to a point; returns its distance, 0 if it is too near to have one. */
@@ -93,7 +93,7 @@ struct embree_surface {
 struct double3 embree_unit(struct double3 v);
 /* The BRDF times the cosine, and the density in solid angle with which embree_sample chooses `way`. */
 struct double3 embree_evaluate(const struct embree_surface *surface, struct double3 way, double *density);
-/* A direction; x, y and choice are from 0 to 1. False: none. */
+/* Samples a direction; x, y and choice are from 0 to 1. False if there is none. */
 bool embree_sample(const struct embree_surface *surface, double x, double y, double choice, struct double3 *way);
 /* Reflectance of a smooth boundary between indices n1 (the view's side) and n2; *cosine2: of the refracted ray. */
 double embree_fresnel(double n1, double n2, double cosine1, double *cosine2);

@@ -60,7 +60,7 @@ bool embree_light_at(const struct embree *embree, uint32_t number, struct double
 
 /* --- emitting triangles --- */
 
-/* Emitters with an alpha mask are not sampled: only rays by chance find them. */
+/* Emitters with an alpha mask are not sampled. Scattered rays find them. */
 static double power_per_area(const struct trax_material *material) {
   return material->alpha_cutoff > 0 ? 0 : luminance(material->emission);
 }

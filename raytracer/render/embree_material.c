@@ -16,7 +16,8 @@ static double largest_of(struct double3 v) {
   return fmax(v.x, fmax(v.y, v.z));
 }
 
-/* The tangents that the device has (Duff and others 2017), or its points of the disk would be other directions. */
+/* The tangents of the device program (Duff and others 2017), so that its points of the disk give the same directions.
+ */
 static void basis(struct double3 n, struct double3 *s, struct double3 *t) {
   const double sign = copysign(1, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
   *s = (struct double3){1 + sign * n.x * n.x * a, sign * b, -sign * n.x};

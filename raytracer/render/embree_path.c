@@ -185,7 +185,7 @@ bool embree_seen(const struct embree *embree, struct double3 eye, struct double3
   return seen;
 }
 
-/* Behind each hole the ray goes towards the same target again, or where it starts would decide what it meets there. */
+/* Behind each hole the ray is aimed at the target again, so that its result does not depend on where it starts. */
 static bool light_reaches(const struct sample *sample, struct double3 origin, struct double3 direction,
                           double distance) {
   if (!embree_needs(sample->embree, TRAX_FEATURE_SHADOWS))
@@ -275,7 +275,7 @@ static double reach_of(const struct trax_frame *frame) {
   return (part > 0 ? part : TRAX_DEFAULT_REACH) * sqrt(dot(diagonal, diagonal));
 }
 
-/* The part of the ambient light that the rays towards it, cosine-distributed, do not find blocked. */
+/* The part of the cosine-distributed rays towards the ambient light that nothing blocks. */
 static double open_part(const struct sample *sample, const struct surface *surface) {
   struct embree_surface diffuse = surface->at;
   const uint32_t rays = sample->options->occlusion;
@@ -333,7 +333,7 @@ static struct double3 deflect(const struct sample *sample, const struct surface 
   return embree_unit(way);
 }
 
-/* The light of an emitter that a ray in `direction` found; scatterer: the surface that scattered it, of the density
+/* The weighted light of an emitter that a ray in `direction` found. scatterer scattered the ray with the density
    `density`. On a Lambert surface the ray stands for the way from point to point, which has another form factor. */
 static double share_of_emission(const struct sample *sample, const struct surface *scatterer, double density,
                                 const struct surface *surface, double distance, struct double3 direction) {

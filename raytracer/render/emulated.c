@@ -125,7 +125,7 @@ static double statistic(const trax_machine *machine, const char *name) {
   return value;
 }
 
-/* doubt: about the prediction of a sampled run; may be NULL. */
+/* doubt: why the prediction of a sampled run is uncertain; may be NULL. */
 static void print_machine(const trax_machine *machine, const char *doubt) {
   printf("cycles      %.0f (%.3f ms)\n", statistic(machine, "cycles"), 1e3 * statistic(machine, "seconds"));
   double low;
@@ -201,16 +201,16 @@ static void print_note(const char *text) {
   trax_message("trax-render", TRAX_MESSAGE_NOTE, "%s", text);
 }
 
-/* The cycles of a program that records are those of no other: none are printed. */
+/* The cycles of a recording program mean nothing and are not printed. */
 static const char *engine_of(const struct options *options) {
   return options->layers ? "functional" : options->engine == ENGINE_REFERENCE ? "reference" : NULL; /* the machine's */
 }
 
-/* Runs the loaded program. *doubt: about a prediction; NULL: none. */
+/* Runs the loaded program. *doubt: why a prediction is uncertain; NULL: it is not. */
 static trax_status run_loaded(struct trax_picture *picture, const struct job *job, const struct trax_program *program,
                               trax_machine *machine, struct trax_costs *costs, const char **doubt, trax_error *error) {
   const struct options *options = job->options;
-  struct shown_run shown = {{.line = job->progress, .step = "rendering"}, options->sampled ? NULL : job->live, machine};
+  struct shown_run shown = {{.line = job->progress, .task = "rendering"}, options->sampled ? NULL : job->live, machine};
   char title[512];
   struct trax_explain_options explain = options->explain;
   explain.note = options->quiet ? NULL : print_note;
@@ -226,7 +226,8 @@ static trax_status run_loaded(struct trax_picture *picture, const struct job *jo
               .progress_context = &shown,
               .interrupt = &trax_signal,
               .engine = engine_of(options),
-              .host_threads = options->threads}};
+              .host_threads = options->threads,
+              .ray_cycles = options->ray_cycles != NULL}};
   struct trax_picture_sampling sampling = {0};
   trax_status status = TRAX_OK;
   live_begin(job->live, job->frame);
@@ -262,6 +263,8 @@ static trax_status render_loaded(struct trax_picture *picture, const struct job 
     print_machine(machine, doubt);
   if (status == TRAX_OK && options->stats)
     status = trax_stats_write_json(machine, options->stats, error);
+  if (status == TRAX_OK && options->ray_cycles)
+    status = trax_ray_cycles_write(machine, options->ray_cycles, error);
   if (status == TRAX_OK)
     status = live_end(job->live, picture, error);
   if (status == TRAX_OK && writes_costs)

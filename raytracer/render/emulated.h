@@ -1,4 +1,4 @@
-/* trax-render's emulated machine: which program it runs, on what chip, and what is told about the run. */
+/* Runs a program on trax-render's emulated machine, and reports about the run. */
 #ifndef TRAX_RENDER_EMULATED_H
 #define TRAX_RENDER_EMULATED_H
 

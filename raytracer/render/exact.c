@@ -39,7 +39,7 @@ static struct bounded sum_of(const struct bounded edge[3]) {
                           edge[0].error + edge[1].error + edge[2].error};
 }
 
-/* Of a sum of products of three: what is between -error and error may have either sign, and is 0 if that is exact. */
+/* Whether the sign is known. A value within its error may have either sign. */
 static bool is_certain(struct bounded value) {
   return fabs(value.value) > value.error;
 }
@@ -53,8 +53,8 @@ static bool is_precise(struct bounded value) {
 
 enum answer { MISSED, HIT, UNCERTAIN };
 
-/* edge: of the direction and two vertices each, as seen from the origin; all of one sign where the ray meets the
-   triangle. The distance is scaled / slope. */
+/* edge: the edge values, of the direction and two vertices as seen from the origin. They have one sign if the ray meets
+   the triangle. The distance is scaled / slope. */
 static enum answer decide(const struct bounded edge[3], struct bounded slope, struct bounded scaled,
                           struct exact_hit *hit) {
   bool positive = false, negative = false, certain = true;
@@ -163,13 +163,13 @@ static bool rational_triangle(const struct trax_triangle *triangle, struct doubl
   return found;
 }
 
-/* --- one after another, until one is certain --- */
+/* --- the three precisions, in turn until one is certain --- */
 
 static enum answer in_binary64(const struct trax_triangle *triangle, struct double3 origin, struct double3 direction,
                                struct exact_hit *hit) {
   const struct double3 a = minus(from(triangle->v0), origin), b = minus(from(triangle->v1), origin),
                        c = minus(from(triangle->v2), origin);
-  /* Edges of the triangle itself, whose rounding is that of floats' differences. */
+  /* Edges of the triangle itself, with the rounding of differences of floats. */
   const struct double3 e = minus(from(triangle->v1), from(triangle->v0)),
                        f = minus(from(triangle->v2), from(triangle->v0));
   const struct bounded edge[3] = {volume(direction, c, b), volume(direction, a, c), volume(direction, b, a)};
@@ -185,8 +185,9 @@ static enum answer in_double2(const struct trax_triangle *triangle, struct doubl
   return decide(edge, sum_of(edge), long_volume(&a, &c, &b), hit);
 }
 
-/* Does the triangle lie at this place of an axis? Rooms are full of such triangles. They meet the rays that start in
-   their plane at a distance of 0, and those of one plane meet a ray at one distance: no need of rational numbers. */
+/* Whether the triangle lies in a plane perpendicular to an axis, at this place. Rooms have many such triangles. A ray
+   that starts in their plane meets it at a distance of 0, and all triangles of a plane have one distance. Both are
+   found without rational numbers. */
 static bool lies_at(const struct trax_triangle *triangle, int axis, double place) {
   return triangle->v0[axis] == place && triangle->v1[axis] == place && triangle->v2[axis] == place;
 }
@@ -243,7 +244,7 @@ static bool comes_first(const struct trax_triangle *triangle, const struct trax_
   return triangle < other;
 }
 
-/* Both triangles are hit: is the first one nearer? Of equal distances the one that comes first is. */
+/* Whether the first of two triangles that are hit is nearer. Of equal distances, the one that comes first is. */
 static bool is_nearer(const struct query *query, const struct trax_scene *source, const struct exact_hit *hit,
                       const struct exact_hit *other) {
   const struct trax_triangle *triangle = &source->triangles[hit->triangle],
@@ -263,7 +264,7 @@ static bool is_nearer(const struct query *query, const struct trax_scene *source
   return order < 0 || (order == 0 && comes_first(triangle, rival));
 }
 
-/* Of the float rays Embree's own is only to leave out what is too far: its end lies behind the hit. */
+/* Embree's own ray, in floats, only rules out what is too far. Its end is set behind the hit. */
 static void nearest(const struct RTCIntersectFunctionNArguments *arguments) {
   struct query *query = (struct query *)arguments->context;
   const struct trax_scene *source = arguments->geometryUserPtr;

@@ -1,6 +1,6 @@
 /* Rays against triangles without error, for the picture that errors are measured by. Embree's BVH finds the triangles
-   whose boxes a ray may meet. Whether it meets them, and which is the nearest, is decided in binary64 where that is
-   certain, else in double-double where that is, else in rational numbers. */
+   whose boxes a ray may meet. Whether the ray meets them, and which is the nearest, is decided in binary64 if that is
+   certain, else in double-double if that is, else in rational numbers. */
 #ifndef TRAX_RENDER_EXACT_H
 #define TRAX_RENDER_EXACT_H
 
@@ -25,10 +25,10 @@ bool exact_attach(RTCDevice device, RTCScene scene, const struct trax_scene *sou
    whose plane holds the ray is not hit. */
 bool exact_nearest(RTCScene scene, struct double3 origin, struct double3 direction, struct exact_hit *hit);
 
-/* Is there any triangle at a distance above 0 and below `limit`? */
+/* Whether there is any triangle at a distance above 0 and below `limit`. */
 bool exact_any(RTCScene scene, struct double3 origin, struct double3 direction, double limit);
 
-/* One triangle: what the above ask of each. *hit has the triangle's number already. */
+/* Tests one triangle, whose number *hit has already. */
 bool exact_triangle(const struct trax_triangle *triangle, struct double3 origin, struct double3 direction,
                     struct exact_hit *hit);
 

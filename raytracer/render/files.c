@@ -19,8 +19,8 @@ char *numbered(const char *path, unsigned number) {
   return name;
 }
 
-/* The sources in the folder of --source, and in the folder of its headers. What else they include is known when they
-   are compiled. */
+/* The sources in the folder of --source, and in the folder of its headers. What they include elsewhere is found
+   when they are compiled. */
 static void add_sources(trax_files *files, const char *source) {
   static const char *const folders[] = {"%s/%s", "%s/trax/%s"};
   for (size_t i = 0; i < sizeof folders / sizeof *folders; i++) {

@@ -23,7 +23,7 @@ static void scale_floats(float *values, size_t count, int exponent) {
     values[i] = ldexpf(values[i], exponent);
 }
 
-/* Rounding to subnormals keeps the order of coordinates, so boxes stay exact. Those on a grid scale with it. */
+/* Rounding to subnormals keeps the order of coordinates, so boxes stay exact. Boxes on the grid scale with the grid. */
 static void scale_scene(struct trax_scene *scene, int exponent) {
   struct trax_scene_header *header = scene->bytes;
   scale_floats(header->bounds_min, 3, exponent);
@@ -73,15 +73,15 @@ trax_status trax_normalise(struct trax_scene *scene, struct trax_view *view, int
   *exponent = 0;
   if (magnitude >= LEAST_EXPONENT && magnitude <= GREATEST_EXPONENT)
     return TRAX_OK;
-  /* No further down than necessary: where a scene of 2^60 has details, bits would be lost. */
+  /* No further down than necessary, because details of a large scene would lose bits. */
   *exponent = (magnitude > GREATEST_EXPONENT ? GREATEST_EXPONENT : 0) - magnitude;
   scale_scene(scene, *exponent);
   trax_scale_view(view, *exponent);
   return TRAX_OK;
 }
 
-/* How far boxes are widened on each side, so that rounding never makes a ray miss a box whose triangle it would hit. In
-   units of 2^-24 and of D, the greatest distance along an axis between a ray's origin and anything in the scene:
+/* The margin by which boxes are widened on each side, so that rounding never makes a ray miss the box of a triangle
+   that it hits. In units of 2^-24 and of D, the greatest distance along an axis between a ray's origin and the scene:
    - a ray's triangle test sees every vertex displaced across the ray by 6 (the shear's factor, from a reciprocal of
    error 5)
      + 4 (translation and shear) + 3 (edge values): 13;
@@ -138,8 +138,8 @@ static void set_camera(struct trax_render_params *params, const struct trax_view
   }
 }
 
-/* The ambient light is not the same from all sides, so that shapes show in the shadow too: it is least for what faces
-   away from a point up and to the right of the viewer. */
+/* The ambient light depends on the direction, so that shapes show in the shadow, too. It is least for surfaces that
+   face away from a point up and to the right of the viewer. */
 static void set_ambient(struct trax_render_params *params, const struct trax_view *view, double ambient) {
   const double evenly = 0.65, weights[3] = {-0.75, 0.55, 0.35}; /* of direction, up, right */
   double forward[3], up[3], right[3], length = 0;

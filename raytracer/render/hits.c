@@ -23,7 +23,7 @@ struct bounds {
   double distance, distance_error; /* of the plane, in units of the direction */
 };
 
-/* hit: how far away that is of which the answer is judged, in units of the direction. */
+/* hit: the distance of the hit that is judged, in units of the direction. */
 static struct bounds bounds_of(const struct trax_triangle *triangle, struct double3 eye, struct double3 towards,
                                double hit) {
   const float *const corners[3] = {triangle->v0, triangle->v1, triangle->v2};
@@ -93,7 +93,7 @@ struct ray {
   struct double3 eye, direction;
 };
 
-/* Is another answer of exact hits explained by equal distances? */
+/* Whether equal distances explain another answer of exact hits. */
 static bool exact_is_explained(const struct trax_scene *scene, uint32_t answer, uint32_t right, struct ray ray) {
   struct exact_hit own, nearest;
   return answer != TRAX_NO_TRIANGLE && right != TRAX_NO_TRIANGLE &&
@@ -102,7 +102,7 @@ static bool exact_is_explained(const struct trax_scene *scene, uint32_t answer, 
          own.distance <= nearest.distance * (1 + 0x1p-21);
 }
 
-/* Could a test with the errors of binary32 give this answer? */
+/* Whether a test with the errors of binary32 can give this answer. */
 static bool is_explained(const struct trax_scene *scene, uint32_t answer, uint32_t right, struct ray ray) {
   struct bounds own = {.distance = INFINITY};
   struct exact_hit nearest = {.distance = INFINITY};

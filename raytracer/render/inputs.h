@@ -11,9 +11,9 @@ struct inputs {
   struct trax_mesh_camera *cameras; /* of the meshes */
   uint32_t camera_count;
   struct trax_view view;         /* before it orbits; in the scene's unit of length as the files have it */
-  char choice[VIEW_CHOICE_SIZE]; /* what was chosen for a view, in words; "": nothing */
-  bool inside;                   /* of a closed room, which was found to be one */
-  float centre[3];               /* around which it orbits: in a room the eye itself */
+  char choice[VIEW_CHOICE_SIZE]; /* the choice of a view, in words; "": none */
+  bool inside;                   /* the view is inside of a closed room */
+  float centre[3];               /* the point that it orbits; in a room the eye itself */
 };
 
 trax_status inputs_load(struct inputs *inputs, const struct options *options, trax_progress_line *progress,

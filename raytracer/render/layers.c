@@ -1,4 +1,4 @@
-/* Layers of a picture: what the first ray through each pixel met. */
+/* Layers of a picture, from the first ray through each pixel. */
 #include "layers.h"
 
 #include "double3.h"

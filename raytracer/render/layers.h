@@ -1,4 +1,4 @@
-/* Layers of a picture: which triangle the first ray through each pixel met, and what follows from that. */
+/* Layers of a picture: the triangle that the first ray through each pixel met, its distance, normal and shadow. */
 #ifndef TRAX_RENDER_LAYERS_H
 #define TRAX_RENDER_LAYERS_H
 

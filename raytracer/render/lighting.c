@@ -28,12 +28,12 @@ uint32_t trax_scene_traits(const struct trax_scene *scene) {
 
 /* --- emitters --- */
 
-/* Which light is chosen follows it: Rec. 709's luminance. */
+/* Rec. 709's luminance, in proportion to which emitters are chosen. */
 static double luminance(const float colour[3]) {
   return 0.2126 * (double)colour[0] + 0.7152 * (double)colour[1] + 0.0722 * (double)colour[2];
 }
 
-/* How much of the shadow rays' choice belongs to a triangle; 0: no emitter. What has holes is found by chance only. */
+/* A triangle's weight in the choice of shadow rays; 0: no emitter. Emitters with holes are found by scattered rays. */
 static double emitter_weight(const struct trax_scene *scene, uint32_t number) {
   const struct trax_triangle *triangle = &scene->triangles[number];
   const struct trax_material *material = &scene->materials[triangle->material];

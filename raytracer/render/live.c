@@ -41,7 +41,7 @@ static void draw_missing(struct trax_picture *picture) {
     }
 }
 
-/* A failure does not end the run before its end: the picture is of more use than its frames. */
+/* A failure does not end the run, because the picture matters more than its frames. */
 static void write_frame(struct live *live, const struct trax_picture *picture) {
   if (live->status == TRAX_OK)
     live->status = trax_picture_write(picture, live->file, &live->error);

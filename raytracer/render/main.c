@@ -17,7 +17,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-static volatile sig_atomic_t reader_gone; /* nobody reads standard output any more: pictures are written all the same */
+static volatile sig_atomic_t reader_gone; /* standard output was closed; pictures are still written */
 
 static void on_broken_pipe(int signal_number) {
   (void)signal_number;
@@ -39,7 +39,7 @@ static void print_outputs(const struct options *options, const struct inputs *in
     printf("inputs      %s\n", options->keep);
 }
 
-/* The frame of a picture with layers asks for floats only with path.h: the floats of the paper's workload are
+/* With layers, the program computes floats only if path.h renders the picture: in the paper's workload they are
    recorded. */
 static trax_status init_frame(struct trax_frame *frame, const struct options *options, const struct trax_scene *scene,
                               const struct trax_view *view, trax_error *error) {

@@ -38,7 +38,7 @@ struct options {
   unsigned frames;        /* pictures of a turntable; 1: none */
   const char *write_view; /* NULL: not wanted */
   const char *id_picture; /* the same */
-  const char *stats, *keep, *program;
+  const char *stats, *ray_cycles, *keep, *program;
   const char *ray_trace; /* every ray; NULL: not wanted */
   const char *hits;      /* figures as JSON; NULL: not wanted */
   const char *source;    /* of the specialised program; NULL: the installation's */
@@ -66,9 +66,9 @@ struct options {
 extern const trax_command render_command;
 
 trax_parsed options_parse(struct options *options, int argc, char **argv, trax_error *error);
-/* Whether the picture is rendered: something is asked for that comes of it, or of the run. */
+/* Whether any option needs the picture, or the run. */
 bool options_rendered(const struct options *options);
-/* Whether they go together. */
+/* Checks that the options can be combined. */
 trax_status options_check(const struct options *options, trax_error *error);
 void options_release(struct options *options);
 

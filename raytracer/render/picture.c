@@ -91,7 +91,7 @@ static void encode(png_structp png, png_infop info, FILE *file, const struct tra
   png_write_end(png, info);
 }
 
-/* A picture without linear floats gets those that its pixels show. */
+/* A picture without linear floats gets those of its pixels. */
 static trax_status write_floats(const struct trax_picture *picture, const char *path,
                                 trax_status (*encode)(struct trax_bytes *, const struct trax_picture *, const char *,
                                                       trax_error *),
@@ -167,7 +167,7 @@ static void take_bytes(png_structp png, png_bytep to, size_t count) {
   source->at += count;
 }
 
-/* *pixels is freed by the caller, also after a failure in here. */
+/* The caller frees *pixels, also after a failure. */
 static void decode(png_structp png, png_infop info, struct source *source, struct trax_picture *picture) {
   png_set_read_fn(png, source, take_bytes);
   png_set_user_limits(png, TRAX_RENDER_MAX_SIDE, TRAX_RENDER_MAX_SIDE);

@@ -11,7 +11,7 @@ struct walk {
   uint32_t used;
 };
 
-/* The greatest float that is not above it: planes of quantised boxes need not be floats. */
+/* The greatest float that is not above the value: planes of quantised boxes need not be floats. */
 static float not_above(double value) {
   const float rounded = (float)value;
   return rounded > value ? nextafterf(rounded, -INFINITY) : rounded;

@@ -1,16 +1,15 @@
-/* The model: each TP takes slot by slot and in each its accesses one by one; all other instructions are an access's
-   duration, which grows with the number of TPs of the TM that compete for units and banks. A line that is not in the
-   data cache comes after those that were asked for before, as fast as the memory's bandwidth allows. That is what
-   decides how cycles differ from one part of a picture to another; arbitration, banks, instruction fetches and single
-   units are left out. */
+/* The model: each TP takes slot after slot, and the accesses of a slot one after another. All other instructions count
+   as the duration of an access, which grows with the number of TPs that compete in the TM. A line that misses in the
+   data cache arrives after those that were requested before, at the memory's bandwidth. These effects decide how cycles
+   differ between parts of a picture. Arbitration, banks, instruction fetches and single units are left out. */
 #include "prediction.h"
 
 #include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Cycles of a node's visit by a TP, alone in its TM and with all TPs at work; the rest relative to a node's. Fitted
-   once to the device program on the paper's chips; what matters is the relation to a miss. */
+/* Cycles of a node's visit by a TP, alone in its TM and with all TPs at work; the others are relative to a node's.
+   They were fitted once to the device program on the paper's chips. What matters is their relation to a miss. */
 #define NODE_ALONE 45.0
 #define NODE_CROWDED 137.0
 #define TRIANGLE_NODES 1.5
@@ -20,7 +19,7 @@ enum {
   CHUNK = 1 << 20, /* steps that are collected before the model goes on */
   SLOT_BYTES = 12, /* of a slot's atomic increment and pixel */
   TRIANGLE_BYTES = sizeof(struct trax_triangle),
-  PAUSE = 2 /* a step that is no access, but takes as long */
+  PAUSE = 2 /* a step without an access that takes as long */
 };
 
 struct trace {
@@ -47,7 +46,7 @@ struct tm {
 };
 
 struct model {
-  struct trax_access_log log; /* first: it is what the twin knows */
+  struct trax_access_log log; /* first: the twin passes its address */
   trax_access *steps;         /* [capacity] */
   size_t capacity, begin;     /* of the present slot */
   struct queue *queues;       /* [queue_count] */
@@ -68,13 +67,13 @@ struct model {
 
 /* --- the model --- */
 
-/* When a transfer that is asked for now is there. */
+/* The time when a transfer that is requested now arrives. */
 static double transfer(struct model *model, double now, uint32_t bytes) {
   model->bus_free = (model->bus_free > now ? model->bus_free : now) + bytes * model->cycles_per_byte;
   return model->bus_free + model->latency;
 }
 
-/* When what is at an address can be used. */
+/* The time when the data at an address can be used. */
 static double load(struct model *model, struct tm *tm, uint32_t address, double now) {
   const uint32_t ways = model->ways, number = address >> model->line_shift;
   uint32_t *lines = tm->line + (size_t)(number & model->set_mask) * ways;
@@ -104,7 +103,7 @@ static void note_block(struct model *model, double now) {
   model->noted++;
 }
 
-/* A queue hands out its slot `number` now. */
+/* Notes that a queue hands out its slot `number` now. */
 static void hand_out(struct model *model, struct queue *queue, uint32_t number, double now) {
   while (model->noted * TRAX_PREDICTION_BLOCK <= model->place + (number - queue->handed_out)) {
     const uint32_t more = model->noted * TRAX_PREDICTION_BLOCK - model->place;
@@ -131,7 +130,7 @@ static const struct trace *take_slot(struct model *model, const struct tm *tm, u
   }
 }
 
-/* The TP's next step, which lasts `node` cycles if it is a node's; returns when the one after it begins. */
+/* Takes the TP's next step, which lasts `node` cycles if it is a node's. Returns when the following one begins. */
 static double step(struct model *model, struct tm *tm, uint32_t tp, double now, double node) {
   if (tm->next[tp] == tm->end[tp]) {
     const struct trace *trace = take_slot(model, tm, tp, now);
@@ -157,7 +156,7 @@ static double step(struct model *model, struct tm *tm, uint32_t tp, double now, 
   return (loaded > now ? loaded : now) + duration;
 }
 
-/* All TPs of a TM whose time it is take a step. */
+/* All TPs of a TM that are due take a step. */
 static void go_round(struct model *model, struct tm *tm) {
   const double now = tm->clock;
   uint32_t active = 0;
@@ -170,17 +169,17 @@ static void go_round(struct model *model, struct tm *tm) {
       tm->wake[tp] = step(model, tm, tp, now, node);
     next = tm->wake[tp] < next ? tm->wake[tp] : next;
   }
-  const double least = now + NODE_ALONE; /* those who are ready at about the same time go together */
+  const double least = now + NODE_ALONE; /* TPs that are ready at about the same time go together */
   tm->clock = next < least ? least : next;
 }
 
-/* Are there slots for all of a TM that may want one? */
+/* Whether there are slots for all TPs of a TM that may take one. */
 static bool has_slots(const struct model *model, const struct tm *tm) {
   const struct queue *queue = &model->queues[tm->first_queue];
   return queue->count - queue->taken > model->tps;
 }
 
-/* Goes on while there are slots for all; with `last`, to the end. */
+/* Advances while there are slots for all TPs; with `last`, to the end. */
 static void advance(struct model *model, bool last) {
   for (;;) {
     struct tm *tm = &model->tm[0];
@@ -195,7 +194,7 @@ static void advance(struct model *model, bool last) {
 
 /* --- the log --- */
 
-/* Those steps that will be read again move to a new place, with room behind them. */
+/* Moves the steps that will be read again to a new array, with room behind them. */
 static void compact(struct model *model) {
   size_t left = (size_t)(model->log.end - model->steps);
   size_t unread = model->begin;
@@ -211,7 +210,7 @@ static void compact(struct model *model) {
   while (left > model->capacity / 2)
     model->capacity *= 2;
   trax_access *steps = malloc(model->capacity * sizeof *steps), *to = steps;
-  if (!steps) { /* whatever comes is for nothing */
+  if (!steps) { /* further accesses are dropped */
     model->failed = true;
     model->begin = 0;
     for (uint32_t i = 0; i < model->queue_count; i++)
@@ -392,7 +391,7 @@ trax_status trax_predict(struct trax_prediction *prediction, struct trax_picture
   return status;
 }
 
-/* The parts of the machine that the model has: cores, lines, the bus and its latency. */
+/* Whether the model has this part of the machine: cores, lines, the bus and its latency. */
 static bool is_modelled(const char *key) {
   static const char *const modelled[] = {"chip.",           "dcache.bytes",         "dcache.line_bytes",
                                          "dcache.ways",     "dcache.replacement",   "memory.bandwidth_gbps",

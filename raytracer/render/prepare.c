@@ -21,7 +21,7 @@ const char *prepared_file(size_t number) {
   return number == 0 ? TRAX_MANIFEST_PROGRAM : number == 1 ? TRAX_MANIFEST_NAME : NULL;
 }
 
-/* --- what trax-sim has no use for --- */
+/* --- members that trax-sim ignores --- */
 
 static json_t *vector(const float value[3]) {
   return json_pack("[fff]", (double)value[0], (double)value[1], (double)value[2]);

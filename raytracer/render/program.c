@@ -51,8 +51,8 @@ static bool read_frames(const Elf_Data *data, struct contents *contents) {
   return true;
 }
 
-/* The stack of a function and of what it calls; recursion counts once, and calls by register not at all: the device
-   program has neither. */
+/* The stack of a function and its callees. Recursion counts once and indirect calls not at all; the device program has
+   neither. */
 static uint32_t stack_depth(const struct contents *contents, struct function *function) {
   if (function->state != UNSEEN)
     return function->depth;

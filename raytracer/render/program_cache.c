@@ -165,7 +165,8 @@ static int by_use(const void *a, const void *b) {
   return x->used.tv_nsec < y->used.tv_nsec ? 1 : x->used.tv_nsec > y->used.tv_nsec ? -1 : strcmp(x->name, y->name);
 }
 
-/* A compilation that was killed: a folder of ours, or, of an earlier version, a file. What else may be in it stays. */
+/* Removes the rest of a compilation that was killed: our folder, or a file of an earlier version. Foreign files in the
+   folder stay. */
 static void remove_unfinished(const char *cache, const char *name) {
   struct cache_work work;
   char key[KEY_LENGTH + 1];

@@ -1,5 +1,5 @@
-/* The cache of compiled programs: KEY.elf, and KEY.h that it was made with, for whoever debugs it. Behind each program
-   stands a checksum of its bytes and its key, so that what a power loss or a stranger left there is not run. */
+/* The cache of compiled programs: KEY.elf, and KEY.h that it was made with, for debugging. A checksum of the bytes and
+   the key follows each program, so that a damaged or foreign file is not run. */
 #ifndef TRAX_PROGRAM_CACHE_H
 #define TRAX_PROGRAM_CACHE_H
 

@@ -161,7 +161,7 @@ bool trax_is_exr(const uint8_t *bytes, size_t size) {
   return size > sizeof magic && memcmp(bytes, magic, sizeof magic) == 0;
 }
 
-/* The places of our channels among the file's, -1 for those that it has not. */
+/* The places of our channels among the file's; -1 for missing ones. */
 static unsigned find_channels(int place[CHANNELS], const EXRHeader *header) {
   unsigned found = 0;
   for (int i = 0; i < CHANNELS; i++) {
@@ -174,7 +174,7 @@ static unsigned find_channels(int place[CHANNELS], const EXRHeader *header) {
   return found;
 }
 
-/* bytes: of the file. NULL: it can be read. */
+/* Returns why the file cannot be read, or NULL. bytes: of the file. */
 static const char *check_exr(EXRHeader *header, const EXRVersion *version, int64_t width, int64_t height,
                              size_t bytes) {
   enum { MOST_RATIO = 1100 }; /* of bytes to packed bytes: RLE and deflate have less */
@@ -239,7 +239,7 @@ trax_status trax_exr_decode(struct trax_picture *picture, const uint8_t *bytes, 
     status = trax_fail(error, "%s: not a readable EXR: %s", name, reason ? reason : "its data are damaged");
   } else if (status == TRAX_OK) {
     status = take_image(picture, &header, &image, name, error);
-    FreeEXRImage(&image); /* of an image that it cannot load the library has done so */
+    FreeEXRImage(&image); /* the library has freed an image that it cannot load */
   }
   FreeEXRErrorMessage(reason);
   FreeEXRHeader(&header);

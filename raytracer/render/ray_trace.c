@@ -1,4 +1,4 @@
-/* Rays are told one after the other, in the order of the program's slots, and written at once. */
+/* Rays arrive one after another, in the order of the program's slots, and are written at once. */
 #include "ray_trace.h"
 
 #include "trax/access.h"

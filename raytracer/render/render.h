@@ -31,7 +31,7 @@ struct trax_frame_options {
   uint32_t paths;         /* path tracing over so many surfaces, up to TRAX_RENDER_MAX_DEPTH; 0: none */
   uint32_t seed;          /* of the paths, and of occlusion rays */
   uint32_t occlusion;     /* rays for ambient occlusion, up to TRAX_RENDER_MAX_OCCLUSION; 0: none */
-  double occlusion_reach; /* how far they go, as a part of the diagonal of the scene's box; 0: TRAX_DEFAULT_REACH */
+  double occlusion_reach; /* their length, as a part of the diagonal of the scene's box; 0: TRAX_DEFAULT_REACH */
   bool mark_rays;         /* the program counts each ray where it begins */
 };
 
@@ -47,10 +47,9 @@ struct trax_frame {
 #define TRAX_DEFAULT_REACH 0.1
 #define TRAX_DEFAULT_BACKGROUND 0xFFB8A898u /* R 0x98, G 0xA8, B 0xB8, A 0xFF */
 
-/* Scales scene and view by a power of two where their coordinates are so large or small that products of three of them
-   would leave the range of floats. The picture is the same: nothing depends on the unit of length. *exponent is the
-   power, 0 if nothing was done. Errors: what is beyond any scale, as a light further than 2^40 times the scene's size.
- */
+/* Scales scene and view by a power of two if products of three coordinates would leave the range of floats. The picture
+   stays the same, because nothing depends on the unit of length. *exponent is the power, 0 if nothing was done. Errors:
+   no scale suffices, as for a light farther away than 2^40 times the scene's size. */
 trax_status trax_normalise(struct trax_scene *scene, struct trax_view *view, int *exponent, trax_error *error);
 
 /* Scales the view by 2^exponent, for a scene that was scaled before. */
@@ -84,8 +83,7 @@ struct trax_device_scene {
 /* With the sections that the frame's features need. */
 trax_status trax_device_scene_init(struct trax_device_scene *scene, const struct trax_frame *frame, trax_error *error);
 void trax_device_scene_release(struct trax_device_scene *scene);
-/* Makes addresses of the references of a scene that the device has at `address`, below 2^31; those of leaves are
- * negated.
+/* Replaces the references of a scene at the device's `address`, below 2^31, by addresses; those of leaves are negated.
  */
 void trax_scene_relocate(void *bytes, uint32_t address);
 
@@ -110,14 +108,14 @@ struct trax_specialise_options {
   bool record;                   /* it records (trax/record.h); its stack is in global memory: times mean nothing */
 };
 
-/* Compiles the device program for one picture, or finds it among those compiled before. Where that cannot be done,
-   TRAX_OK with why in note, and *program is as it was; note also tells of a damaged one that was made anew. TRAX_ERROR:
-   a cache that was asked for cannot be written, or nothing else will do, since the program is to
+/* Compiles the device program for one picture, or finds it in the cache. If that fails, returns TRAX_OK, gives the
+   reason in note and leaves *program as it was. note also reports a damaged cached program that was compiled again.
+   TRAX_ERROR: the cache that the user named cannot be written, or the general program does not serve, because it cannot
    record. */
 trax_status trax_program_specialise(struct trax_program *program, const struct trax_frame *frame,
                                     const struct trax_specialise_options *options, char note[256], trax_error *error);
 
-/* Whether a file of a folder of sources is one by its name. */
+/* Whether a file in a folder of sources is a source, by its name. */
 bool trax_is_source_name(const char *name);
 
 /* $XDG_CACHE_HOME/trax/programs, or .cache/trax/programs in the home directory; false if there is neither. */

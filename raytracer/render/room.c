@@ -21,7 +21,7 @@ enum {
 #define MANY (1.0 / 4)     /* of the places are enclosed */
 #define SHOWN (1.0 / 10)   /* of a coarse picture's rays hit something */
 #define CLEARANCE 0.01     /* of the eye and the light from everything, of the box's diagonal */
-#define CONE 0.85          /* cosine to a direction, of the rays that tell how deep the view is */
+#define CONE 0.85          /* cosine to a direction, of the rays that measure the depth of a view */
 #define NOTABLY (1 + 0x1p-10)
 
 struct spot {
@@ -168,8 +168,8 @@ static bool choose_eye(const struct room *room, const struct spot **eye, struct 
   return best > 0;
 }
 
-/* Chooses the place from which most of the picture is lit, and the highest of several. The eye is no such place: from
-   there no shadow is seen. */
+/* Chooses the place that lights most of the picture, the highest of several. The eye is excluded, because no shadow is
+   visible from the light. */
 static struct double3 choose_light(const struct room *room, const struct spot *eye, const struct trax_view *view,
                                    float aspect) {
   struct double3 seen[COLUMNS * ROWS], light = eye->at;
@@ -199,7 +199,7 @@ static struct double3 choose_light(const struct room *room, const struct spot *e
   return light;
 }
 
-/* Coordinates of which products are floats; others are scaled only when the view is known. */
+/* Whether products of coordinates are floats. Other scenes are scaled later, when the view is known. */
 static bool is_ordinary(const struct trax_scene *scene) {
   const struct trax_scene_header *header = scene->header;
   const double size = fmax(greatest(from(header->bounds_min)), greatest(from(header->bounds_max)));

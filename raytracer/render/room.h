@@ -1,4 +1,4 @@
-/* Finds a view from inside of a scene that is a closed room: from outside only its walls would be seen. */
+/* Finds a view inside a scene that is a closed room, of which only walls are visible from outside. */
 #ifndef TRAX_RENDER_ROOM_H
 #define TRAX_RENDER_ROOM_H
 

@@ -1,4 +1,4 @@
-/* One ray through Embree's BVH, by Embree 3 or 4, which take a query's context in two ways. */
+/* One ray through Embree's BVH, by Embree 3 or 4, whose queries take their context in different ways. */
 #ifndef TRAX_RENDER_RTC_QUERY_H
 #define TRAX_RENDER_RTC_QUERY_H
 

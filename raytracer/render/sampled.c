@@ -9,7 +9,7 @@ static trax_status predict(struct trax_picture_sampling *sampling, struct trax_p
                            struct trax_render_run *run, trax_error *error) {
   uint8_t *scene;
   uint32_t scene_address = 0, scene_bytes;
-  /* A program that has the scene as plain arrays has it somewhere else, and about as large. */
+  /* A program with the scene as plain arrays has it at another address, in about the same size. */
   if (trax_program_has(machine, "scene") &&
       trax_machine_buffer(machine, "scene", &scene_address, &scene, &scene_bytes, error) != TRAX_OK)
     return TRAX_ERROR;
@@ -52,7 +52,7 @@ trax_status trax_picture_sampling_init(struct trax_picture_sampling *sampling, s
   sampling->slots.queues = queues;
   sampling->slots.handed_out = sampling->prediction.handed_out;
   sampling->slots.block = TRAX_PREDICTION_BLOCK;
-  /* Another program may trace other rays than the twin, unless it says that it does not. */
+  /* Another program may trace other rays than the twin, unless its symbol says that it does not. */
   sampling->slots.rays = by_tiles || trax_program_has(machine, "workload_rays") ? run->rays : 0;
   if (sampling->slots.rays) {
     memcpy(sampling->kinds, run->kinds, sizeof sampling->kinds);

@@ -1,5 +1,4 @@
-/* Sampled simulation of a picture: what is simulated of its slots (sampling/slots.h), chosen by a prediction of their
- * costs. */
+/* Sampled simulation of a picture. A prediction of costs chooses the slots that are simulated (sampling/slots.h). */
 #ifndef TRAX_RENDER_SAMPLED_H
 #define TRAX_RENDER_SAMPLED_H
 

@@ -23,7 +23,7 @@ static trax_status take_picture(struct trax_picture *picture, const struct trax_
   return status == TRAX_OK && options->layers ? trax_layers_take(picture, frame, bytes, error) : status;
 }
 
-/* Writes what explains the run; the page has the picture, and what its rays visited. */
+/* Writes the outputs that explain the run. The page has the picture, and the visits of its rays. */
 static trax_status end_explanation(struct trax_explain *explain, const struct trax_picture *picture,
                                    const struct trax_frame *frame, const struct trax_simulated_options *options,
                                    trax_error *error) {
@@ -49,7 +49,7 @@ static trax_status end_explanation(struct trax_explain *explain, const struct tr
   return status;
 }
 
-/* References become addresses where the scene is, in the machine's memory. */
+/* Replaces the references of the scene in the machine's memory by addresses. */
 static trax_status relocate(trax_machine *machine, trax_error *error) {
   uint8_t *bytes;
   uint32_t address, size;
@@ -62,7 +62,7 @@ static trax_status relocate(trax_machine *machine, trax_error *error) {
   return TRAX_OK;
 }
 
-/* Binds the buffer that a program fills which records (trax/record.h). */
+/* Binds the buffer of a recording program (trax/record.h). */
 static trax_status bind_record(trax_machine *machine, const struct trax_render_params *params, trax_error *error) {
   const uint64_t size = trax_record_bytes(params);
   if (size > UINT32_MAX)
@@ -96,13 +96,13 @@ trax_status trax_simulated_load(trax_machine *machine, const struct trax_frame *
       status = relocate(machine, error);
     trax_device_scene_release(&scene);
   } else if (status == TRAX_OK) {
-    /* Only programs of one's own have the scene as plain arrays, and perhaps not as the file. */
+    /* Only users' programs have the scene as plain arrays, and some do not have it as the file. */
     if (!trax_program_has(machine, "plain_nodes") || trax_program_has(machine, "scene"))
       status = trax_machine_bind(machine, "scene", frame->scene->bytes, (uint32_t)frame->scene->size, error);
     if (status == TRAX_OK)
       status = trax_plain_scene_bind(machine, frame->scene, error);
   }
-  /* A program whose constants are all folded has none. */
+  /* A program whose constants are all folded has no params. */
   if (status == TRAX_OK && trax_program_has(machine, "params"))
     status = trax_machine_bind(machine, "params", frame->params, frame->params_size, error);
   if (status == TRAX_OK)

@@ -1,5 +1,5 @@
-/* Programs for one picture: the device's source behind a file of constants (device/run.h), compiled when it is needed
-   and kept under the hash of all that it is made from. */
+/* Programs for one picture: the device's source after a file of constants (device/run.h), compiled when needed and kept
+   under a hash of all inputs of the compilation. */
 #include "program_cache.h"
 #include "render.h"
 #include "trax/input.h"
@@ -48,7 +48,7 @@ static trax_status add_own_flags(struct flags *flags, const char *source, trax_e
   return TRAX_OK;
 }
 
-/* source: NULL if it is the installation's. What is recorded takes more stack than a TP has memory for. */
+/* source: NULL for the installation's. A recording program needs more stack than local memory has. */
 static trax_status choose_flags(struct flags *flags, const char *source, bool record, trax_error *error) {
   static const char *const always[] = {"--target=trax", "-std=c17", "-O3", "-g", "-fdebug-compilation-dir=."};
   flags->count = 0;
@@ -70,7 +70,7 @@ static const char *const ingredients[] = {
 
 /* --- the constants --- */
 
-/* The text of the file of constants. They are words, so that every bit is kept and no field is forgotten. */
+/* The text of the file of constants. They are words, so that every bit and every field is kept. */
 static char *constants_text(const struct trax_frame *frame, unsigned queues) {
   /* The part behind the parameters that every picture has. */
   const bool path = frame->params->features & TRAX_PATH_FEATURES;
@@ -169,7 +169,7 @@ static trax_status hash_folder(XXH3_state_t *state, const char *folder, trax_err
   return status;
 }
 
-/* Size and date stand for the content of the compiler's library, which is large and the distribution's. */
+/* Size and date stand for the content of the compiler's library, which is large and belongs to the distribution. */
 static void hash_library(XXH3_state_t *state, const char *path) {
   struct stat status = {0};
   stat(path, &status);
@@ -177,7 +177,7 @@ static void hash_library(XXH3_state_t *state, const char *path) {
   XXH3_128bits_update(state, identity, sizeof identity);
 }
 
-/* Changes with every change of the way in which programs are compiled from the same files. */
+/* Increased whenever the same files are compiled in another way. */
 #define WAYS_TO_COMPILE "4"
 
 static trax_status make_key(char key[33], const char *root, const char *source, const char *constants,
@@ -225,12 +225,12 @@ static void first_line(char line[160], int descriptor, int status) {
     snprintf(line, 160, "exit status %d", WEXITSTATUS(status));
 }
 
-/* The places of data, since the stack has room for some of these ways only, and the size of the code. */
+/* The places of data, and the size of the code. Some of these leave too little stack. */
 struct places {
   bool params_in_memory; /* instead of constants, which may take registers */
   bool paths_local;      /* struct path in registers and on the stack, instead of in global memory */
   bool small;            /* -O2 */
-  bool stack_in_memory;  /* of trees deeper than usual, and of exact hits, whose functions' frames come on top */
+  bool stack_in_memory;  /* for trees deeper than usual, and for exact hits, whose functions have frames of their own */
 };
 
 /* The inputs that all compilation attempts share. */
@@ -254,7 +254,7 @@ static void add_word(struct command *command, const char *word) {
   command->words[command->count++] = word;
 }
 
-/* The program shall not depend on the name of a folder that may soon be gone. */
+/* The program must not contain the names of temporary folders. */
 static void map_folders(struct command *command, const struct recipe *recipe) {
   const char *folder = recipe->work->folder;
   const int cache = (int)(strrchr(folder, '/') - folder);
@@ -300,7 +300,7 @@ static trax_status make_command(struct command *command, const struct recipe *re
   return TRAX_OK;
 }
 
-/* TRAX_ERROR with the reason in *error if the compiler or the linker refuses, as for want of stack. */
+/* TRAX_ERROR with the reason in *error if the compiler or the linker fails, as for lack of stack. */
 static trax_status run_command(const struct command *command, const volatile int *interrupt, trax_error *error) {
   FILE *said = tmpfile();
   if (!said)
@@ -332,7 +332,7 @@ static trax_status compile(const struct recipe *recipe, const struct places *pla
   if (make_command(&command, recipe, places, error) != TRAX_OK)
     return TRAX_ERROR;
   trax_reads_share();                          /* what the source includes is an input, too */
-  trax_reads_drop_path(recipe->work->program); /* an earlier attempt, which was measured */
+  trax_reads_drop_path(recipe->work->program); /* the program of an earlier attempt, which was read */
   return run_command(&command, recipe->interrupt, error);
 }
 
@@ -342,8 +342,8 @@ static bool fits_cache(const char *program, uint32_t icache_bytes) {
   return trax_program_measure(&size, program, &ignored) == TRAX_OK && size.code_bytes <= icache_bytes;
 }
 
-/* Compiles in the first of the ways for which there is stack enough. A program larger than the instruction cache is
-   compiled for less code, unless it traces paths: those are larger in any case. */
+/* Compiles in the first of the ways whose stack suffices. A program larger than the instruction cache is compiled for
+   less code, unless it traces paths and is larger in any case. */
 static trax_status build(const struct recipe *recipe, const struct trax_frame *frame, uint32_t icache_bytes,
                          trax_error *error) {
   static const struct places ways[] = {{.paths_local = true},
@@ -369,7 +369,7 @@ static trax_status build(const struct recipe *recipe, const struct trax_frame *f
   return status;
 }
 
-/* The general program replaces one that cannot be compiled, unless it cannot do the same. */
+/* The general program replaces one that cannot be compiled, if it can do the same. */
 static trax_status note_or_error(const struct trax_frame *frame, const struct trax_specialise_options *options,
                                  const char *note, trax_error *error) {
   if (options->record)

@@ -1,4 +1,4 @@
-/* One picture of the command line, and the progress of one step of its making. */
+/* One picture of the command line, and the progress of one step. */
 #ifndef TRAX_RENDER_STEPS_H
 #define TRAX_RENDER_STEPS_H
 
@@ -9,14 +9,14 @@ struct job {
   const struct options *options;
   const struct trax_frame *frame;
   trax_progress_line *progress;
-  struct live *live; /* NULL: nobody watches the picture arrive */
+  struct live *live; /* NULL without --progress-png */
 };
 
 struct step {
   trax_progress_line *line;
   const char *name;
-  struct live *live;                 /* NULL: nobody watches */
-  const struct trax_render_run *run; /* whose picture arrives; NULL: none does */
+  struct live *live;                 /* the same */
+  const struct trax_render_run *run; /* the run that renders; NULL: none */
 };
 
 /* For trax_render_run.progress; context is a struct step. */

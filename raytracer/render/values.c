@@ -10,7 +10,7 @@ static void *member(void *target, const trax_option *option) {
   return (char *)target + option->offset;
 }
 
-/* An unsigned decimal number without sign or space, at *text, which moves behind it. */
+/* Parses an unsigned decimal number without sign or space at *text, which moves behind it. */
 static bool parse_side(const char **text, unsigned *value) {
   if (**text < '0' || **text > '9')
     return false;
@@ -31,7 +31,7 @@ trax_status take_size(void *target, const trax_option *option, const char *value
                             TRAX_RENDER_MAX_SIDE);
 }
 
-/* As many numbers as fit between commas, none beyond `most`; returns how many, 0 if anything else is there. */
+/* Parses up to `count` numbers between commas, none beyond `most`. Returns how many, 0 for any other text. */
 static unsigned parse_floats(const char *text, float *values, unsigned count, float most) {
   for (unsigned i = 0; i < count; i++) {
     char *end;
@@ -84,7 +84,7 @@ trax_status take_fraction(void *target, const trax_option *option, const char *v
   return TRAX_OK;
 }
 
-/* Above 0 and to `most`. */
+/* Parses a number above 0 and up to `most`. */
 static bool parse_share(const char *text, double most, double *value) {
   char *end;
   *value = strtod(text, &end);

@@ -57,7 +57,7 @@ static const char *name_of(const void *context, size_t i) {
   return ((const struct names *)context)->names[i];
 }
 
-/* The comment at the beginning of the file, to the end of its first sentence. */
+/* Prints the first sentence of the comment at the beginning of the file. */
 static void print_sentence(FILE *out, const char *path) {
   char line[400];
   FILE *file = fopen(path, "r");
@@ -130,7 +130,7 @@ bool known_view(char path[TRAX_PATH_SIZE], const struct options *options) {
   return false;
 }
 
-/* The middle of the scene's box, for a view of which only the eye or the point it looks at was given. */
+/* Makes a view look at the middle of the scene's box. */
 static void look_at_middle(struct trax_view *view, const struct trax_scene_header *header) {
   for (int axis = 0; axis < 3; axis++)
     view->look_at[axis] = header->bounds_min[axis] * 0.5f + header->bounds_max[axis] * 0.5f;

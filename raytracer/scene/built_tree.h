@@ -26,7 +26,7 @@ struct scene_numbering {
 
 /* The least height of a tree over so many triangles. */
 unsigned scene_least_height(uint32_t triangles, unsigned max_leaf);
-/* Computes `below` and `height` of all nodes. False if the builder left something out. */
+/* Computes `below` and `height` of all nodes. False if the builder left triangles out. */
 bool scene_measure_built(const struct scene_numbering *numbering, struct built_node *node);
 /* Adds the nodes to the tree, depth first, and rebuilds each subtree that is too deep. False when out of memory. */
 bool scene_number_built(struct scene_numbering *numbering, const struct built_node *root);

@@ -8,13 +8,13 @@
 
 /* Defaults; docs/results/raytracer.md has what was measured. */
 enum { default_max_leaf = 4, default_max_depth = TRAX_SCENE_DEFAULT_DEPTH };
-static const float default_traversal_cost = 1, default_intersection_cost = 1;
+static const float default_traversal_cost = 1; /* relative to a triangle's */
 
 /* One thread and one instruction set: the surface areas are rounded in the same way on every host. */
 static const char device_options[] = "threads=1,isa=sse2,start_threads=0,set_affinity=0";
 
-/* Deep enough for every tree that surface areas lead to; what is too deep for the device is rebuilt afterwards. Embree
-   itself would give up where it comes near its limit with many triangles left. */
+/* Deep enough for all trees by surface areas. Subtrees that are too deep for the device are rebuilt afterwards, because
+   Embree gives up if it nears its limit with many triangles left. */
 #define BUILDER_DEPTH 1000
 
 /* cancel.cpp; does not return. */
@@ -58,7 +58,7 @@ static void *create_leaf(RTCThreadLocalAllocator allocator, const struct RTCBuil
   }
   struct built_node *leaf = rtcThreadLocalAlloc(allocator, sizeof *leaf + count * sizeof leaf->triangles[0], 16);
   *leaf = (struct built_node){.box = scene_empty_box()};
-  for (size_t i = 0; i < count; i++) { /* insertion sort: the builder's order carries no meaning */
+  for (size_t i = 0; i < count; i++) { /* insertion sort, because the builder's order is arbitrary */
     const struct scene_box part = box_of(&primitives[i]);
     scene_box_add_box(&leaf->box, &part);
     size_t at = leaf->triangle_count;
@@ -73,29 +73,27 @@ static void *create_leaf(RTCThreadLocalAllocator allocator, const struct RTCBuil
   return leaf;
 }
 
-/* The builder asks for the bounds of both sides of a triangle, or of a part of one. */
+static struct RTCBounds bounds_as(const struct scene_box *box) {
+  return (struct RTCBounds){.lower_x = box->min[0],
+                            .lower_y = box->min[1],
+                            .lower_z = box->min[2],
+                            .upper_x = box->max[0],
+                            .upper_y = box->max[1],
+                            .upper_z = box->max[2]};
+}
+
+/* Computes the bounds of both sides of a triangle, or of a part of one, for the builder. */
 static void split_primitive(const struct RTCBuildPrimitive *primitive, unsigned int axis, float position,
                             struct RTCBounds *left, struct RTCBounds *right, void *context) {
   const struct trax_mesh *mesh = ((struct build_context *)context)->mesh;
   const uint32_t *vertices = mesh->triangles[primitive->primID].vertices;
   const float *const corners[3] = {mesh->vertices[vertices[0]], mesh->vertices[vertices[1]],
                                    mesh->vertices[vertices[2]]};
-  struct scene_box low = box_of(primitive), high = low;
-  low.max[axis] = high.min[axis] = position;
-  low = scene_clip_triangle(corners, &low);
-  high = scene_clip_triangle(corners, &high);
-  *left = (struct RTCBounds){.lower_x = low.min[0],
-                             .lower_y = low.min[1],
-                             .lower_z = low.min[2],
-                             .upper_x = low.max[0],
-                             .upper_y = low.max[1],
-                             .upper_z = low.max[2]};
-  *right = (struct RTCBounds){.lower_x = high.min[0],
-                              .lower_y = high.min[1],
-                              .lower_z = high.min[2],
-                              .upper_x = high.max[0],
-                              .upper_y = high.max[1],
-                              .upper_z = high.max[2]};
+  const struct scene_box box = box_of(primitive);
+  struct scene_box parts[2];
+  scene_split_triangle(corners, &box, (int)axis, position, parts);
+  *left = bounds_as(&parts[0]);
+  *right = bounds_as(&parts[1]);
 }
 
 static bool on_progress(void *pointer, double fraction) {
@@ -142,7 +140,7 @@ static uint32_t link_built(struct scene_links *links, struct built_node **of, st
   const uint32_t index = links->count++;
   struct scene_link *link = &links->nodes[index];
   of[index] = built;
-  *link = (struct scene_link){built->box, built->below, parent, {SCENE_NO_LINK, SCENE_NO_LINK}, built->height};
+  *link = (struct scene_link){built->box, built->below, parent, {SCENE_NO_LINK, SCENE_NO_LINK}, built->height, 0};
   if (built->triangle_count)
     return index;
   link->box = scene_empty_box();
@@ -207,9 +205,8 @@ static trax_status check_options(const struct trax_build_options *options, trax_
                      options->passes);
   if (options->cache_lines > 4096) /* the search for the largest node is linear in it */
     return trax_fail(error, "nodes can be ordered for at most 4096 lines of cache, not %u", options->cache_lines);
-  if (!(options->traversal_cost >= 0 && options->intersection_cost >= 0 && isfinite(options->traversal_cost) &&
-        isfinite(options->intersection_cost)))
-    return trax_fail(error, "costs are positive numbers");
+  if (!(options->traversal_cost >= 0 && isfinite(options->traversal_cost)))
+    return trax_fail(error, "the cost of a node is a positive number");
   if (!(options->crease_degrees >= 0 && options->crease_degrees <= 180))
     return trax_fail(error, "the crease is an angle up to 180 degrees, not %g", (double)options->crease_degrees);
   if (!(options->splits == 0 || (options->splits >= 1 && options->splits <= TRAX_SCENE_MAX_SPLITS)))
@@ -226,9 +223,12 @@ static trax_status choose_splits(float *factor, struct scene_duplicates *duplica
     return TRAX_OK;
   if (!options->choose_splits && scene_check_emitters(mesh, error) != TRAX_OK)
     return TRAX_ERROR;
-  const trax_status result = scene_find_duplicates(duplicates, mesh, error);
-  if (result == TRAX_OK && options->choose_splits)
-    *factor = scene_splits_suit(mesh, duplicates) ? TRAX_DEFAULT_SPLITS : 0;
+  bool suit = false;
+  trax_status result = scene_find_duplicates(duplicates, mesh, error);
+  if (result == TRAX_OK && options->choose_splits) {
+    result = scene_splits_suit(&suit, mesh, duplicates, error);
+    *factor = suit ? TRAX_DEFAULT_SPLITS : 0;
+  }
   if (*factor <= 1)
     scene_duplicates_release(duplicates);
   return result;
@@ -252,7 +252,7 @@ trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *me
   if (result != TRAX_OK)
     return result;
   const bool splits = factor > 1;
-  struct trax_build_options chosen = *options; /* and no longer to be chosen */
+  struct trax_build_options chosen = *options; /* with the choices made */
   chosen.splits = factor;
   options = &chosen;
   unsigned max_depth = options->max_depth ? options->max_depth : default_max_depth;
@@ -277,8 +277,7 @@ trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *me
     arguments.maxDepth = BUILDER_DEPTH;
     arguments.maxLeafSize = options->max_leaf ? options->max_leaf : default_max_leaf;
     arguments.traversalCost = options->traversal_cost > 0 ? options->traversal_cost : default_traversal_cost;
-    arguments.intersectionCost =
-        options->intersection_cost > 0 ? options->intersection_cost : default_intersection_cost;
+    arguments.intersectionCost = 1;
     arguments.bvh = bvh;
     arguments.primitives = primitives;
     arguments.primitiveCount = count;

@@ -1,4 +1,4 @@
-/* Views that are not read: a scene framed as a whole, a camera aimed or turned. */
+/* Computed views: a scene framed as a whole, a camera aimed or turned. */
 #include "internal.h"
 #include "trax/view.h"
 
@@ -47,8 +47,8 @@ static void turn_up(float v[3], const float up[3]) {
   memcpy(v, turned, sizeof turned);
 }
 
-/* How far the scene reaches beyond the planes through the middle that bound a view of a direction: to the right and to
-   the left, upwards and downwards, for each unit of depth by slopes[0] and slopes[1]; and how near it comes. */
+/* The extent of the scene beyond the planes through its middle that bound a view of a direction: to the right, left,
+   top and bottom, with slopes[0] and slopes[1] for each unit of depth; and the least depth. */
 struct extent {
   double right, left, top, bottom, nearest;
 };
@@ -92,7 +92,7 @@ void trax_view_frame(struct trax_view *view, const struct trax_scene *scene, con
   }
   const float square = scene_dot(half, half);
   float radius = sqrtf(square);
-  if (square < 0x1p-100f) { /* which has lost digits, or all of them */
+  if (square < 0x1p-100f) { /* too short to be accurate */
     double exact = 0;
     for (int axis = 0; axis < 3; axis++)
       exact += ((double)high[axis] - (double)low[axis]) * ((double)high[axis] - (double)low[axis]);
@@ -114,8 +114,8 @@ void trax_view_frame(struct trax_view *view, const struct trax_scene *scene, con
   const float *d = view->direction, *u = view->up;
   const float right[3] = {d[1] * u[2] - d[2] * u[1], d[2] * u[0] - d[0] * u[2], d[0] * u[1] - d[1] * u[0]};
 
-  /* Through the eye go the planes that bound the filled part of the picture; each touches the scene, or those of the
-     direction in which it is smaller are as far from it as each other. */
+  /* The planes that bound the filled part of the picture go through the eye. Each touches the scene; in the direction
+     in which the scene is smaller, both are equally far from it. */
   const double tangent = filled * tan((double)view->fov * pi / 360);
   const double slopes[2] = {tangent * (double)aspect, tangent};
   const struct extent extent = measure(scene, middle, d, u, right, slopes);

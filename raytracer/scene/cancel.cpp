@@ -1,5 +1,5 @@
-// How a callback ends Embree's builder: by an exception, which Embree catches where its C interface begins. What its
-// own progress callback returns it does not look at (3.13, BVHs that are not of a scene).
+// Callbacks end Embree's builder by an exception, which Embree catches at its C interface. It ignores the result of its
+// own progress callback (3.13, for BVHs outside of scenes).
 extern "C" void scene_cancel_builder();
 
 namespace {

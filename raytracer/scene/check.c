@@ -1,5 +1,5 @@
-/* Reading a scene back. Nothing in the file is believed: after these checks a traversal that follows its references
-   stays inside the file, ends, and needs no more stack than the header says. */
+/* Checks of a scene file that is read. Nothing in the file is trusted. After these checks, a traversal that follows its
+   references stays inside the file, ends, and needs no more stack than the header says. */
 #include "internal.h"
 
 #include <math.h>

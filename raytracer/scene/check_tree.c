@@ -1,4 +1,4 @@
-/* The check of a scene file's tree: each node and triangle is in it once, and its boxes are those of the triangles. */
+/* Checks the tree of a scene file: each node and triangle is in it once, and boxes are those of the triangles. */
 #include "internal.h"
 
 #include <stdlib.h>
@@ -14,7 +14,7 @@ struct checker {
   uint32_t max_depth, max_leaf; /* found */
   struct scene_box bounds;      /* of all triangles */
   struct scene_range *ranges;   /* of each node */
-  uint32_t *in_part;            /* of each triangle: where the box is that it is not within, or 0 */
+  uint32_t *in_part;            /* of each triangle: the place of a box that does not contain it, or 0 */
   bool any_in_part;
 };
 
@@ -61,8 +61,8 @@ static struct scene_box as_stored(const struct checker *checker, const struct sc
   return scene_box_as_stored(checker->view->header->node_layout, &checker->view->grid, box);
 }
 
-/* A leaf's box that is smaller than its triangles: each that is not within it must stand elsewhere, too. `place` says
-   where the box is. */
+/* Notes the triangles of a leaf that its box does not contain. Each must be in other leaves, too. `place`: of the box.
+ */
 static void note_parts(struct checker *checker, trax_scene_ref ref, const struct scene_box *stored, uint32_t place) {
   const uint32_t first =
       (TRAX_SCENE_REF_OFFSET(ref) - checker->triangles_offset) / (uint32_t)sizeof(struct trax_triangle);
@@ -84,8 +84,8 @@ static trax_status wrong_box(const struct checker *checker, uint32_t place) {
                    place % 2);
 }
 
-/* The subtree below ref, with `depth` nodes above it; *box becomes the one that must be stored for it: of a leaf, at
-   most. The recursion ends because a node is entered once and depth is limited. */
+/* Checks the subtree below ref, with `depth` nodes above it. *box receives the box that must be stored for it; that of
+   a leaf may be smaller. The recursion ends, because a node is entered once and the depth is limited. */
 static trax_status check_subtree(struct checker *checker, trax_scene_ref ref, unsigned depth, struct scene_box *box) {
   if (TRAX_SCENE_REF_COUNT(ref)) {
     struct scene_box exact = scene_empty_box();

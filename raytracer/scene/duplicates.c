@@ -62,7 +62,7 @@ trax_status scene_find_duplicates(struct scene_duplicates *duplicates, const str
     for (uint32_t i = begin; i < end; i++) {
       uint32_t triangle = places[i].triangle;
       first[triangle] = triangle, after[triangle] = SCENE_NO_DUPLICATE;
-      for (uint32_t before = i; before-- > begin;) /* nearly always the one before, or none at all */
+      for (uint32_t before = i; before-- > begin;) /* nearly always the previous one, or none */
         if (same_place(mesh, triangle, places[before].triangle)) {
           first[triangle] = first[places[before].triangle];
           after[places[before].triangle] = triangle;

@@ -1,9 +1,9 @@
-/* A forest made of nothing but a number: a large ground, trees, and in a clearing many small detailed things far below
-   the scene's scale, as in the fairy forest of the ray-tracing literature, which is not to be had. It has the fairy
-   forest's 174,117 triangles. y is up; the ground is 4,000 units wide, the clearing 12, a blade of grass 0.2.
+/* A forest that is generated from a number: a large ground, trees, and a clearing with many detailed objects far below
+   the scene's scale. It resembles the fairy forest of the ray-tracing literature, which is not available, and has its
+   174,117 triangles. y is up; the ground is 4,000 units wide, the clearing 12, a blade of grass 0.2.
 
    The same seed gives the same bytes on every host: random numbers are integers, and floating-point operations are
-   those that IEEE 754 defines to the bit. There is no libm in here; angles are places in a table made by bisection. */
+   those that IEEE 754 defines to the bit. libm is not used; angles are places in a table made by bisection. */
 #include "internal.h"
 
 #include <stdlib.h>
@@ -177,7 +177,7 @@ static void leaf(struct forest *forest, enum material material, struct point at,
 
 /* --- the ground --- */
 
-/* Lines stand close together in the clearing, so that its ground is as detailed as what stands on it. */
+/* Lines are close together in the clearing, so that the ground is as detailed as the objects on it. */
 static void make_ground(struct forest *forest) {
   for (int i = 0; i <= GRID; i++) {
     double u = (double)(2 * i - GRID) / GRID;
@@ -211,7 +211,7 @@ static int cell_of(const struct forest *forest, double place) {
   return low;
 }
 
-/* On the ground's own triangles. */
+/* A point on the ground's own triangles. */
 static struct point on_ground(const struct forest *forest, double x, double z) {
   int column = cell_of(forest, x), row = cell_of(forest, z);
   double u = (x - forest->line[column]) / (forest->line[column + 1] - forest->line[column]);
@@ -222,14 +222,14 @@ static struct point on_ground(const struct forest *forest, double x, double z) {
   return (struct point){x, y, z};
 }
 
-/* Anywhere between two circles around the middle of the clearing. */
+/* A random point between two circles around the middle of the clearing. */
 static struct point somewhere(struct forest *forest, double least, double most) {
   double radius = __builtin_sqrt(between(forest, least * least, most * most));
   struct point way = direction(forest);
   return on_ground(forest, radius * way.x, radius * way.z);
 }
 
-/* --- what grows --- */
+/* --- plants and stones --- */
 
 static void broadleaf(struct forest *forest, struct point foot) {
   double height = between(forest, 9, 16), radius = 0.035 * height;
@@ -385,7 +385,7 @@ static void snail(struct forest *forest, struct point foot, double size) {
 
 /* --- the whole --- */
 
-/* `count` of them between two circles, of these sizes. */
+/* Plants `count` objects of these sizes between two circles. */
 static void scatter(struct forest *forest, void (*plant)(struct forest *, struct point, double), int count,
                     double nearest, double farthest, double smallest, double largest) {
   for (int i = 0; i < count; i++) {

@@ -1,4 +1,4 @@
-/* What the files that read glTF 2.0 share: its JSON, and the bytes that it refers to. */
+/* Shared by the files that read glTF 2.0: its JSON, and the bytes that it refers to. */
 #ifndef TRAX_SCENE_GLTF_H
 #define TRAX_SCENE_GLTF_H
 
@@ -69,10 +69,10 @@ uint32_t gltf_read_index(const struct gltf_accessor *accessor, uint32_t element)
 /* gltf_materials.c */
 trax_status gltf_copy_materials(struct gltf *gltf);
 
-/* gltf_nodes.c: checks that nodes form trees; copies what the scene's nodes place. */
+/* gltf_nodes.c: checks that nodes form trees, and copies the meshes and cameras of the scene's nodes. */
 trax_status gltf_copy_nodes(struct gltf *gltf);
 
-/* gltf_meshes.c: the size of a mesh, once for each node that has it. */
+/* gltf_meshes.c: the size of a mesh, added up over the nodes that have it. */
 struct gltf_size {
   uint64_t vertices, triangles, primitives;
   bool known, normals;

@@ -93,12 +93,12 @@ static trax_status find_texture(struct gltf *gltf, const json_t *slot, struct sc
 
 /* --- materials --- */
 
-/* How rough glTF's roughness must be for a surface to be Lambert's: without a texture or a factor it is 1. */
+/* From this roughness on, a surface is Lambert's: without a texture or a factor glTF's roughness is 1. */
 #define LAMBERT_ROUGHNESS 0.95f
 #define MIRROR_ROUGHNESS 0.05f
 
 /* glTF 2.0, appendix B (its BRDF), and the extensions transmission and ior. The texture of metal and roughness counts
-   by its means, and so does that of the base colour where it is specular: our textures are of diffuse colours. */
+   by its means, and so does that of a specular base colour, because our textures are of diffuse colours. */
 static trax_status set_kind(struct gltf *gltf, const json_t *material, struct trax_material *surface,
                             const struct scene_texture *base) {
   const json_t *pbr = json_object_get(material, "pbrMetallicRoughness");

@@ -22,7 +22,7 @@ static const json_t *node_at(const struct gltf *gltf, size_t number) {
 
 /* --- trees --- */
 
-/* Each node has one parent at most: a way up that does not end is a circle. */
+/* Each node has at most one parent, so a way up that does not end is a cycle. */
 static trax_status check_levels(const struct nodes *nodes) {
   for (size_t i = 0; i < nodes->count; i++) {
     unsigned levels = 0;
@@ -53,7 +53,7 @@ static trax_status check_roots(const struct nodes *nodes, const json_t *roots) {
   return result;
 }
 
-/* A node with two parents would stand in the scene twice, a chain of them 2^n times. */
+/* A node with two parents would be in the scene twice, and a chain of n such nodes 2^n times. */
 static trax_status check_trees(const struct nodes *nodes) {
   struct gltf *gltf = nodes->gltf;
   for (size_t i = 0; i < nodes->count; i++) {
@@ -105,9 +105,9 @@ static void multiply(double out[3][4], const double a[3][4], const double b[3][4
                          (column == 3 ? a[row][3] : 0);
 }
 
-/* --- what they place --- */
+/* --- meshes and cameras of nodes --- */
 
-/* A camera that has no direction, or whose values are not finite, is left out, and one without perspective. */
+/* Leaves out cameras without a direction or perspective, or with values that are not finite. */
 static void copy_camera(struct gltf *gltf, const json_t *node, const json_t *camera, const double m[3][4]) {
   struct trax_mesh_camera *out = &gltf->mesh->cameras[gltf->mesh->camera_count];
   const double fov = gltf_number(json_object_get(camera, "perspective"), "yfov", 0);

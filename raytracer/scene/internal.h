@@ -11,7 +11,7 @@
 /* what: the file or the step. */
 trax_status scene_out_of_memory(trax_error *error, const char *what);
 
-/* Loops that take longer than 0.1 s on a large scene ask this now and then. */
+/* Polled by loops that take longer than 0.1 s on a large scene. */
 static inline bool scene_is_interrupted(const volatile int *interrupt) {
   return interrupt && *interrupt;
 }
@@ -41,7 +41,7 @@ trax_status scene_load_file(struct scene_bytes *bytes, const char *path, struct 
 
 /* --- unpack.c --- */
 
-/* In place of a packed file's bytes those that were packed; others stay as they are. Nothing is left after an error. */
+/* Replaces the bytes of a packed file by the unpacked ones; others stay. Nothing is left after an error. */
 trax_status scene_unpack(struct scene_bytes *bytes, size_t limit, const char *path, trax_error *error);
 
 /* --- files.c --- */
@@ -60,14 +60,14 @@ trax_status scene_terminate(struct scene_bytes *bytes);
 bool scene_grow(void *array, size_t record_size, uint32_t count, size_t *capacity);
 
 /* The path of a file that `referrer` calls `name`, to be freed; NULL when out of memory. Relative names are
-   relative to the referrer's folder, with either slash. Absolute ones come from another computer as a rule: of them the
-   last part counts, in the referrer's folder. */
+   relative to the referrer's folder, with either slash. Absolute names usually come from another computer: their last
+   part is looked up in the referrer's folder. */
 char *scene_referred_path(const char *referrer, const char *name);
 
-/* Reads such a file. No device and no pipe, which may never end. */
+/* Reads such a file. Devices and pipes, which may never end, are refused. */
 trax_status scene_load_referred(struct scene_bytes *bytes, const char *path, struct scene_limits limits);
 
-/* The most memory that a mesh may take whose files have so many bytes: readers refuse what files make of few bytes. */
+/* The most memory that a mesh from files of so many bytes may take. Readers refuse files that ask for more. */
 static inline uint64_t scene_memory_for(uint64_t bytes) {
   return ((uint64_t)1 << 30) + 1024 * bytes;
 }
@@ -116,8 +116,8 @@ struct scene_textures {
   size_t capacity;
 };
 
-/* Once for each that is wanted; *found is valid until the release. It is not good if there is none, or none that can be
-   read, which the report notes. */
+/* Finds a texture, or takes it from those found before. *found is valid until the release. It is not good if the image
+   is missing or cannot be read, which the report notes. */
 trax_status scene_find_texture(struct scene_textures *textures, const struct scene_texture *wanted,
                                const char *referrer, const struct scene_texture **found, trax_error *error);
 /* Adds an image to the mesh as its last texture. */
@@ -127,10 +127,10 @@ void scene_textures_release(struct scene_textures *textures);
 
 /* --- attributes.c --- */
 
-/* Makes *array, an array of the mesh, reach to record `count`, exclusively; what is new is zero. */
+/* Extends *array, an array of the mesh, to `count` records. New records are zero. */
 bool scene_reach(void *array, size_t record_size, uint32_t count, size_t *capacity);
 
-/* Brings texture coordinates that are far from zero near it by whole repeats, and makes zeros of what is not finite. */
+/* Moves large texture coordinates near zero by whole repeats, and replaces those that are not finite by zeros. */
 void scene_mend_uvs(struct trax_mesh *mesh, struct trax_import_report *report);
 
 /* --- gltf_reader.c, obj_reader.c, ply_reader.c --- */
@@ -161,8 +161,8 @@ trax_status scene_generate_forest(struct trax_mesh *mesh, uint64_t seed, trax_er
 trax_status scene_smooth_normals(struct trax_triangle_normals *normals, const struct trax_triangle *triangles,
                                  uint32_t count, double crease_cosine, trax_error *error);
 
-/* Makes normals of files of length 1 and turns those of triangles that they all point away from. What is not finite, or
-   nearly in the triangle's plane or behind it, becomes zero: to be computed. */
+/* Scales the files' normals to length 1, and reverses a triangle's if all point away from it. Normals that are not
+   finite, nearly in the triangle's plane or behind it become zero, and are computed later. */
 void scene_mend_normals(struct trax_mesh *mesh, struct trax_import_report *report);
 
 /* Computes those that are zero. */
@@ -249,16 +249,25 @@ struct scene_box scene_box_around(const struct scene_box boxes[2]);
 /* A node around such boxes. */
 void scene_node_write(void *node, enum trax_node_layout layout, const struct scene_box boxes[2],
                       const trax_scene_ref children[2]);
-/* Do rays visit hardly more of the tree if its boxes are on the scene's grid, in each of its larger parts? */
+/* Whether boxes on the scene's grid cost few additional visits in each larger part of the tree. */
 bool scene_grid_suits(const struct scene_tree *tree);
 /* The boxes of a node as they are stored. */
 void scene_node_boxes(struct scene_box boxes[2], trax_scene_ref children[2], const struct trax_scene *scene,
                       uint32_t number);
 
-/* --- parts.c --- */
+/* --- clip.c --- */
 
+/* The part of a convex polygon where sign * coordinate >= sign * plane. Returns the number of its corners; those beyond
+   `most` are left out. */
+unsigned scene_clip_polygon(double (*restrict out)[3], unsigned most, const double (*restrict in)[3], unsigned count,
+                            int axis, double sign, double plane);
 /* The bounds of that part of a triangle which is in the box, rounded outwards but not beyond the box. */
 struct scene_box scene_clip_triangle(const float *const corners[3], const struct scene_box *box);
+/* The same of the two parts of the box below and above a position on an axis. */
+void scene_split_triangle(const float *const corners[3], const struct scene_box *box, int axis, float position,
+                          struct scene_box parts[2]);
+
+/* --- parts.c --- */
 
 struct scene_range {
   uint32_t first, end;
@@ -270,8 +279,8 @@ struct scene_parts {
   const uint32_t *in_part;          /* of each triangle: not 0 if it is not within the box of its leaf */
 };
 
-/* Are the triangles that stand in several leaves within the boxes of all of these together? *bad becomes the number of
-   the first that is not, or UINT32_MAX. What stands in more than 1024 is refused. */
+/* Checks that each triangle in several leaves is covered by the boxes of these together. *bad receives the number of
+   the first that is not, or UINT32_MAX. Triangles in more than 1024 leaves are refused. */
 trax_status scene_check_parts(const struct scene_parts *parts, uint32_t *bad, trax_error *error);
 
 /* --- check_tree.c --- */
@@ -308,15 +317,16 @@ void scene_tree_release(struct scene_tree *tree);
 
 struct scene_duplicates;
 
-/* Whether splits gain in this mesh. Only the first triangle at each place counts, as in the tree. */
-bool scene_splits_suit(const struct trax_mesh *mesh, const struct scene_duplicates *duplicates);
-/* Refuses splits of a mesh that emits light: a triangle that is split stands in the file several times, and would be
+/* Decides whether splits pay in this mesh. Only the first triangle at each place counts, as in the tree. */
+trax_status scene_splits_suit(bool *suit, const struct trax_mesh *mesh, const struct scene_duplicates *duplicates,
+                              trax_error *error);
+/* Refuses splits of a mesh that emits light, because a split triangle is in the file several times, and would be
    several lamps. */
 trax_status scene_check_emitters(const struct trax_mesh *mesh, trax_error *error);
 
 /* --- own_tree.c --- */
 
-/* The tree of options->tree_nodes, checked; what is in *tree after an error is to be released, too. */
+/* Reads and checks the tree of options->tree_nodes. *tree is to be released also after an error. */
 trax_status scene_read_tree(struct scene_tree *tree, const struct trax_mesh *mesh,
                             const struct trax_build_options *options, trax_error *error);
 
@@ -332,6 +342,7 @@ struct scene_links {
     uint32_t parent;    /* SCENE_NO_LINK: it is the root */
     uint32_t child[2];  /* SCENE_NO_LINK: it is a leaf */
     uint32_t height;    /* most inner nodes from here to a leaf; of a leaf that will be divided more than 0 */
+    double visits;      /* of scene_reinsert: how often a ray is expected here */
   } * nodes;
   uint32_t count, root;
   uint32_t max_depth; /* of inner nodes from the root to a leaf; it is kept */
@@ -346,7 +357,7 @@ trax_status scene_reinsert(struct scene_links *links, unsigned passes, const str
 
 enum scene_phase { SCENE_BUILD, SCENE_IMPROVE, SCENE_LAY_OUT };
 
-/* fraction: of this phase. options->splits: as it was decided. */
+/* fraction: of this phase. options->splits: as decided. */
 void scene_report(const struct trax_build_options *options, enum scene_phase phase, double fraction);
 
 /* --- duplicates.c --- */

@@ -38,7 +38,7 @@ struct palette {
   uint64_t texel_count;
 };
 
-/* What a kind does not read as trax_default_material has it, so that materials which look the same are the same. */
+/* Members that a kind does not read get the values of trax_default_material, so that equal materials compare equal. */
 static struct trax_material canonical(const struct trax_material *material) {
   struct trax_material out = *material;
   if (out.kind != TRAX_MATERIAL_LAMBERT && out.kind != TRAX_MATERIAL_GGX)
@@ -76,7 +76,7 @@ static void palette_release(struct palette *palette) {
   free(palette->textures);
 }
 
-/* Textures in the order in which the materials ask for them. */
+/* Numbers the textures in the order in which materials use them. */
 static void number_textures(struct palette *palette, uint32_t *numbers, const struct trax_mesh *mesh) {
   for (uint32_t i = 0; i < palette->count; i++) {
     uint32_t *texture = &palette->materials[i].texture;
@@ -160,7 +160,7 @@ static trax_scene_ref place_leaf(struct layout *layout, const struct scene_tree_
     if (layout->normals && layout->file_normals)
       memcpy(layout->normals[layout->next_triangle].corner, layout->mesh->normals[node->triangles[i]],
              sizeof layout->normals->corner);
-    /* Without a texture they stay zeros: nothing reads them, and nobody has seen whether they are in range. */
+    /* Without a texture they stay zeros: nothing reads them, and their range was not checked. */
     if (layout->uvs && layout->mesh->uvs && layout->mesh->materials[source->material].surface.texture)
       memcpy(layout->uvs[layout->next_triangle].corner, layout->mesh->uvs[node->triangles[i]],
              sizeof layout->uvs->corner);
@@ -173,8 +173,8 @@ static trax_scene_ref place_leaf(struct layout *layout, const struct scene_tree_
   return offset | node->triangle_count;
 }
 
-/* Depth first; returns the reference and the subtree's box as it is stored. Recursion is bounded by the depth of the
-   tree, at most TRAX_SCENE_MAX_DEPTH. */
+/* Places a subtree depth first; returns its reference, and its box as it is stored. Recursion is bounded by the depth
+   of the tree, at most TRAX_SCENE_MAX_DEPTH. */
 static trax_scene_ref place(struct layout *layout, uint32_t index, struct scene_box *box) {
   const struct scene_tree_node *node = &layout->tree->nodes[index];
   if (node->triangle_count) {
@@ -238,7 +238,7 @@ static void copy_textures(unsigned char *bytes, const struct trax_scene_section 
   }
 }
 
-/* Around a corner each face counts once, however many leaves it stands in. */
+/* Each face around a corner counts once, even if it is in several leaves. */
 static trax_status make_normals(const struct layout *layout, double cosine, trax_error *error) {
   trax_status (*const make)(struct trax_triangle_normals *, const struct trax_triangle *, uint32_t, double,
                             trax_error *) = layout->file_normals ? scene_complete_normals : scene_smooth_normals;
@@ -401,7 +401,7 @@ trax_status trax_scene_build(struct trax_scene *scene, const struct trax_mesh *m
     scene_order_release(&order);
   }
   scene_tree_release(&tree);
-  if (result == TRAX_OK && options->tree_nodes) { /* do the leaves of a triangle contain it together? */
+  if (result == TRAX_OK && options->tree_nodes) { /* checks that the leaves of a triangle cover it */
     result = trax_scene_check(NULL, scene->bytes, scene->size, options->tree_nodes, error);
     if (result != TRAX_OK)
       trax_scene_release(scene);

@@ -4,10 +4,10 @@
 #include <math.h>
 #include <string.h>
 
-/* The specular colour at normal incidence of what is not a metal, of index 1.5. */
+/* The specular colour at normal incidence of a dielectric of index 1.5. */
 #define DIELECTRIC 0.04f
 
-/* Cuts the name off; the rest is what it is to be. */
+/* Cuts the name off and returns the rest. */
 static char *cut_name(struct trax_material_override *override, char *text) {
   char *equals = strrchr(text, '=');
   override->name = equals ? text : NULL;
@@ -27,7 +27,7 @@ static bool parse_colour(const char *text, float colour[3], float most) {
   return true;
 }
 
-/* A number, and behind a further colon a colour, if there is one. */
+/* Parses a number and, after another colon, an optional colour. */
 static bool parse_value(const char *text, float least, float most, float *value, float colour[3]) {
   char number[32];
   const size_t length = strcspn(text, ":");

@@ -1,4 +1,4 @@
-/* Meshes: import by the reader of each format, merge, refuse or drop what no ray can hit. */
+/* Meshes: import by the reader of each format, merging, and triangles that no ray can hit. */
 #include "internal.h"
 #include "trax/message.h"
 
@@ -95,7 +95,7 @@ void trax_mesh_name(char name[TRAX_MESH_NAME], const char *text) {
 
 /* --- merging --- */
 
-/* Appends size bytes of records behind the first `used`, which need not be there: what is not there is zero. */
+/* Appends `size` bytes of records after `used` bytes. If the array is shorter, zeros fill it up. */
 static bool append_records(void *array, size_t used, const void *records, size_t size) {
   void **pointer = array;
   if (!*pointer && !records)
@@ -193,7 +193,7 @@ static bool is_degenerate(const float p[3], const float q[3], const float r[3]) 
          equal_products(u[0], v[1], u[1], v[0]);
 }
 
-/* Removes what options say from one file's mesh. */
+/* Removes triangles from one file's mesh, as the options say. */
 static trax_status filter(struct trax_mesh *mesh, const struct trax_import_options *options, const char *path,
                           struct trax_import_report *report, trax_error *error) {
   uint32_t kept = 0, nonfinite = 0, first_nonfinite = 0;
@@ -204,7 +204,7 @@ static trax_status filter(struct trax_mesh *mesh, const struct trax_import_optio
     if (!is_traceable_point(p) || !is_traceable_point(q) || !is_traceable_point(r)) {
       if (nonfinite++ == 0)
         first_nonfinite = i;
-    } else if (!options->keep_degenerate && is_degenerate(p, q, r))
+    } else if (is_degenerate(p, q, r))
       report->degenerate++;
     else {
       mesh->triangles[kept] = triangle;

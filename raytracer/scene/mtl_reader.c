@@ -172,7 +172,7 @@ static trax_status read_statement(struct library *library, const char *keyword, 
   return TRAX_OK;
 }
 
-/* --- from that format to ours --- */
+/* --- conversion to our materials --- */
 
 static float greatest(const float colour[3]) {
   return fmaxf(fmaxf(colour[0], colour[1]), colour[2]);
@@ -184,8 +184,8 @@ static float roughness_of(float exponent) {
   return sqrtf(2 / (fmaxf(exponent, 0) + 2));
 }
 
-/* illum 4, 6, 7 and 9 are glass. 3, 5 and 8 reflect what is around: a mirror where that is more than what they scatter.
-   Else a specular colour makes a rough layer, unless illum leaves highlights out. */
+/* illum 4, 6, 7 and 9 are glass. 3, 5 and 8 are mirrors if they reflect more than they scatter. Otherwise a specular
+   colour makes a rough layer, unless illum excludes highlights. */
 static void set_kind(struct trax_material *surface, const struct source *source) {
   const int illum = source->illum;
   const bool shiny = greatest(source->ks) > 0, reflects = illum == 3 || illum == 5 || illum == 8;

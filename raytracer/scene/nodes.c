@@ -53,9 +53,9 @@ struct scene_box scene_box_as_stored(enum trax_node_layout layout, const struct 
   return trax_node_formats[layout].quantised ? box_in_cells(grid, box) : *box;
 }
 
-/* A view may show a small part of the scene, so every part counts that holds more than a sixteenth of the leaves: lines
-   that enter its box visit so many nodes and triangles, in multiples of its exact tree's, at most. Over the whole
-   scene the growth says nothing: what is small is hardly ever hit. */
+/* A view may show a small part of the scene. So in every part with more than a sixteenth of the leaves, the growth of
+   visits is limited: the expected visits of lines that enter its box, relative to those with exact boxes. The growth
+   over the whole scene says little, because small parts are rarely hit. */
 #define LEAST_PART 16
 #define MOST_GROWTH 2
 
@@ -64,7 +64,7 @@ struct visits {
   uint32_t leaves;
 };
 
-/* False: a part's visits grow by more. Recursion is bounded by the tree's depth, at most TRAX_SCENE_MAX_DEPTH. */
+/* False if a part's visits grow by more. Recursion is bounded by the tree's depth, at most TRAX_SCENE_MAX_DEPTH. */
 static bool count_visits(struct visits *visits, struct scene_box *box, const struct scene_tree *tree,
                          const struct trax_scene_grid *grid, uint32_t least_leaves, uint32_t index) {
   const struct scene_tree_node *node = &tree->nodes[index];

@@ -1,18 +1,18 @@
-/* Normals for smooth shading: those that the mesh's files have, and where they have none, at each corner the mean of
-   the faces around it, by their areas, but only of those that do not turn away from the corner's own face by more than
-   the crease angle. Which faces are around a corner is decided by place, not by index, so it is the same for every
-   format. Binary64, and only operations that round correctly: the same bytes everywhere. */
+/* Normals for smooth shading: those of the mesh's files or, where these have none, computed ones. At each corner a
+   computed normal is the mean of the faces around it, weighted by area, without those that differ from the corner's own
+   face by more than the crease angle. The faces around a corner are found by place, not by index, so the result does
+   not depend on the format. Correctly rounded operations in binary64 give the same bytes everywhere. */
 #include "internal.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Of more faces around one place, as the tip of a fine cone, the mean of all is taken: no angles, which would be
-   compared pair by pair. */
+/* With more faces around one place, as at the tip of a fine cone, the mean of all is taken, since angles would have to
+   be compared pair by pair. */
 enum { MOST_FACES = 64 };
 
-/* A mean that turns further away from the face than this leaves the face's own normal. */
+/* If the mean differs more from the face's own normal, that is taken. */
 #define LEAST_COSINE 0.1
 
 struct corner {
@@ -40,7 +40,7 @@ static bool same_place(const struct corner *a, const struct corner *b) {
   return a->place[0] == b->place[0] && a->place[1] == b->place[1] && a->place[2] == b->place[2];
 }
 
-/* Twice the area long. */
+/* The face's normal, of a length of twice the area. */
 static struct direction face_of(const float v0[3], const float v1[3], const float v2[3]) {
   struct direction e = {(double)v1[0] - v0[0], (double)v1[1] - v0[1], (double)v1[2] - v0[2]};
   struct direction f = {(double)v2[0] - v0[0], (double)v2[1] - v0[1], (double)v2[2] - v0[2]};

@@ -25,7 +25,7 @@ static void skip_space(struct header *header) {
     header->at++;
 }
 
-/* Takes the character, with space around it. */
+/* Takes the character and space around it. */
 static bool take(struct header *header, char character) {
   skip_space(header);
   if (header->at == header->end || *header->at != character)

@@ -13,7 +13,7 @@ unsigned scene_least_height(uint32_t triangles, unsigned max_leaf) {
   return height;
 }
 
-/* A leaf's triangles, and behind each the others at its place. */
+/* Adds a leaf's triangles, each followed by the others at its place. */
 static uint32_t *add_leaf(uint32_t *end, const struct scene_numbering *numbering, const struct built_node *leaf) {
   for (uint32_t i = 0; i < leaf->triangle_count; i++) {
     *end++ = leaf->triangles[i];
@@ -76,7 +76,7 @@ static int compare_numbers(const void *a, const void *b) {
   return *left < *right ? -1 : *left > *right;
 }
 
-/* Each triangle once. */
+/* Removes repeated triangles. */
 static uint32_t unite(uint32_t *triangles, uint32_t count) {
   uint32_t kept = 0;
   qsort(triangles, count, sizeof *triangles, compare_numbers);
@@ -103,8 +103,8 @@ static double middle(const struct trax_mesh *mesh, uint32_t triangle, int axis) 
   return (double)box.min[axis] + (double)box.max[axis];
 }
 
-/* Halves the triangles by number, along the axis on which their middles are spread furthest, until they fit in leaves:
-   the least height there is. False when out of memory. */
+/* Builds a tree of the least height: halves the triangles by number, along the axis on which their middles spread most,
+   until they fit in leaves. False when out of memory. */
 static bool add_balanced(struct scene_numbering *numbering, uint32_t *triangles, uint32_t count, unsigned depth) {
   if (count <= numbering->max_leaf) {
     qsort(triangles, count, sizeof *triangles, compare_numbers);
@@ -145,8 +145,8 @@ static bool add_balanced(struct scene_numbering *numbering, uint32_t *triangles,
   return add_balanced(numbering, triangles + half, count - half, depth + 1);
 }
 
-/* depth counts the inner nodes above. A subtree is rebuilt where its children would have no room left for any tree over
-   their triangles: as far down as possible. */
+/* depth: the inner nodes above. A subtree is rebuilt as low as possible: where its children have too few levels left
+   for any tree over their triangles. */
 static bool number_nodes(struct scene_numbering *numbering, const struct built_node *built, unsigned depth) {
   if (built->triangle_count) {
     const uint32_t count = (uint32_t)(add_leaf(numbering->triangles, numbering, built) - numbering->triangles);

@@ -1,7 +1,7 @@
 /* Wavefront OBJ with its material libraries. An error names its line.
 
    Read: v, vt, vn, f (absolute and relative indices, any polygon), usemtl, mtllib. Counted as other primitives: p, l.
-   What concerns grouping, smoothing and free-form surfaces is skipped. */
+   Statements about grouping, smoothing and free-form surfaces are skipped. */
 #include "text.h"
 
 enum { no_material = SCENE_NO_MATERIAL, absent = UINT32_MAX };
@@ -76,14 +76,14 @@ static trax_status read_vertex(struct obj_reader *reader, char *rest) {
     if (!parse_float(word, &vertex[axis]))
       return fail_here(reader, "a vertex's coordinate is not a number:", word);
   }
-  /* One number more is a weight, three are a colour. */
+  /* One more number is a weight, three more are a colour. */
   if (next_word(&rest) && next_word(&rest) && next_word(&rest))
     reader->report->unread |= TRAX_UNREAD_COLOURS;
   mesh->vertex_count++;
   return TRAX_OK;
 }
 
-/* vt, of which two numbers count, or vn. */
+/* vt, of which two numbers are used, or vn. */
 static trax_status read_attribute(struct obj_reader *reader, char *rest, struct value_list *list, int needed,
                                   const char *what) {
   if (!scene_grow(&list->values, sizeof *list->values, list->count, &list->capacity))
@@ -117,8 +117,7 @@ static trax_status read_index(const struct obj_reader *reader, const char *word,
   return TRAX_OK;
 }
 
-/* What follows a slash, which may be nothing. An index into attributes of which the file has none at all means nothing.
- */
+/* Reads the optional index after a slash. An index is ignored if the file has no such attributes. */
 static trax_status read_attribute_index(const struct obj_reader *reader, const char *word, const char **rest,
                                         uint32_t count, const char *kind, uint32_t *index) {
   if (**rest != '/')

@@ -17,7 +17,7 @@ static trax_status add_override(struct trax_import_options *import, const char *
   if (!overrides)
     return trax_fail(error, "out of memory");
   import->overrides = overrides;
-  /* The text is of argv, whose strings may be changed; the name is cut off there. */
+  /* The text is in argv, whose strings may be changed: the name is cut off there. */
   trax_status status = parse(&overrides[count], (char *)text, error);
   import->override_count += status == TRAX_OK;
   return status;

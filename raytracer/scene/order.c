@@ -1,12 +1,12 @@
-/* Where in the file each node stands. Order decides which nodes come with one line of the cache, if a line has room for
-   more than one, and in a direct-mapped cache which lines drive each other out. Nodes are taken by the area of their
-   boxes, to which the chance of a visit is proportional:
-   - Groups: a node and the larger of its children share a line; what is left alone shares one with the next such.
-   - Treelets: from a root, the groups with the largest nodes that a part of the cache has room for stand together,
-     hence in different sets; then, for each group below them, the next treelet.
-   - The hottest groups of all have sets of their own: they stand first, and what shares their sets, in every further
-     stretch of the size of the cache, are the smallest of the tree.
-   docs/results/raytracer.md has the measurements. */
+/* The order of nodes in the file. It decides which nodes share a cache line, if a line has room for two, and which
+   lines conflict in a direct-mapped cache. The area of a node's box ranks it, since the chance of a visit is
+   proportional to that:
+   - Groups: a node and the larger of its children share a line. Two nodes that are left over share one.
+   - Treelets: from a root, the groups with the largest nodes follow each other, as many as fit in half of the cache, so
+     that they are in different sets. A treelet for each group below them follows.
+   - The groups of the largest areas in the tree come first, and have cache sets of their own: at all further places of
+     these sets are the groups of the smallest areas.
+   docs/results/raytracer-tree.md has the measurements. */
 #include "internal.h"
 
 #include <stdlib.h>
@@ -17,9 +17,9 @@
 struct placing {
   const struct scene_tree *tree;
   const struct scene_order *order;
-  double *areas;       /* of every node's box; of a group's root, after grouping, that of all of its nodes */
+  double *areas;       /* of each node's box; after grouping, of a group's root: the sum over its nodes */
   uint32_t *sequence;  /* roots of groups in treelet order */
-  unsigned char *done; /* of each group: it is in the sequence */
+  unsigned char *done; /* of each group: whether it is in the sequence */
   uint32_t placed;
   uint32_t treelet; /* groups in one */
   const volatile int *interrupt;
@@ -30,7 +30,7 @@ static bool is_inner(const struct scene_tree *tree, uint32_t node) {
 }
 
 static void measure_areas(double *areas, struct scene_box *boxes, const struct scene_tree *tree) {
-  for (uint32_t i = tree->node_count; i-- > 0;) { /* children stand behind their parents */
+  for (uint32_t i = tree->node_count; i-- > 0;) { /* children follow their parents */
     const struct scene_tree_node *node = &tree->nodes[i];
     boxes[i] = node->triangle_count ? node->box : scene_empty_box();
     for (int c = 0; c < 2 && !node->triangle_count; c++)
@@ -41,7 +41,7 @@ static void measure_areas(double *areas, struct scene_box *boxes, const struct s
 
 /* --- groups --- */
 
-/* The inner child of the group's nodes with the largest box that is not in the group; 0: there is none. */
+/* The largest inner child of the group's nodes that is not in the group; 0 if there is none. */
 static uint32_t largest_below(const struct scene_order *order, const struct scene_tree *tree, const double *areas,
                               uint32_t root) {
   uint32_t largest = 0;
@@ -56,10 +56,10 @@ static uint32_t largest_below(const struct scene_order *order, const struct scen
   }
 }
 
-/* Nodes stand behind their parents, so a node that is in no group yet when its turn comes begins one. */
+/* Parents come before their children, so a node without a group begins one. */
 static void make_groups(const struct scene_order *order, const struct scene_tree *tree, double *areas,
                         uint32_t group_size) {
-  uint32_t alone = 0; /* a group with room and nothing below it; the root is none unless it is the only one */
+  uint32_t alone = 0; /* a group with room and without inner children; 0: none (the root, unless it is the only node) */
   for (uint32_t i = 0; i < tree->node_count; i++)
     order->group[i] = UINT32_MAX, order->next[i] = 0;
   for (uint32_t root = 0; root < tree->node_count; root++) {
@@ -86,7 +86,7 @@ static void make_groups(const struct scene_order *order, const struct scene_tree
 
 /* --- treelets --- */
 
-/* Those of the groups below a group that are not in the sequence. */
+/* Finds the groups below a group that are not in the sequence. */
 static uint32_t groups_below(uint32_t below[], const struct placing *placing, uint32_t root) {
   const struct scene_order *order = placing->order;
   uint32_t count = 0;
@@ -103,8 +103,8 @@ static uint32_t groups_below(uint32_t below[], const struct placing *placing, ui
 
 enum { MOST_BELOW = 3 }; /* a group has two nodes at most */
 
-/* The treelet below root and, recursively, those below it; each level of recursion is at least one of the tree.
-   frontier has room for (MOST_BELOW - 1) * treelet + 1 groups for every level. */
+/* Places the treelet at root and, recursively, those below it. Each level of recursion goes down at least one level of
+   the tree. frontier has room for (MOST_BELOW - 1) * treelet + 1 groups for every level. */
 static void place_treelets(struct placing *placing, uint32_t root, uint32_t *frontier) {
   if (scene_is_interrupted(placing->interrupt))
     return;
@@ -116,13 +116,13 @@ static void place_treelets(struct placing *placing, uint32_t root, uint32_t *fro
       if (placing->areas[frontier[i]] > placing->areas[frontier[largest]])
         largest = i;
     uint32_t group = frontier[largest], below[MOST_BELOW], below_count = 0;
-    if (!placing->done[group]) { /* it may stand below two others */
+    if (!placing->done[group]) { /* it may be below two others */
       placing->done[group] = 1;
       placing->sequence[placing->placed++] = group;
       below_count = groups_below(below, placing, group);
       taken++;
     }
-    /* The group's place in the frontier is taken by those below it: it stays depth first. */
+    /* The groups below it take its place in the frontier, which stays in depth-first order. */
     memmove(frontier + largest + below_count, frontier + largest + 1, (count - largest - 1) * sizeof *frontier);
     memcpy(frontier + largest, below, below_count * sizeof *frontier);
     count += below_count - 1;
@@ -139,7 +139,7 @@ struct ranked {
   uint32_t group;
 };
 
-/* Largest first; equal ones as they stand in the tree, so that the order is one. */
+/* Largest first; equal ones in the order of the tree, so that the order is unique. */
 static int compare_ranked(const void *a, const void *b) {
   const struct ranked *left = a, *right = b;
   if (left->area != right->area)
@@ -147,8 +147,8 @@ static int compare_ranked(const void *a, const void *b) {
   return left->group < right->group ? -1 : left->group > right->group;
 }
 
-/* Gives each group its line: hot ones the first, cold ones those that share the hot ones' sets, the others the rest,
-   each kind in treelet order. */
+/* Assigns a line to each group. Hot groups get the first lines, cold ones the lines that share the hot ones' sets, warm
+   ones the others, each kind in treelet order. */
 static void assign_lines(uint32_t *lines, const struct placing *placing, struct ranked *ranked, uint32_t cache,
                          uint32_t hot) {
   uint32_t count = placing->placed;
@@ -159,7 +159,7 @@ static void assign_lines(uint32_t *lines, const struct placing *placing, struct 
   if (count > cache)
     cold_count = (count / cache - 1) * hot + (count % cache < hot ? count % cache : hot);
   enum { warm_kind, hot_kind, cold_kind };
-  /* lines first holds each group's kind */
+  /* at first, lines has the kinds of groups */
   for (uint32_t i = 0; i < count; i++)
     lines[ranked[i].group] = i < hot_count ? hot_kind : i >= count - cold_count ? cold_kind : warm_kind;
   uint32_t next_hot = 0, next_cold = cache, next_warm = hot_count;
@@ -182,8 +182,8 @@ static void assign_lines(uint32_t *lines, const struct placing *placing, struct 
   }
 }
 
-/* From lines, which are at the groups' roots, to nodes. The group that is not full, if there is one, gets the last
-   line, so that no record is left empty. */
+/* Converts the lines of groups, at their roots, to positions of nodes. A group that is not full gets the last line, so
+   that no record stays empty. */
 static void assign_positions(const struct placing *placing, uint32_t group_size) {
   const struct scene_order *order = placing->order;
   uint32_t *position = order->position, last = 0, short_one = UINT32_MAX;
@@ -218,7 +218,7 @@ trax_status scene_order_nodes(struct scene_order *order, const struct scene_tree
   *order = (struct scene_order){malloc((count + 1) * sizeof(uint32_t)), malloc((count + 1) * sizeof(uint32_t)),
                                 malloc((count + 1) * sizeof(uint32_t))};
   const bool depth_first = cache_lines < 8 || tree->inner_count == 0;
-  cache_lines = cache_lines * LINE_BYTES / (group_size * bytes); /* from here on, what a group takes */
+  cache_lines = cache_lines * LINE_BYTES / (group_size * bytes); /* from here on in groups */
   struct placing placing = {.tree = tree, .order = order, .treelet = cache_lines / 2, .interrupt = interrupt};
   const size_t frontier_size = (MOST_BELOW - 1) * (size_t)placing.treelet + 1;
   placing.areas = malloc((count + 1) * sizeof *placing.areas);

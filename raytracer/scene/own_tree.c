@@ -1,5 +1,5 @@
-/* A tree of another builder, from arrays (docs/own-tree.md). Everything is checked here but what needs the finished
-   file: whether the leaves of a triangle contain it together. */
+/* A tree of another builder, from arrays (docs/own-tree.md). Everything is checked here, except that the leaves of a
+   triangle cover it, which needs the finished file. */
 #include "npy.h"
 
 #include <inttypes.h>
@@ -71,7 +71,7 @@ static struct scene_box triangle_box(const struct trax_mesh *mesh, uint32_t tria
   return box;
 }
 
-/* Adds what of the triangle is in the leaf to its box. */
+/* Adds the part of the triangle that is in the leaf to its box. */
 static trax_status add_part(struct scene_tree_node *leaf, const struct reading *reading, uint64_t node,
                             uint32_t triangle, trax_error *error) {
   const float *corners[3];
@@ -117,7 +117,8 @@ static trax_status read_child(uint32_t *child, struct reading *reading, uint32_t
   return TRAX_OK;
 }
 
-/* The leaf's triangles; first of all leaves how many have each, then their boxes. */
+/* Reads the leaf's triangles. The first pass over all leaves counts the leaves of each triangle, the second finds
+ * boxes. */
 static trax_status read_leaf(struct scene_tree_node *leaf, struct reading *reading, uint32_t node, uint32_t count,
                              trax_error *error) {
   const uint64_t all = reading->triangles.count;
@@ -221,7 +222,7 @@ static trax_status find_boxes(struct reading *reading, const uint32_t *rows, tra
   return TRAX_OK;
 }
 
-/* Triangles in several leaves are neither lamps nor at the place of another: their order would differ by leaf. */
+/* Refuses triangles in several leaves that emit light or have duplicates, whose order would depend on the leaf. */
 static trax_status check_copies(const struct reading *reading, trax_error *error) {
   const struct trax_mesh *mesh = reading->mesh;
   struct scene_duplicates duplicates = {0};

@@ -5,8 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- convex polygons in binary64 --- */
-
 enum { MOST_CORNERS = 64 };
 
 struct polygon {
@@ -14,53 +12,12 @@ struct polygon {
   double corner[MOST_CORNERS][3];
 };
 
-/* What of it is on the side of an axis-parallel plane where sign * coordinate >= sign * plane. Corners beyond
-   MOST_CORNERS are left out, for want of room. */
+/* Corners beyond MOST_CORNERS are left out, for want of room. */
 static void clip(struct polygon *out, const struct polygon *in, int axis, double sign, double plane) {
-  out->count = 0;
-  for (unsigned i = 0; i < in->count && out->count + 2 <= MOST_CORNERS; i++) {
-    const double *a = in->corner[i], *b = in->corner[i + 1 < in->count ? i + 1 : 0];
-    const double da = sign * (a[axis] - plane), db = sign * (b[axis] - plane);
-    if (da >= 0)
-      memcpy(out->corner[out->count++], a, sizeof out->corner[0]);
-    if ((da < 0 && db > 0) || (da > 0 && db < 0)) {
-      double *cut = out->corner[out->count++];
-      for (int other = 0; other < 3; other++)
-        cut[other] = a[other] + da / (da - db) * (b[other] - a[other]);
-      cut[axis] = plane;
-    }
-  }
+  out->count = scene_clip_polygon(out->corner, MOST_CORNERS, in->corner, in->count, axis, sign, plane);
 }
 
-/* --- for the builder --- */
-
-struct scene_box scene_clip_triangle(const float *const corners[3], const struct scene_box *box) {
-  struct polygon polygons[2];
-  unsigned now = 0;
-  polygons[0].count = 3;
-  for (int corner = 0; corner < 3; corner++)
-    for (int axis = 0; axis < 3; axis++)
-      polygons[0].corner[corner][axis] = corners[corner][axis];
-  for (int axis = 0; axis < 3; axis++) {
-    clip(&polygons[!now], &polygons[now], axis, 1, box->min[axis]);
-    clip(&polygons[now], &polygons[!now], axis, -1, box->max[axis]);
-  }
-  if (polygons[now].count == 0) /* less than rounding is in it */
-    return *box;
-  struct scene_box result;
-  for (int axis = 0; axis < 3; axis++) {
-    double least = INFINITY, most = -INFINITY;
-    for (unsigned i = 0; i < polygons[now].count; i++) {
-      least = fmin(least, polygons[now].corner[i][axis]);
-      most = fmax(most, polygons[now].corner[i][axis]);
-    }
-    result.min[axis] = fmaxf(nextafterf((float)least, -INFINITY), box->min[axis]);
-    result.max[axis] = fminf(nextafterf((float)most, INFINITY), box->max[axis]);
-  }
-  return result;
-}
-
-/* --- for the checker: is a triangle within the boxes of its leaves? --- */
+/* Do the boxes of its leaves cover a triangle? */
 
 enum { MOST_COPIES = 1024, MOST_STEPS = 2048 };
 
@@ -68,7 +25,7 @@ struct cover {
   const struct scene_parts *parts;
   const uint32_t *copies; /* the triangle's numbers in the file, ascending */
   uint32_t count;
-  double slack[3]; /* by which boxes may be short: more than the rounding of all of this, less than that of any ray */
+  double slack[3]; /* by which boxes may be too small: more than the rounding errors here, less than those of any ray */
   unsigned steps;  /* of recursion */
 };
 
@@ -80,7 +37,7 @@ struct subtree {
   const struct subtree *next;
 };
 
-/* The triangles of what a reference leads to. */
+/* Sets the range of triangles below a reference. */
 static void set_range(struct subtree *subtree, const struct scene_parts *parts) {
   const struct trax_scene_section *sections = parts->scene->header->sections;
   const uint32_t count = TRAX_SCENE_REF_COUNT(subtree->ref);
@@ -118,8 +75,9 @@ static bool has_copy(const struct cover *cover, uint32_t first, uint32_t end) {
   return low < cover->count && cover->copies[low] < end;
 }
 
-/* What is outside of the first subtree's box is left to those behind it, what is inside to those below it first. The
-   recursion is bounded by the depth of the tree for each box that is left. */
+/* Whether the boxes of the subtrees cover the polygon. The part outside of the first subtree's box is left to the
+   following ones, the part inside to those below it and then to the following ones. The recursion goes no deeper than
+   the tree for each box that is left. */
 static bool is_covered(struct cover *cover, const struct polygon *polygon, const struct subtree *list) {
   if (polygon->count == 0)
     return true;
@@ -182,7 +140,7 @@ struct copy {
   const struct trax_triangle *triangle;
 };
 
-/* By vertices, then as they stand in the file. */
+/* By vertices, then in the order of the file. */
 static int compare_copies(const void *a, const void *b) {
   const struct copy *left = a, *right = b;
   const int order = memcmp(left->triangle, right->triangle, 9 * sizeof(float));

@@ -1,4 +1,4 @@
-/* How far the making of a scene has come: its phases as parts of one whole, so that the time left is that of all. */
+/* The progress of an import: its phases as parts of one whole, so that the time left is that of all. */
 #include "internal.h"
 
 void scene_report(const struct trax_build_options *options, enum scene_phase phase, double fraction) {

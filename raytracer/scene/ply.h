@@ -71,7 +71,7 @@ static inline bool ply_is_space(unsigned char c) {
 /* FILE:LINE: in text, FILE: ELEMENT NUMBER: in binary data. */
 trax_status scene_ply_fail(const struct ply_reader *reader, const char *reason);
 
-/* To the first byte behind the header; elements, properties and the texture's name are known then. */
+/* Reads the header: elements, properties and the texture's name. Moves to the first byte after it. */
 trax_status scene_ply_header(struct ply_reader *reader);
 
 /* The next value of the data, ASCII or binary. */

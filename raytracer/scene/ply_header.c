@@ -15,7 +15,7 @@ trax_status scene_ply_fail(const struct ply_reader *reader, const char *reason) 
                    (unsigned long long)reader->current_number, reason);
 }
 
-/* The next word of the header's current line; false at its end or if the word is too long to mean anything. */
+/* The next word of the header's current line; false at its end, or if the word is longer than any that is known. */
 static bool next_word(struct ply_reader *reader, char word[max_name]) {
   while (*reader->at == ' ' || *reader->at == '\t')
     reader->at++;
@@ -128,7 +128,7 @@ static trax_status read_property(struct ply_reader *reader) {
   if (!next_word(reader, word))
     return scene_ply_fail(reader, "a property without a name");
   property->role = role_of(element->name, word, is_list);
-  for (unsigned i = 0; i < element->property_count; i++) /* of two lists of indices the first counts */
+  for (unsigned i = 0; i < element->property_count; i++) /* of two lists of indices, the first is used */
     if (property->role == indices && reader->properties[element->first_property + i].role == indices)
       property->role = skipped;
   if (!strcmp(word, "red") || !strcmp(word, "diffuse_red"))

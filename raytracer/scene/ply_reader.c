@@ -54,7 +54,7 @@ static trax_status add_face(struct ply_reader *reader, uint32_t count) {
 
 enum { strip_break = UINT32_MAX };
 
-/* Every vertex from the third on makes a triangle with the two before it, every second one turned. */
+/* Each vertex from the third on makes a triangle with the two before it, of alternating orientation. */
 static trax_status add_strips(struct ply_reader *reader, uint32_t count) {
   trax_status result = TRAX_OK;
   uint32_t begin = 0;
@@ -101,7 +101,7 @@ static trax_status read_list(struct ply_reader *reader, const struct property *p
   trax_status result = scene_ply_integer(reader, property->list_count, &count);
   if (result != TRAX_OK)
     return result;
-  /* Every value takes a byte at least: nothing is allocated for a count that the file cannot hold. */
+  /* Each value takes at least a byte, so a count beyond the file is refused before memory is allocated for it. */
   if (count < 0 || count > reader->end - reader->at)
     return scene_ply_fail(reader, count < 0 ? "a list's length is negative" : "a list is longer than the file");
   if (property->role == indices)
@@ -142,7 +142,7 @@ static trax_status read_record(struct ply_reader *reader, const struct element *
   return TRAX_OK;
 }
 
-/* The header's promises, before anything is allocated for them. */
+/* Checks the header's counts before memory is allocated for them. */
 static trax_status check_elements(struct ply_reader *reader) {
   unsigned vertices = 0, roles = 0;
   for (unsigned e = 0; e < reader->element_count; e++) {
@@ -184,7 +184,7 @@ static trax_status read_elements(struct ply_reader *reader) {
   return TRAX_OK;
 }
 
-/* The vertices' arrays, the one material and its texture. */
+/* Prepares the vertices' arrays, the one material and its texture. */
 static trax_status prepare(struct ply_reader *reader, const struct trax_import_options *options,
                            struct trax_import_report *report) {
   struct trax_mesh *mesh = reader->mesh;

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* In ASCII: to the next value; false at the end of the file. */
+/* In ASCII, moves to the next value; false at the end of the file. */
 static bool to_value(struct ply_reader *reader) {
   while (ply_is_space(*reader->at))
     reader->at++;

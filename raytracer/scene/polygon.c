@@ -1,4 +1,4 @@
-/* Polygons into triangles: by ears, in the plane that Newell's normal is most perpendicular to. */
+/* Cuts polygons into triangles by ears, in the coordinate plane that is most perpendicular to Newell's normal. */
 #include "internal.h"
 
 #include <math.h>
@@ -39,8 +39,7 @@ static double turn(struct point a, struct point b, struct point c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/* Whether p forbids that the triangle is cut off. Points that coincide with one of its corners do not: polygons with
-   holes have such. */
+/* Whether p prevents cutting the triangle off. Points at one of its corners do not; polygons with holes have such. */
 static bool is_inside(struct point p, struct point a, struct point b, struct point c) {
   if ((p.x == a.x && p.y == a.y) || (p.x == b.x && p.y == b.y) || (p.x == c.x && p.y == c.y))
     return false;
@@ -69,8 +68,8 @@ static bool is_ear(const struct point *points, const uint32_t *ring, uint32_t co
 
 /* --- many corners --- */
 
-/* Of more corners than this only those that are not convex are looked at, in a grid of cells: no other corner of a
-   simple polygon is the first that comes to lie in an ear. */
+/* With more corners than this, only those that are not convex are tested, by a grid of cells. In a simple polygon, if
+   any corner is in an ear, one that is not convex is. */
 enum { FEW_CORNERS = 1024, MOST_CELLS = 1024 };
 
 struct grid {
@@ -96,7 +95,7 @@ static bool is_reflex(const struct grid *grid, uint32_t corner) {
   return !(turn(points[grid->before[corner]], points[corner], points[grid->after[corner]]) > 0);
 }
 
-/* The part of a triangle between two heights, from left to right; what is right on a bound is in it. */
+/* The part of a triangle between two heights, from left to right, with its bounds. */
 struct span {
   double left, right;
 };
@@ -114,7 +113,7 @@ static void add_edge(struct span *span, struct point a, struct point b, double l
   span->right = fmax(span->right, fmax(from, to));
 }
 
-/* Looks at the cells that the triangle touches, row by row, and one more at either end of each row. */
+/* Tests the cells that the triangle touches, row by row, and one more at either end of each row. */
 static bool is_empty(const struct grid *grid, uint32_t before, uint32_t at, uint32_t after, uint64_t *steps) {
   const struct point a = grid->points[before], b = grid->points[at], c = grid->points[after];
   const uint32_t low = cell_of(fmin(a.y, fmin(b.y, c.y)), grid->least.y, grid->scale_y, grid->side);
@@ -201,7 +200,7 @@ static const char *cut_large(struct scene_polygon_work *work, uint32_t count) {
                       .reflex = reflex};
   fill_grid(&grid, count);
   bool search = true;
-  uint32_t at = 1, made = 0, near[2] = {0, 2}; /* the corners beside what was cut last: their angles have changed */
+  uint32_t at = 1, made = 0, near[2] = {0, 2}; /* the corners beside the last cut, whose angles have changed */
   for (uint32_t left = count; left > 2 && !is_stopped(work); left--) {
     for (uint32_t tried = 0; search && !is_ear_in(&grid, at, &work->steps); search = tried < left) {
       const bool first = tried == 0 && is_ear_in(&grid, near[1], &work->steps);
@@ -224,7 +223,7 @@ static const char *cut_large(struct scene_polygon_work *work, uint32_t count) {
     reflex[before] &= is_reflex(&grid, before);
     reflex[after] &= is_reflex(&grid, after);
     near[0] = before, near[1] = after;
-    at = grid.after[after]; /* not the next one: a fan of slivers would reach across the polygon */
+    at = grid.after[after]; /* not the next one, which would make a fan of slivers across the polygon */
   }
   free(links);
   free(reflex);
@@ -255,7 +254,7 @@ const char *scene_cut_polygon(struct scene_polygon_work *work, float (*positions
   uint32_t *ring = work->ring, left = count, made = 0;
   for (uint32_t i = 0; i < count; i++)
     ring[i] = i;
-  /* Once no ear is left (the polygon crosses itself, or has no area) any corner must do. */
+  /* If no ear is left (the polygon crosses itself, or has no area), any corner is cut off. */
   bool search = true;
   for (uint32_t at = 1; left > 2;) {
     for (uint32_t tried = 0; search && !is_ear(points, ring, left, at); search = tried < left) {

@@ -1,4 +1,4 @@
-/* What a tree promises: shape, and expected work by surface areas (MacDonald and Booth, "Heuristics for ray tracing
+/* Statistics of a tree: its shape, and expected work by surface areas (MacDonald and Booth, "Heuristics for ray tracing
    using space subdivision", 1990). */
 #include "internal.h"
 
@@ -13,7 +13,7 @@ static double half_area(const double min[3], const double max[3]) {
   return x * y + y * z + z * x;
 }
 
-/* probability: that a ray which hits the scene's box enters what ref stands for. */
+/* probability: that a ray which hits the scene's box enters the subtree at ref. */
 static void measure(const struct walk *walk, trax_scene_ref ref, unsigned depth, double probability) {
   uint32_t count = TRAX_SCENE_REF_COUNT(ref);
   if (count) {

@@ -68,7 +68,7 @@ static inline bool parse_float(const char *word, float *value) {
   return end != word && !*end;
 }
 
-/* A text file holds no NUL; releases the bytes on failure. */
+/* Checks that a text file has no NUL; releases the bytes on failure. */
 static inline trax_status check_text(struct scene_bytes *file, const char *path, trax_error *error) {
   if (!memchr(file->data, 0, file->size))
     return TRAX_OK;

@@ -1,6 +1,6 @@
-/* From images to the textures of a scene file: sides that are powers of two, gamma 2. Resampled in linear light by a
-   tent as wide as the coarser of the two grids. Only operations that IEEE 754 rounds correctly: the same bytes
-   everywhere. */
+/* Converts images to the textures of a scene file: sides are powers of two, with gamma 2. Images are resampled in
+   linear light by a tent filter as wide as the coarser of the two grids. Correctly rounded operations give the same
+   bytes everywhere. */
 #include "internal.h"
 
 #include <math.h>
@@ -37,10 +37,10 @@ static uint32_t encode_colour(float linear) {
 
 struct axis {
   uint32_t from, to; /* lengths */
-  bool clamp;        /* the image ends at its edge, else it begins again */
+  bool clamp;        /* the image ends at its edge, else it repeats */
 };
 
-/* The first source texel that target texel `at` may take from, and how many there are. */
+/* The first source texel for the target texel `at`, and their number. */
 static uint32_t taps(const struct axis *axis, uint32_t at, double *middle, double *radius, int64_t *first) {
   if (axis->from == axis->to) {
     *middle = at + 0.5, *radius = 1, *first = at;
@@ -65,7 +65,7 @@ static uint32_t source_of(const struct axis *axis, int64_t tap) {
   return (uint32_t)(rest < 0 ? rest + axis->from : rest);
 }
 
-/* R, G and B times alpha, alpha, and R, G and B alone for what is all transparent. */
+/* R, G and B times alpha, alpha, and R, G and B alone for completely transparent texels. */
 enum { CHANNELS = 7 };
 
 /* The shares of the image's texels in those of a row. */
@@ -131,7 +131,7 @@ static uint32_t texel_of(const float *sums, float total) {
   return texel;
 }
 
-/* The image's first row is its uppermost; the texture's is at v = 0, the lowest. */
+/* The first row of an image is the uppermost, that of a texture the lowest, at v = 0. */
 static bool resample(uint32_t *texels, uint32_t width, uint32_t height, const struct scene_image *image, bool clamp) {
   const struct axis across = {image->width, width, clamp}, down = {image->height, height, clamp};
   struct shares shares = {0};
@@ -198,7 +198,7 @@ trax_status scene_add_image(struct scene_textures *textures, const struct scene_
 
 /* --- the files of one mesh --- */
 
-/* Notes a missing or damaged image; the material then has none. *good: there is one. */
+/* Loads an image. A missing or damaged one is noted, and *good is false. */
 static trax_status load_image(const struct scene_textures *textures, struct scene_image *image, const char *referrer,
                               const char *name, bool *good, trax_error *error) {
   *good = false;
@@ -238,8 +238,8 @@ static bool has_alpha(const struct scene_image *image) {
   return false;
 }
 
-/* The mask's alpha becomes the image's, or, of a mask that is opaque everywhere, its brightest channel; the nearest one
-   where sizes differ. */
+/* Takes the image's alpha from the mask: its alpha or, if the mask is opaque everywhere, its brightest channel. If
+   sizes differ, the nearest texel counts. */
 static void apply_mask(struct scene_image *image, const struct scene_image *mask) {
   const bool alpha = has_alpha(mask);
   for (uint32_t y = 0; y < image->height; y++)

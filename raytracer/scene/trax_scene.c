@@ -89,7 +89,7 @@ static void print_statistics(const struct statistic *list, size_t count, const s
 
 /* --- the program --- */
 
-/* Before anything is read. What the meshes refer to is compared when it is found. */
+/* Compares inputs and outputs before anything is read. Files that meshes refer to are compared when they are found. */
 static trax_status check_files(trax_files *files, const struct arguments *arguments, trax_error *error) {
   for (size_t i = 0; i < arguments->mesh_count; i++)
     if (!trax_mesh_is_generated(arguments->meshes[i]))
@@ -99,7 +99,7 @@ static trax_status check_files(trax_files *files, const struct arguments *argume
                                                    : TRAX_ERROR;
 }
 
-/* A file without a name, to which the importer appends. */
+/* Creates a file without a name, to which the importer appends. */
 static trax_status begin_list(int *list, const char *path, trax_error *error) {
   *list = path ? memfd_create("files", MFD_CLOEXEC) : 0;
   if (*list < 0)
@@ -159,8 +159,8 @@ static trax_status import_and_build(struct trax_scene *scene, struct figures *fi
     trax_mesh_release(&mesh);
     return result;
   }
-  if (mesh.triangle_count == 0 && !arguments->build.allow_empty) {
-    result = trax_fail(error, "%s: no triangles%s%s; --allow-empty makes a scene without any", arguments->meshes[0],
+  if (mesh.triangle_count == 0) {
+    result = trax_fail(error, "%s: no triangles%s%s", arguments->meshes[0],
                        arguments->mesh_count > 1 ? " in it and the other meshes" : "",
                        figures->import.source_triangles ? " are left: all are of zero area or not finite" : "");
   } else
@@ -210,7 +210,7 @@ static int complain(const trax_error *error) {
   return 1;
 }
 
-/* The status, unless what was printed could not be written. */
+/* The status, or 1 if the output could not be written. */
 static int end_of_output(int status) {
   trax_error error;
   return trax_output_flush(&error) == TRAX_OK ? status : complain(&error);

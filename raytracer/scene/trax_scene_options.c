@@ -42,7 +42,7 @@ static const trax_option rows[] = {
     {"stats", FIELD(stats), .meaning = "print what was read and built"},
     {"stats-json", .argument = "FILE", OUTPUT(stats_json), .meaning = "write the same as JSON"},
     {"list-files", .argument = "FILE", OUTPUT(list_files),
-     .meaning = "write hash and name of every file that was read, as xxhsum -H2 does; -: not there"},
+     .meaning = "write hash and name of every file that was read, as xxhsum -H2 does; - for a missing one"},
     TRAX_OPTION_GROUP("Meshes"),
     {"material", .argument = "[NAME=]KIND", PARSED(trax_take_material, import),
      .meaning = "lambert, mirror[:R,G,B], glass[:IOR], ggx:ROUGHNESS[:R,G,B] or emit:R,G,B, of the\n"
@@ -56,9 +56,8 @@ static const trax_option rows[] = {
      .meaning = "most bytes of a packed file or a pipe, unpacked; K, M and G are powers of 1024 (default 1G)"},
     {"drop-nonfinite", FIELD(import.drop_nonfinite),
      .meaning = "leave triangles with NaN or infinite vertices out instead of refusing the mesh"},
-    {"keep-degenerate", FIELD(import.keep_degenerate),
-     .meaning = "keep triangles of exactly zero area, which no ray can hit"},
-    {"allow-empty", FIELD(build.allow_empty), .meaning = "write a scene without triangles if the mesh has none"},
+    {"keep-degenerate", .instead = "no ray hits triangles of zero area"},
+    {"allow-empty", .instead = "a mesh without triangles is an error"},
     TRAX_OPTION_GROUP("Tree"),
     {"nodes", .argument = "KIND", PARSED(trax_take_nodes, nodes),
      .meaning = "binary: two boxes a line of memory; quantised: four, on a grid of 2^16 planes an axis;\n"
@@ -66,19 +65,19 @@ static const trax_option rows[] = {
     {"leaf", .argument = "N", NUMBER(build.max_leaf, 1, TRAX_SCENE_MAX_LEAF),
      .meaning = "at most N triangles in a leaf, 1 to 7"},
     {"splits", .argument = "[=FACTOR]", PARSED(trax_take_splits, splits),
-     .meaning = "splits large triangles, which then stand in several leaves: room for FACTOR times\n"
-                "as many, 1 (none) to 8, without FACTOR 1.5; =auto (default): so, if many are askew"},
+     .meaning = "splits large triangles over several leaves: memory for FACTOR times the triangles,\n"
+                "1 (none) to 8, 1.5 without FACTOR; =auto (default): that, if many are oblique"},
     {"passes", .argument = "N", NUMBER(build.passes, 0, TRAX_SCENE_MAX_PASSES),
-     .meaning = "N times over the tree after it was built, to move its parts to where they cost\n"
-                "less, 0 to 16 (default 2)"},
+     .meaning = "N passes that improve the tree after it was built, by moving its parts, 0 to 16\n"
+                "(default 2)"},
     {"depth", .argument = "N", NUMBER(build.max_depth, 1, TRAX_SCENE_MAX_DEPTH),
      .meaning = "at most N nodes from the root to a leaf, 1 to 62"},
     {"traversal-cost", .argument = "X", PARSED(take_cost, build.traversal_cost),
-     .meaning = "of a node in the surface-area heuristic"},
-    {"intersection-cost", .argument = "X", PARSED(take_cost, build.intersection_cost), .meaning = "of a triangle"},
+     .meaning = "of a node in the surface-area heuristic, relative to a triangle's"},
+    {"intersection-cost", .argument = "X", .instead = "--traversal-cost is relative to it"},
     {"cache-lines", .argument = "N", NUMBER(build.cache_lines, 1, 4096),
      .meaning = "order nodes for a direct-mapped cache of N lines, 1 to 4096; 1: depth first"},
-    {"no-source-ids", FIELD(build.without_source_ids), .meaning = "leave out each triangle's number in the mesh"},
+    {"no-source-ids", .instead = "every scene file has the triangles' numbers in the mesh"},
     TRAX_OPTION_GROUP("Another builder's tree"),
     {"tree", .argument = "FILE.npy", FIELD(build.tree_nodes), .file = TRAX_OPTION_INPUT,
      .meaning = "instead of building one: its nodes, rows of left, right, count"},
@@ -132,10 +131,11 @@ trax_parsed arguments_parse(struct arguments *arguments, int argc, char **argv, 
     trax_fail(error, "--tree and --tree-triangles need each other");
   else if (arguments->build.tree_boxes && !arguments->build.tree_nodes)
     trax_fail(error, "--tree-boxes without --tree");
-  else if (arguments->build.tree_nodes && (arguments->build.max_leaf || arguments->splits ||
-                                           arguments->build.passes != TRAX_DEFAULT_PASSES ||
-                                           arguments->build.traversal_cost > 0 || arguments->build.intersection_cost > 0))
-    trax_fail(error, "--tree is a tree that is built: --leaf, --splits, --passes and costs are for trax-scene's builder");
+  else if (arguments->build.tree_nodes &&
+           (arguments->build.max_leaf || arguments->splits || arguments->build.passes != TRAX_DEFAULT_PASSES ||
+            arguments->build.traversal_cost > 0))
+    trax_fail(error, "--tree is a tree that is built: --leaf, --splits, --passes and --traversal-cost are for "
+                     "trax-scene's builder");
   else if (!arguments->check && !arguments->output &&
            (!arguments->write_triangles || arguments->stats || arguments->stats_json))
     trax_fail(error, "no output; give one with -o");

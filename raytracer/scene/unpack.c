@@ -7,14 +7,14 @@
 #include <string.h>
 #include <zlib.h>
 
-/* The window of `xz -9` and what liblzma needs beside it: small files may ask for more than they unpack to. */
+/* The window of `xz -9` and liblzma's own memory: small files may ask for more than they unpack to. */
 #define XZ_WINDOW ((size_t)72 << 20)
 
 static trax_status too_large(size_t limit, const char *path, trax_error *error) {
   return trax_fail(error, "%s: unpacks to more than %zu bytes (--unpack-limit)", path, limit);
 }
 
-/* Makes room for a byte more, and one beyond the limit at most. */
+/* Makes room for another byte, at most one beyond the limit. */
 static bool reserve(struct scene_bytes *bytes, size_t *capacity, size_t limit) {
   if (*capacity > bytes->size)
     return true;

@@ -257,8 +257,8 @@ static trax_status read_lights(const struct group *file, struct trax_view *view)
   return TRAX_OK;
 }
 
-/* The line of an @include, from 1; 0: there is none. What it names may be any file of this computer, or a device that
-   never ends, so a view is one file. */
+/* The line of an @include, from 1; 0: there is none. A view is one file, because @include may name any file of this
+   computer, or a device that never ends. */
 static unsigned find_include(const char *text) {
   unsigned line = 1;
   for (const char *at = text; at; at = strchr(at, '\n'), at = at ? at + 1 : NULL, line++)
@@ -268,7 +268,7 @@ static unsigned find_include(const char *text) {
 }
 
 trax_status trax_view_read(struct trax_view *view, const char *path, trax_error *error) {
-  struct scene_bytes file; /* libconfig aborts on what cannot be read as a file, as on a directory */
+  struct scene_bytes file; /* libconfig aborts if it cannot read a file, such as a directory */
   trax_status result = scene_load_file(&file, path, SCENE_TEXT_LIMITS, error);
   if (result != TRAX_OK)
     return result;
@@ -316,7 +316,7 @@ trax_status trax_view_read(struct trax_view *view, const char *path, trax_error 
 static void put_number(FILE *out, float value) {
   char text[32];
   snprintf(text, sizeof text, "%.9g", (double)value);
-  fprintf(out, "%s%s", text, strpbrk(text, ".e") ? "" : ".0"); /* or it would be an integer */
+  fprintf(out, "%s%s", text, strpbrk(text, ".e") ? "" : ".0"); /* else it would be an integer */
 }
 
 static void put_key(FILE *out, const char *key, float value) {

@@ -52,7 +52,7 @@ double __muldf3(double a, double b);
 double __divdf3(double a, double b);
 double __negdf2(double a);
 
-/* Comparisons: the sign of the result answers the name's question; what a NaN gives makes the answer "no". */
+/* Comparisons: the sign of the result answers the question of the name. With a NaN the answer is no. */
 int __eqdf2(double a, double b);
 int __nedf2(double a, double b);
 int __ltdf2(double a, double b);

@@ -13,7 +13,7 @@ static inline int compare(double x, double y, int unordered) {
   return (a < b) != double_sign(a) ? -1 : 1;
 }
 
-/* Two bodies serve the eight names: they differ in what a NaN gives. */
+/* Two functions serve eight names. They differ in the result for a NaN. */
 int __ledf2(double a, double b) {
   return compare(a, b, 1);
 }

@@ -19,7 +19,7 @@
   _Complex type __mul##suffix##c3(type a, type b, type c, type d) {                                                    \
     type ac = a * c, bd = b * d, ad = a * d, bc = b * c;                                                               \
     type x = ac - bd, y = ad + bc;                                                                                     \
-    if (x != x && y != y) { /* infinities, perhaps, that NaNs have hidden */                                           \
+    if (x != x && y != y) { /* NaNs may hide infinities */                                                             \
       int recalculate = 0;                                                                                             \
       if (is_infinite_##suffix(a) || is_infinite_##suffix(b)) {                                                        \
         a = boxed_##suffix(a);                                                                                         \
@@ -51,8 +51,8 @@
     return __builtin_complex(x, y);                                                                                    \
   }                                                                                                                    \
                                                                                                                        \
-  /* A sum of two significands that have exponents of their own; *exponent becomes the sum's. What is 100 bits below   \
-     the other does not show. */                                                                                       \
+  /* A sum of two significands that have exponents of their own; *exponent becomes the sum's. A number 100 bits below  \
+     the other has no effect. */                                                                                       \
   static inline type sum_##suffix(type p, int p_exponent, type q, int q_exponent, int *exponent) {                     \
     *exponent = p_exponent > q_exponent ? p_exponent : q_exponent;                                                     \
     int p_shift = p_exponent - *exponent, q_shift = q_exponent - *exponent;                                            \

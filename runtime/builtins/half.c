@@ -7,8 +7,7 @@ float __extendhfsf2(uint16_t x) {
     return bits_float(FLOAT_NAN);
   if (magnitude == 0x7C00)
     return bits_float(sign_bit | FLOAT_INFINITY);
-  /* In the position of a float's bits; what lacks of the exponent is a multiplication, which normalises subnormals too.
-   */
+  /* The bits move to those of a float. The multiplication corrects the exponent, and normalises subnormals. */
   return bits_float(sign_bit | float_bits(bits_float(magnitude << 13) * 0x1p112f));
 }
 

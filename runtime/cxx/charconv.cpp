@@ -38,7 +38,7 @@ decimal nearest(double value, int count) {
   return number;
 }
 
-/// The next one of as many digits.
+/// The next greater number of as many digits.
 void increase(decimal &number) {
   for (int i = number.count - 1; i >= 0; i--) {
     if (number.digits[i] != '9') {
@@ -77,8 +77,8 @@ template <class Number> bool reads_as(const decimal &number, Number value) {
   return to_number(text, value) == static_cast<double>(value);
 }
 
-/// The nearest one of so many digits, if it reads as value. Above a power of two there is twice as much room for it as
-/// below.
+/// Finds a number of so many digits that reads as value: the nearest, or the next greater one. The latter can read as a
+/// power of two, since twice as many numbers above it do as below.
 template <class Number> bool represent(decimal &number, Number value, bool is_power, int count) {
   number = nearest(static_cast<double>(value), count);
   if (reads_as(number, value))
@@ -89,7 +89,7 @@ template <class Number> bool represent(decimal &number, Number value, bool is_po
   return reads_as(number, value);
 }
 
-/// With the fewest digits that read as value, by bisection: if some suffice, so do more.
+/// The number with the fewest digits that reads as value, by bisection: if some digits suffice, so do more.
 template <class Number> decimal shortest(Number value) {
   const uint64_t significand = bit_cast<uint64_t>(static_cast<double>(value)) << 12;
   int enough = sizeof(Number) == sizeof(float) ? 9 : most_digits, too_few = 0;
@@ -119,7 +119,7 @@ void print_scientific(sink &out, const decimal &number) {
     trax_put(&out, *p++);
 }
 
-/// An integer exactly: that takes no more characters.
+/// Prints all digits of an integer, which takes no more characters.
 void print_fixed(sink &out, const decimal &number, double value) {
   const int exponent = number.exponent;
   if (exponent >= number.count - 1) {

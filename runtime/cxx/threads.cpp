@@ -1,4 +1,4 @@
-// Mutual exclusion between the machine's threads in libc++'s terms. Nobody sleeps: who waits asks again.
+// Mutual exclusion between the machine's threads in libc++'s terms. A waiting thread polls.
 #include "../internal/machine.h"
 
 #include <__chrono/steady_clock.h>
@@ -92,7 +92,7 @@ void condition_variable::wait(unique_lock<mutex> &lock) noexcept {
   lock.lock();
 }
 void condition_variable::notify_one() noexcept {
-  trax_atomic_inc(&__cv_.__notified); // wakes all: they look again
+  trax_atomic_inc(&__cv_.__notified); // all waiting threads see it and try again
 }
 void condition_variable::notify_all() noexcept {
   trax_atomic_inc(&__cv_.__notified);
@@ -117,7 +117,7 @@ void __call_once(volatile once_flag::_State_type &state, void *argument, void (*
   acquire_fence();
 }
 
-// std::atomic's wait and notify: the headers ask again and again.
+// std::atomic's wait and notify: the headers poll.
 void __cxx_atomic_notify_one(void const volatile *) noexcept {}
 void __cxx_atomic_notify_all(void const volatile *) noexcept {}
 void __cxx_atomic_notify_one(__cxx_atomic_contention_t const volatile *) noexcept {}

@@ -26,6 +26,12 @@ __attribute__((noreturn)) INLINE void machine_exit(int status) {
 INLINE unsigned long long machine_cycles(void) {
   return trax_cycles64();
 }
+INLINE unsigned machine_thread(void) {
+  return trax_thread();
+}
+INLINE unsigned machine_threads(void) {
+  return trax_threads();
+}
 /* The host reads strings from global memory only; this one may be on the stack. */
 INLINE int machine_is_local(const void *p) {
   return (uintptr_t)p >= 0xFFFFFE00u;
@@ -40,13 +46,13 @@ INLINE void acquire_fence(void) {
   __atomic_thread_fence(__ATOMIC_ACQUIRE);
 }
 
-/* A lock that is taken in the order of asking: the atomic increment draws a number, and the owner, who alone writes the
-   number being served, passes on. Words beyond the cache, because no TM's cache hears of another's stores. */
+/* A ticket lock. The atomic increment draws a ticket. The owner alone writes the number that is served. Accesses bypass
+   the caches, because a TM's cache does not see the stores of others. */
 struct ticket_lock {
   unsigned next, serving;
 };
 
-/* The word as it is now, however often a loop asks: the builtin for such loads drops volatile. */
+/* Loads the word on each call, as volatile would: the builtin for such loads drops volatile. */
 INLINE unsigned load_shared(const unsigned *p) {
   unsigned value;
   __asm__ volatile("lwnt %0, 0(%1)" : "=r"(value) : "r"(p) : "memory");
@@ -56,8 +62,8 @@ INLINE void store_shared(unsigned *p, unsigned value) {
   __asm__ volatile("swnt %0, 0(%1)" : : "r"(value), "r"(p) : "memory");
 }
 
-/* The lock alone, where it protects no memory, or memory that is read past the cache: then nobody's cache is emptied.
- */
+/* Takes the lock without a fence, which would empty the cache: for a lock that protects no memory, or memory that is
+   read past the cache. */
 INLINE void enter(struct ticket_lock *l) {
   unsigned ticket = trax_atomic_inc(&l->next);
   while (load_shared(&l->serving) != ticket)
@@ -98,6 +104,12 @@ __attribute__((noreturn)) INLINE void machine_exit(int status) {
 }
 INLINE unsigned long long machine_cycles(void) {
   return host_cycles();
+}
+INLINE unsigned machine_thread(void) {
+  return 0;
+}
+INLINE unsigned machine_threads(void) {
+  return 1;
 }
 INLINE int machine_is_local(const void *p) {
   (void)p;

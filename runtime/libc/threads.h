@@ -1,5 +1,5 @@
-/* C's threads, as far as the machine has them: its threads are there from the start, so none can be created; mutexes
-   and once work between them. Whoever waits, asks again and again. */
+/* C's threads. The machine's are there from the start: thrd_create gives a function to one that waits for work, with
+   trax-sim --main-on 0, and fails if all are busy. Whoever waits for another thread asks again and again. */
 #ifndef TRAX_THREADS_H
 #define TRAX_THREADS_H
 
@@ -15,12 +15,19 @@ typedef struct {
 typedef struct {
   _Atomic unsigned state;
 } once_flag;
+typedef struct {
+  unsigned notified;
+} cnd_t;
+typedef unsigned tss_t;
+typedef void (*tss_dtor_t)(void *);
 
 #define ONCE_FLAG_INIT                                                                                                 \
   { 0 }
 #ifndef __cplusplus
 #define thread_local _Thread_local
 #endif
+
+#define TSS_DTOR_ITERATIONS 4
 
 enum { mtx_plain = 0, mtx_recursive = 1, mtx_timed = 2 };
 enum { thrd_success, thrd_busy, thrd_error, thrd_nomem, thrd_timedout };
@@ -29,13 +36,26 @@ enum { thrd_success, thrd_busy, thrd_error, thrd_nomem, thrd_timedout };
 extern "C" {
 #endif
 
-int mtx_init(mtx_t *mutex, int kind); /* thrd_error for timed ones */
+int mtx_init(mtx_t *mutex, int kind);
 void mtx_destroy(mtx_t *mutex);
 int mtx_lock(mtx_t *mutex);
 int mtx_trylock(mtx_t *mutex);
+int mtx_timedlock(mtx_t *mutex, const struct timespec *until);
 int mtx_unlock(mtx_t *mutex);
 void call_once(once_flag *flag, void (*function)(void));
-int thrd_create(thrd_t *thread, thrd_start_t function, void *argument); /* thrd_error */
+int cnd_init(cnd_t *condition);
+void cnd_destroy(cnd_t *condition);
+int cnd_signal(cnd_t *condition); /* wakes all */
+int cnd_broadcast(cnd_t *condition);
+int cnd_wait(cnd_t *condition, mtx_t *mutex);
+int cnd_timedwait(cnd_t *condition, mtx_t *mutex, const struct timespec *until);
+int tss_create(tss_t *key, tss_dtor_t destructor); /* at most 16 */
+void tss_delete(tss_t key);
+void *tss_get(tss_t key);
+int tss_set(tss_t key, void *value);
+int thrd_create(thrd_t *thread, thrd_start_t function, void *argument);
+int thrd_join(thrd_t thread, int *result);
+int thrd_detach(thrd_t thread);
 thrd_t thrd_current(void);
 int thrd_equal(thrd_t a, thrd_t b);
 void thrd_yield(void);

@@ -1,6 +1,5 @@
 # Powers and logarithms of binary64, complex numbers, and erff are newlib's: Debian's package newlib-source has its sources, which are unpacked into the build folder and compiled like ours. docs/runtime.md lists them.
 
-option(TRAX_LIBC_COMPLEX "The library has the functions of <complex.h>" ON)
 set(NEWLIB_VERSIONS 3.3.0 4.5.0) # those of Debian 12 and 13: what is compiled below has the same code in both
 file(GLOB NEWLIB_FOUND /usr/src/newlib/newlib-*.tar.xz)
 if(NEWLIB_FOUND)
@@ -56,13 +55,10 @@ set(NEWLIB_C
   common/pow_log_data common/math_err
   # binary32
   math/sf_erf
-  common/math_errf)
-set(COMPLEX_NAMES)
-if(TRAX_LIBC_COMPLEX)
-  list(APPEND NEWLIB_C complex/cephes_subr complex/cephes_subrf)
-  set(COMPLEX_NAMES cabs cacos cacosh carg casin casinh catan catanh ccos ccosh cexp cimag clog conj cpow cproj creal csin csinh
-      csqrt ctan ctanh)
-endif()
+  common/math_errf
+  complex/cephes_subr complex/cephes_subrf)
+set(COMPLEX_NAMES cabs cacos cacosh carg casin casinh catan catanh ccos ccosh cexp cimag clog conj cpow cproj creal csin csinh
+    csqrt ctan ctanh)
 foreach(name ${COMPLEX_NAMES})
   list(APPEND NEWLIB_C complex/${name} complex/${name}f)
 endforeach()

@@ -8,7 +8,7 @@
 
 int mtx_init(mtx_t *mutex, int kind) {
   *mutex = (mtx_t){.kind = kind};
-  return kind & mtx_timed ? thrd_error : thrd_success;
+  return thrd_success;
 }
 
 void mtx_destroy(mtx_t *mutex) {
@@ -70,13 +70,6 @@ void call_once(once_flag *flag, void (*function)(void)) {
     ;
 }
 
-int thrd_create(thrd_t *thread, thrd_start_t function, void *argument) {
-  (void)thread;
-  (void)function;
-  (void)argument;
-  return thrd_error;
-}
-
 thrd_t thrd_current(void) {
   return trax_thread();
 }
@@ -89,10 +82,6 @@ void thrd_yield(void) {}
 
 int thrd_sleep(const struct timespec *duration, struct timespec *left) {
   return nanosleep(duration, left);
-}
-
-void thrd_exit(int status) {
-  exit(status);
 }
 
 #endif

@@ -9,7 +9,7 @@
 #include <time.h>
 #include <wchar.h>
 
-/* Blanks, and what consists of the characters of numbers, as bytes. NULL: no memory. */
+/* Copies blanks and the characters that numbers consist of as bytes. NULL: no memory. */
 static char *copy(const wchar_t *text) {
   size_t length = 0;
   while (isascii(text[length]) && isspace(text[length]))

@@ -1,5 +1,5 @@
-// The compiler's builtins as functions, for uses that take their address. Where the instruction holds a number that is an
-// argument here, a jump table of one instruction and a return per number does; other numbers fault as they would there.
+// The compiler's builtins as functions, for uses that take their address. If the instruction contains a number that is an
+// argument of the function, a jump table has the instruction and a return for each number. Other numbers fault as there.
 #include <trax/numbers.h>
 
 #define READ(CONSTANT, NAME, NUMBER) rdsr r4, NUMBER; jalr r0, 0(r1);

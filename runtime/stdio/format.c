@@ -8,7 +8,7 @@
 #include <stdint.h>
 #include <string.h>
 
-/* Programs that do not look at it do not have it. */
+/* Weak: programs that do not use errno do not contain it. */
 extern __thread int errno __attribute__((weak));
 
 typedef __WINT_TYPE__ wint_t;
@@ -72,8 +72,8 @@ static int encode(char *bytes, wchar_t c) {
   return size;
 }
 
-/* One character, or those up to a null character; of these no more than whole ones within the precision. Returns 0,
-   and prints nothing, if one cannot be encoded. */
+/* Formats one character, or a string as far as whole characters fit the precision. Returns 0 and prints nothing if a
+   character cannot be encoded. */
 SEPARATE static int format_wide(struct sink *out, struct conversion *how, const wchar_t *s, int is_string) {
   char bytes[4];
   int length = 0, size = 0, limit = is_string && how->precision >= 0 ? how->precision : __INT_MAX__;

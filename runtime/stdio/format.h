@@ -42,8 +42,9 @@ void trax_put_prefix(struct sink *out, const struct conversion *how, const char 
 /* For FLAG_LEFT: writes blanks after the text that began when out->count was start. */
 void trax_put_suffix(struct sink *out, const struct conversion *how, int start);
 
-/* Formats the arguments and returns out->count, or -1 at a wide character that there is not. A conversion that is
-   unknown stops the program, as does one of a double if format_double is NULL: the linker then drops the code. */
+/* Formats the arguments and returns out->count, or -1 for a wide character that cannot be encoded. An unknown
+   conversion stops the program, as does one of a double if format_double is NULL: the linker then drops the code for
+   doubles. */
 int trax_format(struct sink *out, const char *format, va_list arguments, double_formatter *format_double);
 
 double_formatter trax_format_double;

@@ -35,7 +35,7 @@ struct digits {
   uint32_t limb[LIMBS];
 };
 
-/* In global memory, one for all threads: a third of a stack is too much to ask. */
+/* In global memory, one for all threads: it would take a third of a stack. */
 static struct digits shared_digits;
 static struct ticket_lock digits_lock;
 
@@ -66,7 +66,7 @@ SEPARATE static void start_integer(struct digits *d) {
   d->integer_limbs = (unsigned char)n;
 }
 
-/* Leaves a fraction that is shorter than the mantissa without its integer bits: they fall off the top. */
+/* Starts with the fraction. If it is shorter than the mantissa, the shift drops the integer bits at the top. */
 SEPARATE static void start_fraction(struct digits *d) {
   int bits = -d->exponent; /* after the point */
   int limbs = bits > 0 ? (bits + 31) / 32 : 0;
@@ -180,7 +180,7 @@ SEPARATE static void round_digits(struct digits *d, int count, int places) {
   r->last_nonzero = last_nonzero;
 }
 
-/* The rounded number's digit number i; asked for each i from 0 in turn. */
+/* Digit number i of the rounded number; called for i = 0, 1, 2 ... in turn. */
 static int rounded_digit(struct digits *d, int i) {
   const struct rounded *r = &d->rounded;
   if (r->incremented < 0)

@@ -66,7 +66,7 @@ static size_t copy(FILE *stream, char *to, size_t count, int last) {
   return done;
 }
 
-/* With the lock held: what was written before is not left to be read. */
+/* Switches the stream to reading, which writes out what is in the buffer. With the lock held. */
 static int begin(FILE *stream) {
   return is_stdout(stream) ? EOF : trax_stream_begin_reading(stream);
 }
@@ -76,7 +76,7 @@ size_t fread(void *restrict memory, size_t size, size_t count, FILE *restrict st
     return 0;
   size_t bytes;
   if (__builtin_mul_overflow(size, count, &bytes))
-    bytes = (size_t)-1; /* more than there can be: as far as the stream goes */
+    bytes = (size_t)-1; /* reads to the end of the stream */
   lock_stream(stream);
   size_t done = begin(stream) ? 0 : copy(stream, memory, bytes, EOF);
   unlock_stream(stream);

@@ -63,7 +63,7 @@ static void accept_sign(struct token *token) {
     accept(token);
 }
 
-/* *base: 0 finds it out. */
+/* If *base is 0, the prefix decides, and *base receives the base. */
 static int take_integer(struct token *token, int *base) {
   int count = 0;
   accept_sign(token);

@@ -1,6 +1,5 @@
-/* Streams, and the functions of output to a stream. put.c, printf.c and iprintf.c have these for programs that know
-   only standard output: weak ones, before which the linker takes those here in programs that open files, read, or name
-   stderr. */
+/* Streams, and the functions of output to a stream. put.c, printf.c and iprintf.c define these functions weakly, for
+   standard output alone. The linker takes those here for programs that open files, read, or name stderr. */
 #include "stream.h"
 
 #include <errno.h>

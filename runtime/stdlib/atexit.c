@@ -59,7 +59,7 @@ void __trax_end_program(void) {
   if (trax_atomic_inc(&ended_threads) != trax_threads() - 1)
     return;
   acquire_fence();
-  while (last->used || last->before) { /* what is called may register more */
+  while (last->used || last->before) { /* a called function may register more */
     if (!last->used) {
       last = last->before; /* the memory is of no more use */
       continue;

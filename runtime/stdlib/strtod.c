@@ -211,7 +211,7 @@ static int hexadecimal_digit(char c) {
   return isdigit(c) ? c - '0' : (unsigned)((c | 32) - 'a') < 6 ? (c | 32) - 'a' + 10 : -1;
 }
 
-/* Behind 0x. Returns the end, or NULL if there are no digits. */
+/* Parses what follows 0x. Returns the end, or NULL if there are no digits. */
 SEPARATE static const char *parse_hexadecimal(const char *p, struct binary *b) {
   int digits = 0, point = 0, exponent;
   *b = (struct binary){0, 0, 0};

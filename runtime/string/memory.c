@@ -1,5 +1,5 @@
 /* Memory functions: words where both addresses allow it, else bytes. Copies and fills take sixteen words at a time,
-   then four, then one. The loops are as long as they are written: most calls are about a few words. */
+   then four, then one. The compiler does not unroll them further, since most calls are for a few words. */
 #include <stdint.h>
 #include <string.h>
 

@@ -4,7 +4,7 @@
 
 typedef uint32_t __attribute__((may_alias)) word;
 
-/* Whether a word holds a zero byte: only there does subtracting 1 from each byte borrow into a bit 7 that was clear. */
+/* Whether a word has a zero byte: only in such a byte does subtracting 1 set a bit 7 that was clear. */
 static inline int has_zero_byte(word w) {
   return ((w - 0x01010101) & ~w & 0x80808080) != 0;
 }

@@ -6,7 +6,7 @@
 #include <string.h>
 #include <trax.h>
 
-extern uintptr_t __trax_heap;
+extern uintptr_t __trax_heap, __trax_heap_end;
 static unsigned torn, unaligned, finished;
 
 __attribute__((noinline)) static void check(const unsigned char *block, size_t size, unsigned char mark) {
@@ -45,7 +45,7 @@ int main(void) {
   }
   if (__atomic_fetch_add(&finished, 1, __ATOMIC_ACQ_REL) != trax_threads() - 1)
     return 0;
-  void *volatile whole = malloc(100000); /* all is free again: at the heap's first place */
-  printf("%u %u %d\n", torn, unaligned, (uintptr_t)whole - __trax_heap < 64);
+  void *volatile most = malloc((__trax_heap_end - __trax_heap) / 10 * 9); /* threads keep a few pages */
+  printf("%u %u %d\n", torn, unaligned, most != NULL);
   return 0;
 }

@@ -14,9 +14,6 @@
 // BYTES-SAME: "--defsym=__trax_stack_size=1024"
 // KILO-SAME: "--defsym=__trax_stack_size=16384"
 // MEGA-SAME: "--defsym=__trax_stack_size=2097152"
-// RUN: %clang -### %s -mstack=global -r 2>&1 | FileCheck %s --check-prefix=RELOCATABLE
-// RELOCATABLE: trax-ld"
-// RELOCATABLE-NOT: __trax_stack_size
 
 // RUN: not %clang -c %s -mstack=heap -mstack-size=4x 2>&1 | FileCheck %s --check-prefix=WRONG
 // WRONG: error: unsupported argument 'heap' to option '-mstack=' for target 'trax': there are 'local', 'global' and 'either'

@@ -75,7 +75,7 @@ def simulator():
     outputs = [option("report"), option("stats"), option("signature"), option("explore"), option("profile"),
                option("profile-folded"),
                option("heat"), option("heat-lines"), option("items"), option("lockstep"), option("lockstep-rays"),
-               option("ray-kinds"),
+               option("ray-kinds"), option("ray-cycles"),
                option("series"), option("trace"),
                option("perfetto", *windowed), option("post-mortem"), option("checkpoint"), option("gdb-symbols"),
                lambda path: ["--dump", f"output={path}"]]
@@ -245,7 +245,6 @@ def toolchain():
     outputs_onto(["m.o", "libm2.a", "order", "response"], outputs, "trax-ld", "--error-limit=1", "@response", "-e",
                  "main", "-L.", "-lm2", "--symbol-ordering-file=order")
     pairs_of([lambda path: ["-o", path], option("Map")], "trax-ld", "m.o", "-e", "main")
-    refused(INPUT, "trax-ld", "-r", "m.o", "-o", "./m.o")
     outputs_onto(["n.s", "inc.s"], [lambda path: ["-o", path]], "trax-mc", "n.s")
     outputs_onto(["m.ll"], [lambda path: ["-o", path]], "trax-llc", "m.ll")
     with open("inc.s") as file:

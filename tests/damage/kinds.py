@@ -52,7 +52,6 @@ KINDS = {
         each(
             ["trax-ld", "{x}", "-o", "{o}"],
             ["-e", "entry"],
-            ["-r"],
             ["--gc-sections", "-e", "main", "-Map={o}.map"],
             ["--print-stack", "-e", "main"],
         ),

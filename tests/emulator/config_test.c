@@ -304,12 +304,12 @@ static void test_bad_files(void **state) {
       {"chip: { tms = true; };", "chip.tms is true; allowed are 1 to 64 TMs"},
       {"chip: { tms = [1, 2]; };", "chip.tms is a list"},
       {"chip: { tms = (); };", "chip.tms is a list"},
-      {"chip: { tms = { a = 1; }; };", "chip.tms is a section"},
+      {"chip: { tms = { a = 1; }; };", "chip.tms is a component"},
       {"chip: { tps = 4; };", "unknown key \"chip.tps\""},
-      {"chip = 4;", "chip is 4; it must be a section"},
+      {"chip = 4;", "chip is 4; it must be a component"},
       {"tms = 4;", "did you mean chip.tms?"},
-      {"chips: { tms = 4; };", ":1: unknown section \"chips\"; did you mean chip?"},
-      {"nonsense: { };", "unknown section \"nonsense\""},
+      {"chips: { tms = 4; };", ":1: unknown component \"chips\"; did you mean chip?"},
+      {"nonsense: { };", "unknown component \"nonsense\""},
       {"special: { pipelined = 1; };", "special.pipelined is 1; allowed are true and false"},
       {"special: { pipelined = \"yes\"; };", "special.pipelined is \"yes\", a string; allowed are true and false"},
       {"icache: { bytes = 3000; };", "powers of two"},
@@ -332,7 +332,7 @@ static void test_bad_files(void **state) {
   char deep[3 * 20000 + 1];
   for (size_t i = 0; i < sizeof deep - 1; i++)
     deep[i] = "a:{"[i % 3];
-  load_text(deep, sizeof deep - 1, ":1: sections are nested too deeply");
+  load_text(deep, sizeof deep - 1, ":1: components are nested too deeply");
   char *large = malloc(2 << 20);
   memset(large, ' ', 2 << 20);
   load_text(large, 2 << 20, "more than 1048576 bytes");
@@ -369,7 +369,7 @@ static void test_every_key_wrong_in_a_file(void **state) {
     for (size_t j = 0; j < sizeof values / sizeof *values; ++j) {
       char text[256], place[128];
       const int length =
-          snprintf(text, sizeof text, "# %s\n%s: {\n  %s = %s;\n};\n", key->unit, key->section, key->key, values[j]);
+          snprintf(text, sizeof text, "# %s\n%s: {\n  %s = %s;\n};\n", key->unit, key->component, key->key, values[j]);
       snprintf(place, sizeof place, ":3: %s is %.4s", key->name,
                *values[j] == '"'           ? "\"x\""
                : strchr("[({", *values[j]) ? "a"
@@ -383,8 +383,8 @@ static void test_every_key_wrong_in_a_file(void **state) {
                        : "; allowed are ");
     }
     char text[256], suggestion[128];
-    const int length = snprintf(text, sizeof text, "\n%s: { %sx = 1; };", key->section, key->key);
-    snprintf(suggestion, sizeof suggestion, ":2: unknown key \"%s.%sx\"; did you mean %s?", key->section, key->key,
+    const int length = snprintf(text, sizeof text, "\n%s: { %sx = 1; };", key->component, key->key);
+    snprintf(suggestion, sizeof suggestion, ":2: unknown key \"%s.%sx\"; did you mean %s?", key->component, key->key,
              key->name);
     load_text(text, (size_t)length, suggestion);
   }

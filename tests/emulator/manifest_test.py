@@ -12,16 +12,12 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import checking  # noqa: E402
+from checking import check  # noqa: E402
+
 BIN, SOURCE = map(pathlib.Path, sys.argv[1:])
 BOX = SOURCE / "tests/render/box.obj"
-failures = 0
-
-
-def check(passed, *what):
-    global failures
-    if not passed:
-        failures += 1
-        print("FAILED:", *what)
 
 
 def run(*command):
@@ -294,7 +290,7 @@ def main():
             scratch.mkdir()
             test(scratch)
             shutil.rmtree(scratch)
-    return failures != 0
+    return checking.failures != 0
 
 
 if __name__ == "__main__":

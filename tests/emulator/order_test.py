@@ -11,16 +11,12 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import checking  # noqa: E402
+from checking import check  # noqa: E402
+
 BIN, SOURCE = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
 OWN = SOURCE / "tests/emulator/order"
-failures = 0
-
-
-def check(condition, *message):
-    global failures
-    if not condition:
-        failures += 1
-        print("FAILED:", *message)
 
 
 def build(scratch, source, *flags):
@@ -142,7 +138,7 @@ def main():
     for test in (messages, others, litmus, programs, picture, refused):
         with tempfile.TemporaryDirectory() as scratch:
             test(pathlib.Path(scratch))
-    return failures != 0
+    return checking.failures != 0
 
 
 if __name__ == "__main__":

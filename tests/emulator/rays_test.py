@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """rays_test.py TRAX_SIM RAYS: --ray-kinds and --lockstep-rays against the run's trace and statistics, from both engines
-and on machines with and without a second-level cache."""
+and on machines with and without a second-level cache; --ray-cycles against --ray-kinds."""
 import collections
 import csv
 import json
@@ -141,6 +141,34 @@ def check_lockstep(directory, made):
         equal(row["utilisation"], f"{executed / (width * slots):.6f}", kind, width)
 
 
+def check_cycles(directory, stats, machine):
+    """--ray-cycles has the thread-cycles of --ray-kinds, from any number of host threads, and changes nothing."""
+    kinds = {row["kind"]: row for row in rows(directory / "kinds")}
+    for threads in (1, 2):
+        place = directory / str(threads)
+        same = run(place, "fast", *machine, "--ray-cycles", "cycles", "--host-threads", str(threads))
+        for name in ("cycles", "causes", "memory", "rays_by_kind"):
+            equal(same[name], stats[name], "with --ray-cycles", name)
+        table = rows(place / "cycles")
+        equal([(row["part"], row["weight"], row["kind"]) for row in table],
+              [("all", "1", kind) for kind in KINDS + ["none"]], "rows of --ray-cycles")
+        for row in table:
+            for what in ("rays", "thread_cycles", *stats["causes"]):
+                equal(int(row[what]), int(kinds[row["kind"]][what]), what, "of", row["kind"], threads, "host threads")
+
+
+def check_refusals(directory):
+    """Only the fast engine counts them, and from the beginning on."""
+    run(directory, "fast", "--checkpoint", "state", "--checkpoint-at", "100")
+    for words, message in ((["--engine", "reference"], "--ray-cycles needs the engine fast"),
+                           (["--engine", "functional"], "--ray-cycles needs the engine fast"),
+                           (["--resume", "state"], "--resume: the cycles of rays before the checkpoint are not known")):
+        result = subprocess.run([SIM, *words, "--ray-cycles", "refused", "--alloc", f"results={4 * ITEMS}", PROGRAM],
+                                cwd=directory, capture_output=True, text=True, timeout=120)
+        check(result.returncode == 1 and message in result.stderr, words, result.returncode, result.stderr)
+        check(not (directory / "refused").exists(), words, "left an output")
+
+
 def main(directory):
     files = ["--ray-kinds", "kinds", "--lockstep-rays", "lockstep", "--trace", "trace"]
     chip = ["--set", "chip.tms=2", "--set", "chip.tps_per_tm=8"]
@@ -163,8 +191,10 @@ def main(directory):
         counts, made = read_trace(directory / f"{name}-fast" / "trace")
         check_kinds(directory / f"{name}-fast", stats, counts, line_bytes)
         check_lockstep(directory / f"{name}-fast", made)
+        check_cycles(directory / f"{name}-fast", stats, machine)
         tms = {kind: sum(tm["rays_by_kind"][kind] for tm in stats["tms"]) for kind in KINDS}
         equal(tms, stats["rays_by_kind"], "TMs")
+    check_refusals(directory / "refusals")
     series = run(directory / "series", "fast", *chip, "--series", "series", "--series-interval", "100")
     table = [row for row in rows(directory / "series" / "series") if row["tm"] == "all"]
     for kind in KINDS:

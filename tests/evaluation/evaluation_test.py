@@ -381,12 +381,11 @@ REFUSED = [
     ('{"name": "x", "mode": "fast"}', '"fast" is unknown; allowed are "exact", "quick"'),
     ('{"name": "x", "series": -1}', "series: expected"),
     ('{"name": "x", "mode": "quick", "series": 100}',
-     'mode: series, lockstep, ray_kinds, workloads, error, hits and programs that are compiled or converted need '
-     '"exact"'
+     'mode: series, lockstep, ray_kinds, error, hits and programs that are compiled or converted need "exact"'
      ),
     ('{"name": "x", "ray_kinds": 1}', "ray_kinds: expected true or false"),
     ('{"name": "x", "ray_kinds": true, "programs": ["ours", "era"]}',
-     'programs: workloads and ray_kinds need programs with "rays": true, which '),
+     'programs: workloads, ray_kinds and ray_cycles need programs with "rays": true, which '),
     ('{"name": "x", "workloads": ["fog"]}', 'workloads: "fog" is no workload; allowed are "diffuse", "glass"'),
     ('{"name": "x", "workloads": ["../none.json"]}', '"../none.json" is no workload'),
     ('{"name": "x", "workloads": []}', "workloads: expected a list of texts"),

@@ -16,6 +16,10 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import checking  # noqa: E402
+from checking import check  # noqa: E402
+
 SIDE, ROOFS = 24, 5
 WIDTH, HEIGHT = 96, 64
 BUNNY = "/usr/share/glmark2/models/bunny.obj"
@@ -24,14 +28,6 @@ CACHE, STACK = 4096, 512  # bytes
 OTHER_TESTS = {"triangles-moller-trumbore", "triangles-edges", "triangles-fast-math",
                "triangles-moller-trumbore-fast-math", "triangles-transform"}
 SMALL = ("order", "triangles", "era")  # whose programs fit in the instruction cache
-failures = 0
-
-
-def check(condition, text):
-    global failures
-    if not condition:
-        failures += 1
-        print(f"FAILED: {text}", flush=True)
 
 
 def write_scene(path):
@@ -111,7 +107,7 @@ def main():
                 same or name == "era" or
                 name in OTHER_TESTS and values["picture.pixels_that_differ"] <= WIDTH * HEIGHT // 100,
                 f"{name}, {scene}: another picture")
-    return 1 if failures else 0
+    return 1 if checking.failures else 0
 
 
 if __name__ == "__main__":

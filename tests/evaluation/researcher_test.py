@@ -145,7 +145,7 @@ REFUSED = [
     ("rings.json", {"convert": ["./none"]}, "convert: ./none: No such file"),
     ("rings.json", {"convert": ["python3", "-c", "raise SystemExit('not today')"]}, "convert: not today"),
     ("rings.json", {"convert": ["rm", "manifest.json"]}, "convert: the manifest or a file of it cannot be read"),
-    ("rings.json", {"rays": False}, 'workloads and ray_kinds need programs with "rays": true'),
+    ("rings.json", {"rays": False}, 'workloads, ray_kinds and ray_cycles need programs with "rays": true'),
     ("steps.json", {"mesh": "a"}, 'unknown key "mesh", did you mean "meshes"'),
     ("steps.json", {"meshes": []}, "meshes: expected a list of files"),
     ("steps.json", {"meshes": ["none.obj"]}, "neither none.obj nor none.obj.xz"),

@@ -26,13 +26,10 @@
    RUN: not %trax_ld -e main main.o part.o -L%runtime -lc --defsym=__trax_stack_size=4096 -o out 2>&1 | FileCheck %s --check-prefix=NO-SIZE
    NO-SIZE: trax-ld: error: part.o: is for stacks in local memory, but __trax_stack_size is defined
 
-   -r keeps what all of them say.
-   RUN: %trax_ld -r main-global.o part-either.o -o one.o && llvm-readelf -h one.o | FileCheck %s --check-prefix=MERGED
-   RUN: %trax_ld -r part-either.o main-global.o -o one.o && llvm-readelf -h one.o | FileCheck %s --check-prefix=MERGED
-   RUN: %clang -mstack=global one.o -o out && llvm-readelf -h out | FileCheck %s --check-prefix=MERGED && %trax_sim out
+   The program says what all of them say.
+   RUN: %clang -mstack=global main-global.o part-either.o -o out && llvm-readelf -h out | FileCheck %s --check-prefix=MERGED && %trax_sim out
+   RUN: %clang -mstack=global part-either.o main-global.o -o out && llvm-readelf -h out | FileCheck %s --check-prefix=MERGED && %trax_sim out
    MERGED: Flags: 0x2
-   RUN: not %trax_ld -r main.o part-global.o -o two.o 2>&1 | FileCheck %s --check-prefix=LOCAL
-   RUN: not test -e two.o
 
    What belongs together, and objects for either place, which all of the library's are.
    RUN: %clang main.o part.o -o out && %trax_sim out && %clang main.o part-either.o -o out && %trax_sim out

@@ -48,6 +48,9 @@ pkg-config --cflags --libs trax-emulator >flags.txt
 quietly cc install/host.c @flags.txt -o by-pkg-config
 expect "sum 4950" ./by-pkg-config host/device.elf
 
+quietly apt-get install -q -y --no-install-recommends python3-cffi python3-numpy
+expect "sum 4950" python3 -c 'import trax; print(trax.Machine("host/device.elf").run().output); trax.compile("hello.c")'
+
 quietly apt-get install -q -y --no-install-recommends lintian
 lintian --allow-root --fail-on error ./trax_*.deb || { echo "FAILED: lintian has errors" >&2; exit 1; }
 quietly apt-get remove -q -y trax

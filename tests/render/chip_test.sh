@@ -1,18 +1,9 @@
 #!/bin/sh
 # chip_test.sh BIN: the program and the order of nodes follow the caches of the chip that is asked for, and with the paper's
 # caches they are as they are without a word of them.
-set -eu
+. "$(dirname "$0")/head.sh"
+set -e
 export LC_ALL=C
-bin=$1
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work"
-export XDG_CACHE_HOME="$work/cache"
-failures=0
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
 
 # A bumpy ground of 3,200 triangles.
 awk 'BEGIN {

@@ -1,17 +1,8 @@
 #!/bin/sh
 # holes_test.sh BIN: --id-picture shows what the picture shows: not back faces with --one-sided, and not what is cut out.
-set -eu
+. "$(dirname "$0")/head.sh"
+set -e
 export LC_ALL=C
-bin=$1
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work"
-export XDG_CACHE_HOME="$work/cache"
-failures=0
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
 
 # A wall, and before it a smaller one: turned away, or of a material that is cut out.
 wall() { # SIZE Z

@@ -1,18 +1,24 @@
 #!/usr/bin/env python3
-"""Breaks the shading in the device program, one line at a time, in a copy, and says whether the tests of shading notice.
+"""Breaks the shading in the device program, one line at a time, and says whether the tests of shading notice.
 
-    mutants.py SCRATCH [--build build] [--only NAME]
+    mutants.py [SCRATCH] [--build build] [--only EXPRESSION]
+    mutants.py --stale             only lists texts that are not there
 
-Needs a finished build, which is not changed. Embree's pictures stay as they are. Exit status 0 if every mutant is noticed.
+Embree's pictures stay as they are.
 """
 
+import pathlib
 import subprocess
 import sys
 
-from mutation import ROOT, command, main
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from mutation import ROOT, Mutant, compile_as, link_as, main  # noqa: E402
+from device_copy import DEVICE, changed_copy  # noqa: E402
 
+COMPILED = "tests/render/CMakeFiles/render-light-test.dir/light_test.c.o"
 TESTS = [("render-light-test", "tests/render/light_test.c", []),
          ("render-shading-test", "raytracer/device/main.c", ["-Dmain=trax_twin", "-DTRAX_TWIN"])]
+SECONDS = 120
 
 # Name, file of raytracer/device, text, what it becomes.
 MUTANTS = [
@@ -20,13 +26,18 @@ MUTANTS = [
     ("sampler-pascal", "sampler.h", "x ^= x >> 2 & 0x3333u;", ""),
     ("sampler-dimension", "sampler.h", "hash_word(key + dimension * 0x9E3779B9u)", "hash_word(key)"),
     ("sampler-middle", "sampler.h", "^ first.x ^ 0x80000000u", "^ first.x"),
-    ("disk-octants", "material.h", "steep ? (struct place){across, along} : (struct place){along, across}", "(struct place){along, across}"),
+    ("disk-octants", "material.h", "steep ? (struct place){across, along} : (struct place){along, across}",
+     "(struct place){along, across}"),
     ("fresnel-half", "material.h", "return 0.5f * (across * across + along * along);", "return across * across;"),
-    ("total-reflection", "material.h", "if (float_bits(square) <= 0)\n    return 1;", "if (float_bits(square) <= 0)\n    return 0;"),
-    ("mirror-length", "material.h", "times(2 * dot(normal, view), normal)", "times(1.999f * dot(normal, view), normal)"),
-    ("mirror-inwards", "material.h", "return float_bits(dot(at->flat, way)) > 0 ? way : reflected(at->view, at->flat);", "return way;"),
+    ("total-reflection", "material.h", "if (float_bits(square) <= 0)\n    return 1;",
+     "if (float_bits(square) <= 0)\n    return 0;"),
+    ("mirror-length", "material.h", "times(2 * dot(normal, view), normal)",
+     "times(1.999f * dot(normal, view), normal)"),
+    ("mirror-inwards", "material.h", "return float_bits(dot(at->flat, way)) > 0 ? way : reflected(at->view, at->flat);",
+     "return way;"),
     ("glass-ratio", "path.h", "bool turned = surface->turned;", "bool turned = !surface->turned;"),
-    ("glass-tint", "path.h", "    if (through)\n      path->next_throughput", "    if (!through)\n      path->next_throughput"),
+    ("glass-tint", "path.h", "    if (through)\n      path->next_throughput",
+     "    if (!through)\n      path->next_throughput"),
     ("glass-origin", "path.h", "through ? surface->behind : surface->start", "surface->start"),
     ("schlick-power", "material.h", "return square * square * rest;", "return square * square;"),
     ("facets-square", "material.h", "square_roughness / (shape * shape)", "square_roughness / shape"),
@@ -59,41 +70,35 @@ MUTANTS = [
     ("roulette", "path.h", "throughput = times(1 / chance, throughput);", ""),
     ("background", "path.h", "add_to(&path->light, path->throughput, load_vector(RUN_PATH(run)->background));",
      "path->light = plus(path->light, load_vector(RUN_PATH(run)->background));"),
-    ("ambient", "path.h", "float ambient = run->ambient + dot(path->at.normal, load_vector(run->fill));", "float ambient = run->ambient;"),
+    ("ambient", "path.h", "float ambient = run->ambient + dot(path->at.normal, load_vector(run->fill));",
+     "float ambient = run->ambient;"),
     ("last-sample", "path.h", "++path->sample < run->samples", "++path->sample + 1 < run->samples"),
 ]
 
 
-def make(folder, build):
-    """As ninja links the tests, with what is compiled before the archives, so that it takes the place of what is in these."""
-    for test, program, macros in TESTS:
-        compiled = folder / f"{test}.o"
-        compile_words = command(build, "tests/render/CMakeFiles/render-light-test.dir/light_test.c.o")
-        compile_words[compile_words.index(str(ROOT / "tests/render/light_test.c"))] = folder / program
-        compile_words[compile_words.index("-MF") + 1] = "/dev/null"
-        compile_words[compile_words.index("-o") + 1] = compiled
-        subprocess.run([*compile_words, *macros, "-ffp-contract=off", "-fcommon", "-w"], check=True, cwd=build)
-        words = command(build, f"tests/bin/{test}")
-        if test == "render-light-test":
-            words = [word for word in words if not word.endswith("light_test.c.o")]
-        words[words.index("-o") + 1] = folder / test
-        at = next(i for i, word in enumerate(words) if str(word).endswith(".a"))
-        subprocess.run([*words[:at], compiled, *words[at:]], check=True, cwd=build)
+def failures(program):
+    """Which tests of the program fail."""
+    try:
+        run = subprocess.run([program], capture_output=True, text=True, timeout=SECONDS, check=False)
+    except subprocess.TimeoutExpired:
+        return [f"{program.name} does not end"]
+    failed = [line.split("] ")[1] for line in run.stdout.splitlines() if line.startswith("[  FAILED  ]")]
+    return failed + ([f"{program.name} ends by signal {-run.returncode}"] if run.returncode < 0 else [])
 
 
-def said(folder):
-    """Which tests fail."""
+def noticed(folder, build, mutant):
+    """Which tests fail in a copy of the device program."""
+    changed_copy(folder, "tests/render", mutant)
     failed = []
-    for test, _, _ in TESTS:
-        try:
-            run = subprocess.run([folder / test], capture_output=True, text=True, timeout=120)
-            failed += [line.split("] ")[1] for line in run.stdout.splitlines() if line.startswith("[  FAILED  ]")]
-            if run.returncode < 0:
-                failed.append(f"{test} ends by signal {-run.returncode}")
-        except subprocess.TimeoutExpired:
-            failed.append(f"{test} does not end")
+    for test, program, macros in TESTS:
+        made = folder / f"{test}.o"
+        compile_as(build, COMPILED, ROOT / "tests/render/light_test.c", folder / program, made, *macros,
+                   "-ffp-contract=off", "-fcommon")
+        link_as(build, f"tests/bin/{test}", folder / test, [made], without=["light_test.c.o"])
+        failed += failures(folder / test)
     return failed
 
 
 if __name__ == "__main__":
-    sys.exit(main(__doc__, "tests/render", MUTANTS, make, said))
+    LIST = [Mutant(file, text, other, name) for name, file, text, other in MUTANTS]
+    sys.exit(main(__doc__, DEVICE, LIST, noticed))

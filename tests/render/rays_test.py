@@ -28,7 +28,9 @@ def render(*words):
 
 
 def present(stats):
-    check(sum(stats["rays_by_kind"].values()) == stats["rays"], "kinds do not add up to", stats["rays"], stats["rays_by_kind"])
+    check(
+        sum(stats["rays_by_kind"].values()) == stats["rays"], "kinds do not add up to", stats["rays"],
+        stats["rays_by_kind"])
     return {kind for kind in KINDS if stats["rays_by_kind"][kind]}
 
 
@@ -51,25 +53,32 @@ def count_kinds():
         kinds = stats["rays_by_kind"]
         check(kinds["primary"] == PIXELS * samples, words, "primary rays", kinds["primary"])
         general, same = render("box.obj", *words, "--no-specialise")
-        check(general["rays_by_kind"] == kinds and same == picture, words, "in general", general["rays_by_kind"], "not", kinds)
+        check(general["rays_by_kind"] == kinds and same == picture, words, "in general", general["rays_by_kind"], "not",
+              kinds)
         native = call("trax-render", "box.obj", *words, "--size", SIZE, "--engine", "native", "-o", "n.png").stdout
         check(re.search(rf"^rays +{stats['rays']} ", native, re.M), words, "natively", native)
         if "--occlusion" in words:  # flat surfaces: each that is seen sends all of them
             plain, _ = render("box.obj")
-            check(kinds["shadow"] == plain["rays_by_kind"]["shadow"] and kinds["occlusion"] % 5 == 0 and kinds["occlusion"] >= 5 * kinds["shadow"], kinds)
+            check(
+                kinds["shadow"] == plain["rays_by_kind"]["shadow"] and kinds["occlusion"] % 5 == 0 and
+                kinds["occlusion"] >= 5 * kinds["shadow"], kinds)
 
 
 def mark_rays():
-    """The paper's workload counts a pixel's rays with one instruction, as ever; with --mark-rays each where it begins."""
+    """The paper's workload counts a pixel's rays with one instruction, as ever; with --mark-rays each where it
+    begins."""
     for words in ([], ["--samples", "2"], ["--smooth", "--normals", "smooth"], ["--no-shadows"]):
         plain, picture = render("box.obj", *words)
         marked, same = render("box.obj", *words, "--mark-rays")
         samples = 2 if "--samples" in words else 1
         traps = [stats["instructions_by_operation"]["trap"] for stats in (plain, marked)]
         check(traps == [PIXELS * (samples + 1), PIXELS + plain["rays"]], words, "traps", traps)
-        check(same == picture and marked["rays_by_kind"] == plain["rays_by_kind"], words, "the marked program has another picture, or rays")
+        check(same == picture and marked["rays_by_kind"] == plain["rays_by_kind"], words,
+              "the marked program has another picture, or rays")
         # A trap a ray, and what registers for it cost: 2.6 % where each pixel has one ray.
-        check(abs(marked["instructions"] / plain["instructions"] - 1) < 0.03, words, marked["instructions"], plain["instructions"])
+        check(
+            abs(marked["instructions"] / plain["instructions"] - 1) < 0.03, words, marked["instructions"],
+            plain["instructions"])
     for words, least, most in ((["--mark-rays"], 0.05, 0.3), ([], 0.9, 1)):
         call("trax-render", "box.obj", *words, "--size", SIZE, "--config", "1x32", "--prepare", "run", "--quiet")
         call("trax-sim", "run/manifest.json", "--quiet", "--ray-kinds", "kinds.csv")
@@ -86,13 +95,23 @@ def read_pixel(path):
 
 
 def corner_occlusion():
-    """On a floor, at a distance from a wall: of cosine-distributed directions, whose shadows on the floor are evenly spread over a disk, those are blocked
-    that reach the wall."""
-    pathlib.Path("corner.obj").write_text("v -100 0 -100\nv 100 0 -100\nv 100 0 100\nv -100 0 100\nf 1 2 3 4\nv 0 0 -100\nv 0 100 -100\nv 0 100 100\nv 0 0 100\nf 5 6 7 8\n")
+    """On a floor, at a distance from a wall: of cosine-distributed directions, whose shadows on the floor are evenly
+    spread over a disk, those are blocked that reach the wall."""
+    pathlib.Path("corner.obj").write_text(
+        "v -100 0 -100\nv 100 0 -100\nv 100 0 100\nv -100 0 100\nf 1 2 3 4\n"
+        "v 0 0 -100\nv 0 100 -100\nv 0 100 100\nv 0 0 100\nf 5 6 7 8\n"
+    )
     diagonal = math.sqrt(200**2 + 100**2 + 200**2)
     for distance, reach in ((0.5, 0.1), (9, 0.04), (9, 0.1), (50, 0.1)):
-        pathlib.Path("corner.view").write_text(f"eye = [{float(distance)}, 50.0, 0.0];\ndirection = [0.0, -1.0, 0.0];\nup = [0.0, 0.0, -1.0];\nfov = 0.01;\nlight = [{float(distance)}, 60.0, 0.0];\n")
-        words = ["corner.obj", "--view", "corner.view", "--size", "1x1", "--ambient", "1", "--engine", "native", "--quiet", "--samples", "16"]
+        pathlib.Path("corner.view").write_text(
+            f"eye = [{float(distance)}, 50.0, 0.0];\ndirection = [0.0, -1.0, 0.0];\n"
+            "up = [0.0, 0.0, -1.0];\nfov = 0.01;\n"
+            f"light = [{float(distance)}, 60.0, 0.0];\n"
+        )
+        words = [
+            "corner.obj", "--view", "corner.view", "--size", "1x1", "--ambient", "1", "--engine", "native", "--quiet",
+            "--samples", "16"
+        ]
         call("trax-render", *words, "-o", "open.pfm")
         call("trax-render", *words, "--occlusion", "64", "--occlusion-reach", reach, "-o", "occluded.pfm")
         ratio = read_pixel(pathlib.Path("occluded.pfm"))[0] / read_pixel(pathlib.Path("open.pfm"))[0]
@@ -103,9 +122,13 @@ def corner_occlusion():
 
 def compare_occlusion():
     """With everything else that a picture may have: the same bits from all three programs, and Embree's picture."""
-    for parts, words in ((0, []), (63, []), (63, ["--samples", "4", "--smooth"]), (63, ["--one-sided", "--float", "--seed", "7"])):
+    for parts, words in ((0, []), (63, []), (63, ["--samples", "4",
+                                                  "--smooth"]), (63, ["--one-sided", "--float", "--seed", "7"])):
         call("../tests/bin/render-gallery", "made", parts)
-        words = ["made/gallery.trax", *words, "--occlusion", "4", "--ambient", "0.6", "--occlusion-reach", "0.3", "--size", "24x17", "--config", "1x32"]
+        words = [
+            "made/gallery.trax", *words, "--occlusion", "4", "--ambient", "0.6", "--occlusion-reach", "0.3", "--size",
+            "24x17", "--config", "1x32"
+        ]
         result = call("trax-render", *words, "--compare", "-o", "x.png")
         check(re.search("^twin        identical in every bit$", result.stdout, re.M), parts, words, result.stdout)
         call("trax-render", *words, "--no-specialise", "-o", "y.png")
@@ -116,12 +139,19 @@ def compare_occlusion():
 
 
 def refusals():
-    for words, reason in (
-        (["--occlusion", "65"], "64"), (["--occlusion", "0"], "1 to 64"), (["--occlusion", "2", "--paths", "2"], "--paths"),
-        (["--occlusion", "2", "--no-shadows"], "--no-shadows"), (["--occlusion", "64", "--samples", "1025"], "65536 points"),
-        (["--occlusion-reach", "0.5"], "without --occlusion"), (["--occlusion", "2", "--occlusion-reach", "1.5"], "above 0 to 1"),
-        (["--seed", "3"], "--occlusion"), (["--mark-rays", "--no-specialise"], "--no-specialise"), (["--mark-rays", "--engine", "native"], "emulator"),
-        (["--mark-rays", "--program", "box.obj"], "--program")):
+    for words, reason in ((["--occlusion",
+                            "65"], "64"), (["--occlusion",
+                                            "0"], "1 to 64"), (["--occlusion", "2", "--paths",
+                                                                "2"], "--paths"), (["--occlusion", "2",
+                                                                                    "--no-shadows"], "--no-shadows"),
+                          (["--occlusion", "64", "--samples",
+                            "1025"], "65536 points"), (["--occlusion-reach", "0.5"], "without --occlusion"),
+                          (["--occlusion", "2", "--occlusion-reach",
+                            "1.5"], "above 0 to 1"), (["--seed",
+                                                       "3"], "--occlusion"), (["--mark-rays",
+                                                                               "--no-specialise"], "--no-specialise"),
+                          (["--mark-rays", "--engine", "native"], "emulator"), (["--mark-rays", "--program",
+                                                                                 "box.obj"], "--program")):
         result = call("trax-render", "box.obj", *words, "-o", "no.png", status=1)
         check(reason in result.stderr and not os.path.exists("no.png"), words, result.stderr)
 
@@ -129,7 +159,6 @@ def refusals():
 with tempfile.TemporaryDirectory() as folder:
     source = pathlib.Path(__file__).resolve().parent
     os.chdir(folder)
-    os.environ["XDG_CACHE_HOME"] = f"{folder}/cache"
     for name in ("box.obj", "box.mtl"):
         pathlib.Path(name).write_text((source / name).read_text())
     count_kinds()

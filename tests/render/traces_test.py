@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""traces_test.py SOURCE BIN: --memory-trace and --ray-trace against the statistics and against each other's formats, by the scripts of
-docs/traces.md."""
+"""traces_test.py SOURCE BIN: --memory-trace and --ray-trace against the statistics and against each other's formats, by
+the scripts of docs/traces.md."""
 import collections
 import csv
 import functools
@@ -50,7 +50,10 @@ def load(path):
 
 
 def without_host(stats):
-    return {key: value for key, value in stats.items() if not key.startswith(("host_", "instructions_per_host", "fast_path"))}
+    return {
+        key: value
+        for key, value in stats.items() if not key.startswith(("host_", "instructions_per_host", "fast_path"))
+    }
 
 
 # --- memory ---
@@ -78,7 +81,9 @@ def check_memory(reader, name, keys):
         others += [["--host-threads", "3"], ["--profile", "profile.txt"]]
     for engine in others:
         call(*sim, *engine, "--memory-trace", "other.bin")
-        check(pathlib.Path("fast.bin").read_bytes() == pathlib.Path("other.bin").read_bytes(), name, "differs with", engine)
+        check(
+            pathlib.Path("fast.bin").read_bytes() == pathlib.Path("other.bin").read_bytes(), name, "differs with",
+            engine)
 
     transfers, memory = list(reader.read("fast.bin")), load("with.json")["memory"]
     check(len(transfers) == memory["transfers"] and len(transfers) > 100, name, len(transfers), memory["transfers"])
@@ -98,8 +103,8 @@ def check_memory(reader, name, keys):
     check_places(name, sim, reader, transfers)
     call(*sim, "--memory-trace", "fast.csv")
     with open("fast.csv", newline="") as file:
-        rows = [(*map(int, (row["cycle"], row["address"], row["bytes"], row["tm"])), reader.KINDS.index(row["kind"]), int(row["channel"]))
-                for row in csv.DictReader(file)]
+        rows = [(*map(int, (row["cycle"], row["address"], row["bytes"], row["tm"])), reader.KINDS.index(row["kind"]),
+                 int(row["channel"])) for row in csv.DictReader(file)]
     check(rows == transfers, name, "CSV and binary differ")
     check_others(name, sim, keys, transfers)
 
@@ -118,18 +123,34 @@ def check_places(name, sim, reader, transfers):
 
     tms = load("with.json")["tms"]
     if "l2" not in name:
-        lines = table("heat.csv", address=lambda text: int(text, 16), atomics=int, loads=int, hits=int, misses=int, merged=int)
-        for kind, count in (("atomic", lambda line: line["atomics"] if name != "dram" else 0),  # which moves nothing in DRAM
-                            ("load", lambda line: line["loads"] - line["hits"] - line["misses"] - line["merged"]), ("data_line", lambda line: line["misses"])):
-            check(asked(kind, lambda transfer: transfer.address // 64 * 64) == {line["address"]: count(line) for line in lines if count(line)}, name, kind, "by address")
+        lines = table("heat.csv",
+                      address=lambda text: int(text, 16),
+                      atomics=int,
+                      loads=int,
+                      hits=int,
+                      misses=int,
+                      merged=int)
+        counts = {
+            "atomic": lambda line: line["atomics"] if name != "dram" else 0,  # which moves nothing in DRAM
+            "load": lambda line: line["loads"] - line["hits"] - line["misses"] - line["merged"],
+            "data_line": lambda line: line["misses"]}
+        for kind, count in counts.items():
+            counted = {line["address"]: count(line) for line in lines if count(line)}
+            check(asked(kind, lambda transfer: transfer.address // 64 * 64) == counted, name, kind, "by address")
         for kind, cache in (("data_line", "dcache"), ("instruction_line", "icache")):
-            check(asked(kind, lambda transfer: transfer.tm) == {tm["tm"]: tm[cache]["misses"] for tm in tms}, name, cache, "misses of TMs")
+            check(
+                asked(kind, lambda transfer: transfer.tm) == {tm["tm"]: tm[cache]["misses"]
+                                                              for tm in tms}, name, cache, "misses of TMs")
     if "dram" not in name:  # there the statistics count a transfer when the DRAM serves it
         moved = collections.Counter()
         for transfer in transfers:
             moved[transfer.cycle // 97] += transfer.bytes
-        rows = [row for row in table("series.csv", tm=str, begin=int, **{"memory.bytes": lambda text: int(text or 0)}) if row["tm"] == "all"]
-        check({row["begin"] // 97: row["memory.bytes"] for row in rows if row["memory.bytes"]} == moved, name, "bytes of intervals")
+        rows = [
+            row for row in table("series.csv", tm=str, begin=int, **{"memory.bytes": lambda text: int(text or 0)})
+            if row["tm"] == "all"
+        ]
+        check({row["begin"] // 97: row["memory.bytes"]
+               for row in rows if row["memory.bytes"]} == moved, name, "bytes of intervals")
 
 
 def check_others(name, sim, keys, transfers):
@@ -145,22 +166,28 @@ def check_others(name, sim, keys, transfers):
     pathlib.Path("machine.cfg").write_text(machine)
 
     def convert(form, pattern, status=0):
-        done = subprocess.run([sys.executable, "memory_trace_for.py", form, "fast.bin", "machine.cfg"], capture_output=True, text=True)
+        done = subprocess.run([sys.executable, "memory_trace_for.py", form, "fast.bin", "machine.cfg"],
+                              capture_output=True,
+                              text=True)
         lines = [re.fullmatch(pattern, line) for line in done.stdout.splitlines()]
         check(done.returncode == status and all(lines), name, form, done.stderr)
         return lines, done.stderr
 
     lines, _ = convert("dramsim3", r"0x([0-9A-F]+) (READ|WRITE) (\d+)")
-    check([(line[2] == "WRITE", int(line[1], 16), int(line[3])) for line in lines] ==
-          [(write, address, -(-cycle * ticks[0] // ticks[1])) for write, address, cycle in expected], name, "dramsim3 differs")
+    check([(line[2] == "WRITE", int(line[1], 16), int(line[3])) for line in lines] == [
+        (write, address, -(-cycle * ticks[0] // ticks[1])) for write, address, cycle in expected
+    ], name, "dramsim3 differs")
     lines, _ = convert("loadstore", r"(LD|ST) 0x([0-9a-f]+)")
-    check([(line[1] == "ST", int(line[2], 16)) for line in lines] == [entry[:2] for entry in expected], name, "loadstore differs")
+    check([(line[1] == "ST", int(line[2], 16)) for line in lines] == [entry[:2] for entry in expected], name,
+          "loadstore differs")
     lines, refusal = convert("readwrite", r"(R|W) (\d+),(\d+),(\d+),(\d+),(\d+)", status=0 if dram else 1)
     if not dram:
         check("memory.model = dram" in refusal and not lines, name, refusal)
         return
     check(len(lines) == len(expected), name, "readwrite")
-    fields = (("channel", key("channels")), ("rank", key("ranks")), ("bank", int(re.search(r"ranks = .*\n *banks = (\d+)", machine)[1])), ("row", 2**32), ("column", key("row_bytes") // block))
+    fields = (("channel", key("channels")), ("rank", key("ranks")),
+              ("bank", int(re.search(r"ranks = .*\n *banks = (\d+)",
+                                     machine)[1])), ("row", 2**32), ("column", key("row_bytes") // block))
     mapping = re.search(r'mapping = "(.*)"', machine)[1].split(":")
     check([line[1] == "W" for line in lines] == [write for write, _, _ in expected], name, "reads and writes")
     for line, (_, address, _) in zip(lines, expected):
@@ -172,7 +199,9 @@ def check_others(name, sim, keys, transfers):
 
 def place_of(burst, mapping, counts):
     """(channel, rank, bank, row, column) of a burst, by timing-memory.md, "Mapping"."""
-    place, known, left = dict.fromkeys(counts, 0), dict.fromkeys(counts, 0), {name: count.bit_length() - 1 for name, count in counts.items()}
+    place, known, left = dict.fromkeys(counts, 0), dict.fromkeys(
+        counts, 0), {name: count.bit_length() - 1
+                     for name, count in counts.items()}
     widths = [re.fullmatch(r"([a-z]+)(\d*)", part).groups() for part in mapping]
     for name, width in widths:
         left[name] -= int(width or 0)
@@ -185,9 +214,12 @@ def place_of(burst, mapping, counts):
 
 
 def memory(reader):
-    call("trax-render", *SIZE, "--config", "1x32", "--set", "chip.tms=2", "--set", "chip.tps_per_tm=8", "-o", "m.png", "--keep", "kept", "--memory-trace", "render.csv")
+    call("trax-render", *SIZE, "--config", "1x32", "--set", "chip.tms=2", "--set", "chip.tps_per_tm=8", "-o", "m.png",
+         "--keep", "kept", "--memory-trace", "render.csv")
     call("trax-sim", "kept/manifest.json", "--memory-trace", "sim.csv")
-    check(pathlib.Path("render.csv").read_text() == pathlib.Path("sim.csv").read_text(), "trax-render's and trax-sim's traces differ")
+    check(
+        pathlib.Path("render.csv").read_text() == pathlib.Path("sim.csv").read_text(),
+        "trax-render's and trax-sim's traces differ")
     for name, keys in MACHINES.items():
         check_memory(reader, name, keys)
     for words in (["trax-sim", "kept/manifest.json"], ["trax-render", *SIZE]):
@@ -212,10 +244,14 @@ def check_rays(reader, name, words):
     render = ["trax-render", "mirrors.trax" if name == "mirrors" else "forest.trax", *PICTURE, *words]
     call(*render, "-o", "with.png", "--stats", "with.json", "--ray-trace", "rays.bin")
     call(*render, "-o", "without.png", "--stats", "without.json")
-    check(pathlib.Path("with.png").read_bytes() == pathlib.Path("without.png").read_bytes(), name, "another picture with a trace")
+    check(
+        pathlib.Path("with.png").read_bytes() == pathlib.Path("without.png").read_bytes(), name,
+        "another picture with a trace")
     check(without_host(load("with.json")) == without_host(load("without.json")), name, "other statistics with a trace")
     call(*render, "-o", "native.png", "--engine", "native", "--threads", "3", "--ray-trace", "other.bin")
-    check(pathlib.Path("rays.bin").read_bytes() == pathlib.Path("other.bin").read_bytes(), name, "differs with engine native")
+    check(
+        pathlib.Path("rays.bin").read_bytes() == pathlib.Path("other.bin").read_bytes(), name,
+        "differs with engine native")
 
     rays = list(reader.read("rays.bin"))
     counts = collections.Counter(reader.KINDS[ray.kind] for ray in rays)
@@ -230,20 +266,34 @@ def check_rays(reader, name, words):
     call(*render, "--ray-trace", "rays.csv")
     with open("rays.csv", newline="") as file:
         rows = list(csv.DictReader(file))
-    check([[row["kind"], *(int(row[word]) for word in ("x", "y", "sample", "hit", "nodes", "triangles")), row["triangle"]] for row in rows] ==
-          [[reader.KINDS[ray.kind], ray.x, ray.y, ray.sample, ray.hit, ray.nodes, ray.triangles, "" if ray.triangle == 2**32 - 1 else str(ray.triangle)] for ray in rays], name, "CSV and binary differ")
-    places = [f"{what}_{axis}" for what in ("origin", "direction") for axis in "xyz"] + ["begin", "end", "distance", "weight1", "weight2"]
+    check([[
+        row["kind"], *(int(row[word]) for word in ("x", "y", "sample", "hit", "nodes", "triangles")), row["triangle"]
+    ] for row in rows] == [[
+        reader.KINDS[ray.kind], ray.x, ray.y, ray.sample, ray.hit, ray.nodes, ray.triangles,
+        "" if ray.triangle == 2**32 - 1 else str(ray.triangle)
+    ] for ray in rays], name, "CSV and binary differ")
+    places = [f"{what}_{axis}" for what in ("origin", "direction")
+              for axis in "xyz"] + ["begin", "end", "distance", "weight1", "weight2"]
     for row, ray in zip(rows, rays):
         written = [float(row[place] or 0) for place in places]
-        check(all(abs(a - b) <= 1e-8 * abs(a) for a, b in zip(written, (*ray.origin, *ray.direction, *ray.interval, ray.distance, *ray.weights))), name, row, ray)
+        check(
+            all(
+                abs(a - b) <= 1e-8 * abs(a)
+                for a, b in zip(written, (*ray.origin, *ray.direction, *ray.interval, ray.distance, *ray.weights))),
+            name, row, ray)
     return rays
 
 
 def check_way(rays):
-    """Rays from the eye begin there, those to the light where the ray before them hit, and each visits what its pixel's do in --explore."""
-    eye = list(map(float, re.search(r"eye = \[(.*)\]", (SOURCE / "raytracer/views/forest.view").read_text())[1].split(",")))
+    """Rays from the eye begin there, those to the light where the ray before them hit, and each visits what its pixel's
+    do in --explore."""
+    eye = list(
+        map(float,
+            re.search(r"eye = \[(.*)\]", (SOURCE / "raytracer/views/forest.view").read_text())[1].split(",")))
     for before, ray in zip([None, *rays], rays):
-        expected = eye if ray.kind == 0 else [origin + before.distance * way for origin, way in zip(before.origin, before.direction)]
+        expected = eye if ray.kind == 0 else [
+            origin + before.distance * way for origin, way in zip(before.origin, before.direction)
+        ]
         check(math.dist(ray.origin, expected) <= 1e-4 * math.hypot(*expected), "origin of", ray, "not", expected)
     call("trax-render", *SIZE, "-o", "p.png", "--explore", "p.html")
     columns = explore_page.unpack(pathlib.Path("p.html"))[1]
@@ -281,9 +331,13 @@ def interrupted(option):
     """Ctrl-C leaves no file, and one of that name stays."""
     pathlib.Path("old.csv").write_text("old")
     words = ["-o", "i.png"] if option == "--memory-trace" else []
-    run = subprocess.Popen([BIN / "trax-render", *SIZE[:3], "--size", "2000x1000", "--samples", "16", *words, option, "old.csv"],
-                           stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    while run.poll() is None and not [path for path in pathlib.Path().iterdir() if path.name.startswith("old.csv") and path.name != "old.csv"]:
+    run = subprocess.Popen(
+        [BIN / "trax-render", *SIZE[:3], "--size", "2000x1000", "--samples", "16", *words, option, "old.csv"],
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL)
+    while run.poll() is None and not [
+            path for path in pathlib.Path().iterdir() if path.name.startswith("old.csv") and path.name != "old.csv"
+    ]:
         time.sleep(0.05)
     run.send_signal(signal.SIGINT)
     check(run.wait(60) == -signal.SIGINT, option, "status", run.returncode)
@@ -293,11 +347,13 @@ def interrupted(option):
 
 
 def main():
-    signal.signal(signal.SIGINT, signal.SIG_DFL)  # what runs in the background of a shell ignores it, and so would its children
+    signal.signal(signal.SIGINT,
+                  signal.SIG_DFL)  # what runs in the background of a shell ignores it, and so would its children
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
-        call("trax-scene", "generate:forest", "-o", "forest.trax", "--quiet")
-        call("trax-scene", "generate:forest", "--material", "mirror", "--splits=1", "--passes", "0", "-o", "mirrors.trax", "--quiet")
+        pathlib.Path("forest.trax").symlink_to(BIN.parent / "tests/forest.trax")
+        call("trax-scene", "generate:forest", "--material", "mirror", "--splits=1", "--passes", "0", "-o",
+             "mirrors.trax", "--quiet")
         memory_reader, ray_reader = readers()
         memory(memory_reader)
         rays(ray_reader)

@@ -497,14 +497,6 @@ static void test_degenerate(void **state) {
   assert_false(is_dropped("0 0 0", "1e15 0 0", "5e14 1e-45 0"));
   /* The products of the edges agree in binary64 but not exactly. */
   assert_false(is_dropped("0 0 0", "1.00000012 1 0", "1 0.99999988 0"));
-
-  struct trax_mesh mesh;
-  trax_error error;
-  const char *path = test_text("flat.obj", "v 0 0 0\nv 1 0 0\nf 1 2 2\n");
-  struct trax_import_options keep = {.keep_degenerate = true};
-  assert_int_equal(trax_mesh_import(&mesh, &path, 1, &keep, NULL, &error), TRAX_OK);
-  assert_int_equal(mesh.triangle_count, 1);
-  trax_mesh_release(&mesh);
 }
 
 static void test_nonfinite(void **state) {

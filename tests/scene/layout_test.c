@@ -307,6 +307,34 @@ static void test_duplicates_do_not_call_for_splits(void **state) {
   }
 }
 
+/* Nor do many slivers of which none is worse than the others: the tree is that without splits. */
+static void test_equals_do_not_call_for_splits(void **state) {
+  (void)state;
+  struct trax_scene_stats stats[2];
+  for (int chosen = 0; chosen <= 1; chosen++) {
+    struct trax_mesh mesh = {0};
+    struct trax_scene scene;
+    struct trax_build_options options = {0};
+    uint32_t random = 1;
+    for (int i = 0; i < 200; i++) {
+      float at[3];
+      for (int axis = 0; axis < 3; axis++) {
+        random = random * 1664525 + 1013904223;
+        at[axis] = (float)(random >> 8) * 0x1p-24f;
+      }
+      const float x = at[0] + 0.5f, y = at[1] + 0.5f, z = at[2] + 0.5f;
+      mesh_triangle(&mesh, at, (float[]){x, y, z}, (float[]){x, y, z - 0.03f}, 0);
+    }
+    if (chosen)
+      assert_true(trax_splits_choose("auto", &options));
+    build_good(&scene, &mesh, &options);
+    trax_scene_measure(&stats[chosen], &scene);
+    trax_scene_release(&scene);
+    trax_mesh_release(&mesh);
+  }
+  assert_true(stats[0].sah_nodes == stats[1].sah_nodes);
+}
+
 /* Quantised where the grid is fine enough. */
 static void test_choice(void **state) {
   (void)state;
@@ -334,9 +362,13 @@ static void test_choice(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_boxes),        cmocka_unit_test(test_changed_nodes),
-      cmocka_unit_test(test_splits),       cmocka_unit_test(test_duplicates_do_not_call_for_splits),
-      cmocka_unit_test(test_missing_part), cmocka_unit_test(test_choice),
+      cmocka_unit_test(test_boxes),
+      cmocka_unit_test(test_changed_nodes),
+      cmocka_unit_test(test_splits),
+      cmocka_unit_test(test_duplicates_do_not_call_for_splits),
+      cmocka_unit_test(test_equals_do_not_call_for_splits),
+      cmocka_unit_test(test_missing_part),
+      cmocka_unit_test(test_choice),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -47,7 +47,8 @@ def box_of(triangle):
 
 
 def around(boxes):
-    return [min(box[axis] for box in boxes) for axis in range(3)] + [max(box[axis] for box in boxes) for axis in range(3, 6)]
+    return [min(box[axis] for box in boxes)
+            for axis in range(3)] + [max(box[axis] for box in boxes) for axis in range(3, 6)]
 
 
 def median_split(triangles, most):
@@ -128,7 +129,11 @@ def forms():
         write(nodes, order, boxes, code)
         call("trax-scene", "big.obj", *TREE, "-q", "-o", "s.trax")
         scenes.append(pathlib.Path("s.trax").read_bytes())
-    npy("order.npy", "<i4", (len(order),), order, version=3, header=f'{{"shape": ({len(order)},), "fortran_order":True,"descr":"<i4"}}')
+    npy("order.npy",
+        "<i4", (len(order), ),
+        order,
+        version=3,
+        header=f'{{"shape": ({len(order)},), "fortran_order":True,"descr":"<i4"}}')
     call("trax-scene", "big.obj", *TREE, "-q", "-o", "s.trax")
     scenes.append(pathlib.Path("s.trax").read_bytes())
     check(len(set(scenes)) == 1, "types and versions make different scenes")
@@ -139,7 +144,8 @@ def forms():
     # The large triangle in two leaves, each time with a half of its box.
     low, high = box_of(triangles[0])[:3], box_of(triangles[0])[3:]
     middle = (low[0] + high[0]) / 2
-    write([(1, 2, 0), (0, 0, 1), (1, 0, 1)], [0, 0], [low + high, low + [middle, high[1], high[2]], [middle, low[1], low[2]] + high])
+    write([(1, 2, 0), (0, 0, 1), (1, 0, 1)], [0, 0],
+          [low + high, low + [middle, high[1], high[2]], [middle, low[1], low[2]] + high])
     done = call("trax-scene", "one.obj", *TREE, *BOXES, "-q", "-o", "s.trax", "--stats-json", "s.json")
     check(json.loads(pathlib.Path("s.json").read_text())["bvh.leaves_of_1"] == 2, done.stdout)
 
@@ -160,7 +166,9 @@ def write_chain(inner_nodes):
     counts = [1] * (inner_nodes + 1)
     counts[-1] = min(7, 42 - len(counts))
     counts[0] += 41 - sum(counts)
-    rows = [row for i in range(inner_nodes) for row in ((2 * i + 1, 2 * i + 2, 0), (sum(counts[:i]), 0, counts[i]))] + [(41 - counts[-1], 0, counts[-1])]
+    rows = [row for i in range(inner_nodes)
+            for row in ((2 * i + 1, 2 * i + 2, 0),
+                        (sum(counts[:i]), 0, counts[i]))] + [(41 - counts[-1], 0, counts[-1])]
     write(rows, list(range(41)), [[0] * 6] * len(rows))
 
 
@@ -177,8 +185,9 @@ def refusals():
         write(nodes, *good[1:])
 
     count = len(good[0])
-    for value, message in ((count, f"node {inner}: its left child is {count}, and the nodes are 0 to {count - 1}"), (-1, "its left child is -1"),
-                           (0, "its child is node 0, the root"), (good[0][inner][1], "is node"), (2**31 - 1, "2147483647")):
+    for value, message in ((count, f"node {inner}: its left child is {count}, and the nodes are 0 to {count - 1}"),
+                           (-1, "its left child is -1"), (0, "its child is node 0, the root"),
+                           (good[0][inner][1], "is node"), (2**31 - 1, "2147483647")):
         changed(inner, (value, good[0][inner][1], 0))
         refuse(message)
     changed(inner, (inner, good[0][inner][1], 0))
@@ -221,15 +230,18 @@ def refusals():
     boxed(0, [-INFINITE] + good[2][0][1:], "its box is from -inf")
     boxed(leaf, lower[3:] + lower[:3], "its box is from")
     write(*good)
-    for words, message in (([*TREE[:2]], "need each other"), (BOXES, "without --tree"), ([*TREE, "--leaf", "2"], "is a tree that is built"),
-                           ([*TREE, "--splits"], "is a tree that is built"), ([*TREE, "--passes", "0"], "is a tree that is built")):
+    for words, message in (([*TREE[:2]], "need each other"), (BOXES, "without --tree"), ([*TREE, "--leaf", "2"],
+                                                                                         "is a tree that is built"),
+                           ([*TREE, "--splits"], "is a tree that is built"), ([*TREE, "--passes",
+                                                                               "0"], "is a tree that is built")):
         refuse(message, *words, place="--tree")
     refuse("cannot", "--tree", "none.npy", *TREE[2:], place="none.npy")
     # One triangle in two leaves that leave a part of it out.
     call("trax-scene", "one.obj", "-q", "--write-triangles", "one.npy")
     one = box_of(read_triangles("one.npy")[0])
     third, low, high = (one[3] - one[0]) / 3, one[:3], one[3:]
-    write([(1, 2, 0), (0, 0, 1), (1, 0, 1)], [0, 0], [one, low + [low[0] + third, *high[1:]], [high[0] - third, *low[1:], *high]])
+    write([(1, 2, 0), (0, 0, 1), (1, 0, 1)], [0, 0],
+          [one, low + [low[0] + third, *high[1:]], [high[0] - third, *low[1:], *high]])
     refuse("triangle", *TREE, *BOXES, mesh="one.obj")
     write([(0, 0, 1)], [0], [one])
     refuse("no leaf has triangle 1", mesh="twins.obj", place="order.npy")
@@ -255,15 +267,19 @@ def damaged():
     refuse("but the file has")
     pathlib.Path("nodes.npy").write_bytes(whole[:6] + b"\x09" + whole[7:])
     refuse("version 9")
-    for header, message in (("{'descr': '>i4', 'fortran_order': False, 'shape': (%d, 3), }", "'>i4', not"),
-                            ("{'descr': '<i4', 'fortran_order': True, 'shape': (%d, 3), }", "Fortran"),
-                            ("{'descr': '<i4', 'fortran_order': False, 'shape': (3, %d), }", "(N, 3)"),
-                            ("{'descr': '<i4', 'fortran_order': 0, 'shape': (%d, 3), }", "True or False"),
-                            ("{'descr': '<i4', 'shape': (%d, 3), }", "lacks"), ("{'descr': '<i4', 'other': (%d, 3), }", "no key 'other'"),
-                            ("{'descr': '<i4', 'descr': '<i4', 'shape': (%d, 3), }", "no key 'descr', or it has it once"),
-                            ("{'descr': '<i4', 'fortran_order': False, 'shape': (%d, 3, 1, 1), }", "more than 3 dimensions"),
-                            ("{'descr': '<i4', 'fortran_order': False, 'shape': (%d, 99999999999999999, 9999999), }", "2^60"),
-                            ("[%d]", "a dictionary"), ("{'descr': [('left', '<i4')], 'shape': (%d, 3)}", "the type of the elements")):
+    for header, message in (("{'descr': '>i4', 'fortran_order': False, 'shape': (%d, 3), }",
+                             "'>i4', not"), ("{'descr': '<i4', 'fortran_order': True, 'shape': (%d, 3), }", "Fortran"),
+                            ("{'descr': '<i4', 'fortran_order': False, 'shape': (3, %d), }",
+                             "(N, 3)"), ("{'descr': '<i4', 'fortran_order': 0, 'shape': (%d, 3), }",
+                                         "True or False"), ("{'descr': '<i4', 'shape': (%d, 3), }", "lacks"),
+                            ("{'descr': '<i4', 'other': (%d, 3), }",
+                             "no key 'other'"), ("{'descr': '<i4', 'descr': '<i4', 'shape': (%d, 3), }",
+                                                 "no key 'descr', or it has it once"),
+                            ("{'descr': '<i4', 'fortran_order': False, 'shape': (%d, 3, 1, 1), }",
+                             "more than 3 dimensions"),
+                            ("{'descr': '<i4', 'fortran_order': False, 'shape': (%d, 99999999999999999, 9999999), }",
+                             "2^60"), ("[%d]", "a dictionary"), ("{'descr': [('left', '<i4')], 'shape': (%d, 3)}",
+                                                                 "the type of the elements")):
         npy("nodes.npy", "<i4", (), rows, header=header % len(nodes))
         refuse(message)
     npy("nodes.npy", "<f4", (len(nodes), 3), rows)
@@ -290,7 +306,8 @@ def meshes():
     pathlib.Path("big.obj").write_text(text + "".join(f"f {i + 1} {i + 2} {i + 3}\n" for i in range(10)))
     pathlib.Path("one.obj").write_text("v 0 0 0\nv 4 1 0\nv 4 0 3\nf 1 2 3\n")
     pathlib.Path("twins.obj").write_text("v 0 0 0\nv 4 1 0\nv 4 0 3\nf 1 2 3\nf 1 2 3\n")
-    pathlib.Path("many.obj").write_text("".join(f"v {i} 0 0\nv {i} 1 0\nv {i} 0 1\nf {3 * i + 1} {3 * i + 2} {3 * i + 3}\n" for i in range(41)))
+    pathlib.Path("many.obj").write_text("".join(
+        f"v {i} 0 0\nv {i} 1 0\nv {i} 0 1\nf {3 * i + 1} {3 * i + 2} {3 * i + 3}\n" for i in range(41)))
 
 
 def main():

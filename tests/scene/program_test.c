@@ -125,7 +125,7 @@ static void test_refusals(void **state) {
       {{good, "-o", scene, "--passes", "17"}, "--passes: '17' is not a whole number from 0 to 16"},
       {{good, "-o", scene, "--depth", "0"}, "--depth: '0'"},
       {{good, "-o", scene, "--traversal-cost", "nan"}, "--traversal-cost: 'nan' is not a positive number"},
-      {{good, "-o", scene, "--intersection-cost", "0"}, "--intersection-cost: '0' is not a positive number"},
+      {{good, "-o", scene, "--intersection-cost", "2"}, "--intersection-cost has been removed; --traversal-cost is"},
       {{good, "-o", scene, "--cache-lines", "0"}, "--cache-lines: '0' is not a whole number from 1 to 4096"},
       {{good, "-o", scene, "--cache-lines", "4097"}, "--cache-lines: '4097'"},
       {{good, "-o", scene, "--splits=9"}, "--splits: '9' is neither auto nor a number from 1 to 8"},
@@ -217,11 +217,8 @@ static void test_what_options_do(void **state) {
   assert_contains(plain.err, "lost.png");
   assert_int_equal(figure(&plain, "scene.triangles "), 300);
 
-  import_crowd(&changed, "--keep-degenerate", NULL, &others);
-  assert_int_equal(figure(&changed, "scene.triangles "), 301);
   import_crowd(&changed, "--no-textures", NULL, &others);
   assert_null(strstr(changed.err, "lost.png"));
-  assert_true(import_crowd(&changed, "--no-source-ids", NULL, &others) + 4 * 300 <= size);
 
   assert_int_equal(import_crowd(&changed, "--cache-lines", "256", &others), size); /* the default */
   import_crowd(&plain, "--cache-lines", "256", &bytes);
@@ -230,20 +227,10 @@ static void test_what_options_do(void **state) {
   assert_memory_not_equal(bytes, others, size);
 
   const unsigned leaves = figure(&plain, "bvh.leaves ");
-  import_crowd(&changed, "--intersection-cost", "0.1", &others);
+  import_crowd(&changed, "--traversal-cost", "10", &others);
   assert_true(figure(&changed, "bvh.leaves ") < leaves);
   import_crowd(&changed, "--traversal-cost", "0.1", &others);
   assert_true(figure(&changed, "bvh.leaves ") > leaves);
-}
-
-static void test_empty(void **state) {
-  (void)state;
-  struct outcome outcome;
-  const char *scene = test_path("empty.trax");
-  RUN(&outcome, test_text("flat.obj", "v 0 0 0\nf 1 1 1\n"), "-o", scene, "--allow-empty", "-q");
-  assert_int_equal(exit_status(&outcome), 0);
-  RUN(&outcome, "--check", scene);
-  assert_int_equal(exit_status(&outcome), 0);
 }
 
 /* What is at the output stays when the input is bad. */
@@ -306,10 +293,9 @@ static void test_interrupt(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_success),   cmocka_unit_test(test_notes),
-      cmocka_unit_test(test_refusals),  cmocka_unit_test(test_what_options_do),
-      cmocka_unit_test(test_empty),     cmocka_unit_test(test_output_survives),
-      cmocka_unit_test(test_interrupt), cmocka_unit_test(test_full_output),
+      cmocka_unit_test(test_success),         cmocka_unit_test(test_notes),           cmocka_unit_test(test_refusals),
+      cmocka_unit_test(test_what_options_do), cmocka_unit_test(test_output_survives), cmocka_unit_test(test_interrupt),
+      cmocka_unit_test(test_full_output),
   };
   return cmocka_run_group_tests_name("trax-scene", tests, NULL, NULL);
 }

@@ -484,7 +484,7 @@ static void test_bad_options(void **state) {
   } bad[] = {{{.max_leaf = 8}, "at most 7"},         {{.max_depth = 63}, "at most 62"},
              {{.passes = 17}, "at most 16 passes"},  {{.cache_lines = 4097}, "at most 4096"},
              {{.crease_degrees = 181}, "up to 180"}, {{.crease_degrees = NAN}, "up to 180"},
-             {{.traversal_cost = NAN}, "costs"},     {{.intersection_cost = -1}, "costs"}};
+             {{.traversal_cost = NAN}, "cost"},      {{.traversal_cost = -1}, "cost"}};
   for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
     struct trax_scene scene;
     trax_error error;

@@ -2,23 +2,20 @@
 """Do the tests of warps notice a wrong engine? Each mutant is a rule of docs/simt.md changed in one line of
 emulator/simt. The changed file is compiled and linked into the tests, before the library.
 
-    mutants.py --build build [--only EXPRESSION]
+    mutants.py [SCRATCH] [--build build] [--only EXPRESSION]
+    mutants.py --stale             only lists texts that are not there
+"""
 
-Ends with status 1 if a mutant survives, or if a line to be changed is not there any more."""
-
-import argparse
-import os
-import re
-import shlex
-import subprocess
+import pathlib
 import sys
-import tempfile
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-EMULATOR = os.path.join(HERE, "..", "..", "emulator")
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from mutation import ROOT, Mutant, failure, main, relinked  # noqa: E402
+
+SOURCE = ROOT / "emulator/simt"
 SECONDS = 15
-TESTS = [("simt-rules-test", []),
-         ("timing-engines-test", ["--engine", "simt", "--seed", "7001", "--count", "12", "--stop"])]
+TESTS = {"simt-rules-test": [],
+         "timing-engines-test": ["--engine", "simt", "--seed", "7001", "--count", "12", "--stop"]}
 
 # File below emulator/simt/, what stands there once, what the mutant has instead.
 MUTANTS = [
@@ -65,69 +62,13 @@ MUTANTS = [
 ]
 
 
-def last_command(build, target):
-    done = subprocess.run(["ninja", "-C", build, "-t", "commands", target], check=True, capture_output=True, text=True)
-    return next(line for line in reversed(done.stdout.splitlines()) if target in line)
-
-
-def build_mutant(build, name, text, folder):
-    """The tests with another text of the file. None: it cannot be compiled."""
-    source, changed = os.path.join(folder, name), os.path.join(folder, name + ".o")
-    with open(source, "w", encoding="utf-8") as file:
-        file.write(text)
-    target = f"emulator/CMakeFiles/traxemu.dir/simt/{name}.o"
-    words = shlex.split(last_command(build, target))
-    words = [source if word.endswith(f"emulator/simt/{name}") else changed if word == target else word
-             for word in words]
-    if subprocess.run([*words, "-w"], cwd=build, capture_output=True, check=False).returncode:
-        return None
-    programs = []
-    for test, arguments in TESTS:
-        target, program = f"tests/bin/{test}", os.path.join(folder, test)
-        outputs = f"-o {shlex.quote(program)} {shlex.quote(changed)}"
-        command = last_command(build, target).replace(f"-o {target}", outputs)
-        subprocess.run(command, shell=True, cwd=build, check=True, capture_output=True)
-        programs.append([program, *arguments])
-    return programs
-
-
-def first_failure(programs):
-    """The name of the first test that fails; None if none does."""
-    for command in programs:
-        try:
-            if subprocess.run(command, capture_output=True, timeout=SECONDS, check=False).returncode:
-                return os.path.basename(command[0])
-        except subprocess.TimeoutExpired:
-            return os.path.basename(command[0])
-    return None
-
-
-def try_mutant(build, name, old, new):
-    with open(os.path.join(EMULATOR, "simt", name), encoding="utf-8") as file:
-        text = file.read()
-    if text.count(old) != 1:
-        return "stale" if old not in text else "ambiguous"
-    with tempfile.TemporaryDirectory() as folder:
-        programs = build_mutant(build, name, text.replace(old, new), folder)
-        return "does not compile" if programs is None else first_failure(programs) or "SURVIVES"
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n", maxsplit=1)[0])
-    parser.add_argument("--build", required=True, type=os.path.abspath, help="the build directory")
-    parser.add_argument("--only", default="", help="mutants in whose file or lines it is found")
-    options = parser.parse_args()
-    caught = total = 0
-    for name, old, new in MUTANTS:
-        if not re.search(options.only, name + old + new):
-            continue
-        outcome = try_mutant(options.build, name, old, new)
-        total += 1
-        caught += outcome.endswith("-test")
-        print(f"{outcome:20} {name}: {old.strip()}  ->  {new.strip()}", flush=True)
-    print(f"{caught} of {total} noticed")
-    return caught != total or not total
+def noticed(folder, build, mutant):
+    """The first test that fails."""
+    programs = relinked(folder, build, "emulator/CMakeFiles/traxemu.dir/simt", SOURCE / mutant.file,
+                        mutant.changed(SOURCE), TESTS)
+    failures = (failure(SECONDS, program, *TESTS[program.name]) for program in programs)
+    return [said for said in failures if said][:1]
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(__doc__, SOURCE, [Mutant(*row) for row in MUTANTS], noticed))

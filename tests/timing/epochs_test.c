@@ -107,6 +107,25 @@ static void add_up_locally(struct program *program) {
   }
   emit(program, S(SW, 7, 11, 0));
 }
+/* Its path depends on a word that it has loaded far ahead, since each turn takes long. */
+static void choose(struct program *program) {
+  for (unsigned i = 0; i < 24; i++) {
+    emit(program, I(LW, 5, 10, WORD));
+    emit(program, I(ANDI, 5, 5, 1));
+    emit(program, B(BNE, 5, 0, 8));
+    emit(program, I(ADDI, 6, 6, 1));
+    for (unsigned j = 0; j < 6; j++)
+      emit(program, R(FDIV, 7, 7, 7));
+  }
+  emit(program, S(SW, 6, 11, 0));
+}
+static void store_again_and_again(struct program *program) {
+  for (unsigned i = 0; i < 8; i++) {
+    emit(program, S(SW, 4, 10, WORD));
+    for (unsigned j = 0; j < 12; j++)
+      emit(program, NOP);
+  }
+}
 static void print(struct program *program) {
   emit(program, I(ADDI, 5, 4, 'a'));
   emit(program, T(5, TRAX_TRAP_PUTC));
@@ -125,7 +144,7 @@ static void end_thread(struct program *program) {
 struct scenario {
   const char *name;
   bool written;  /* the block has been written before, so that loads ahead from it are watched */
-  action *of[3]; /* TM 0, 1, 2 */
+  action *of[4]; /* TM 0, 1, 2; a second TP of TM 0 */
 };
 
 static const struct scenario scenarios[] = {
@@ -151,6 +170,7 @@ static const struct scenario scenarios[] = {
     {"a store of what has been loaded ahead since a first write", true, {add_up, store_word}},
     {"an increment of what has been loaded ahead since a first write", true, {increment, add_up}},
     {"a store of it by itself and another, between stores to local memory", true, {add_up_locally, add_up, store_word}},
+    {"an increment and stores of what decides a path", true, {choose, increment, NULL, store_again_and_again}},
     {"output", false, {print, print, print}},
     {"a fault, and stores that must not happen", false, {fault, store_for_long}},
     {"a fault of a higher TM, and stores", false, {store_for_long, fault}},
@@ -171,29 +191,32 @@ static void write_program(struct program *program, const struct scenario *scenar
                           bool busy) {
   static const unsigned numbers[3] = {0x1234567, 0x55AA, 0x7F};
   program->count = 0;
-  emit(program, R(RDSR, 1, 0, 0));
-  program->words[0] = trax_encode((trax_inst){TRAX_OP_RDSR, 1, 0, 0, TRAX_SR_TM});
+  emit(program, trax_encode((trax_inst){TRAX_OP_RDSR, 1, 0, 0, TRAX_SR_TM}));
+  emit(program, trax_encode((trax_inst){TRAX_OP_RDSR, 2, 0, 0, TRAX_SR_TP}));
+  for (unsigned i = 0; i < 3; i++)
+    emit(program, R(ADD, 1, 1, 2)); /* a second TP counts as TM 3 */
   emit(program, U(LUI, 10, DATA >> 16));
   emit(program, I(SLLI, 11, 1, 6));
   emit(program, R(ADD, 11, 11, 10));
   emit(program, I(ADDI, 11, 11, RESULTS));
-  for (unsigned tm = 0; tm < 3; tm++) {
+  for (unsigned tm = 0; tm < (scenario->of[3] ? 4 : 3); tm++) {
+    action *const act = scenario->of[tm];
     emit(program, I(ADDI, 2, 0, (int32_t)tm));
     const size_t branch = program->count;
     emit(program, NOP);
     if (scenario->written)
       emit(program, S(SW, 0, 10, OTHER));
-    emit(program, U(LUI, 4, (int32_t)(numbers[tm] >> 16)));
-    emit(program, I(ORI, 4, 4, (int32_t)(numbers[tm] & 0x7FF)));
-    if (scenario->of[tm] == add_up || scenario->of[tm] == add_up_locally)
+    emit(program, U(LUI, 4, (int32_t)(numbers[tm % 3] >> 16)));
+    emit(program, I(ORI, 4, 4, (int32_t)(numbers[tm % 3] & 0x7FF)));
+    if (act == add_up || act == add_up_locally || act == choose)
       emit_loop(program, QUIET, I(LW, 5, 10, WORD));
     else
       emit_loop(program, QUIET, NOP);
     for (unsigned i = 0; i < WRITES && busy; i++)
       emit(program, S(SW, 4, 11, (int32_t)(TRAFFIC + 256 * i)));
-    emit_delay(program, delay[tm]);
-    if (scenario->of[tm])
-      scenario->of[tm](program);
+    emit_delay(program, delay[tm % 3 + (tm == 3 ? 2 : 0)]);
+    if (act)
+      act(program);
     emit_loop(program, AFTERWARDS, 0);
     emit(program, I(LWNT, 5, 10, WORD));
     emit(program, S(SW, 5, 11, 8));
@@ -212,7 +235,7 @@ static const double PLENTY = 100000; /* GB/s: all have their instructions in the
 
 /* `bandwidth`: GB/s; if it is little, requests wait for the bus all the time, and epochs are long. */
 static void check(const struct scenario *scenario, const unsigned delay[3], unsigned epoch, double bandwidth) {
-  struct trax_config config = bench_far(3, 1);
+  struct trax_config config = bench_far(3, scenario->of[3] ? 2 : 1);
   config.icache.line_bytes = config.icache.bytes = 4096;
   config.memory.latency_cycles = epoch;
   config.memory.bandwidth_gbps = bandwidth;
@@ -264,8 +287,18 @@ static void while_requests_wait(void **state) {
     }
 }
 
+/* The controller serves an increment ahead of an epoch while a TP of another TM is in the midst of a burst that has
+   loaded the word. A build with assertions sees whether that TP rolls back in time: a later roll back would lead it to
+   another instruction. */
+static void while_an_increment_waits(void **state) {
+  (void)state;
+  for (size_t i = 0; i < sizeof scenarios / sizeof *scenarios; i++)
+    for (unsigned delay = 300; scenarios[i].of[3] && delay < 600; delay += 30)
+      check(&scenarios[i], (unsigned[]){0, 60, delay}, 50, 128);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(in_any_order), cmocka_unit_test(at_any_distance),
-                                     cmocka_unit_test(while_requests_wait)};
+                                     cmocka_unit_test(while_requests_wait), cmocka_unit_test(while_an_increment_waits)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -383,7 +383,7 @@ struct trax_config any_machine(uint32_t tms, uint32_t tps) {
   const unsigned change = any(1, 4); /* so many keys in four have another value than by default */
   for (size_t i = 0; i < trax_config_key_count; i++) {
     const struct trax_config_key *key = &trax_config_keys[i];
-    if (strcmp(key->section, "simt") == 0) /* not of the engines that are compared on it */
+    if (strcmp(key->component, "simt") == 0) /* not of the engines that are compared on it */
       continue;
     if (any(1, 4) > change || strcmp(key->name, "chip.tms") == 0 || strcmp(key->name, "chip.tps_per_tm") == 0 ||
         strcmp(key->name, "memory.size_mib") == 0)

@@ -1,25 +1,25 @@
 #!/usr/bin/env python3
 """Do the tests of time notice a wrong engine?
 
-Each mutant is one changed line of an engine. A copy of the tree is changed, built and tested; a mutant that no test
-notices survives, and is named. Ends with status 1 if one does, or if a line to be changed is not there any more.
+    mutants.py SCRATCH [--only EXPRESSION]     only mutants in whose file or lines it is found
+    mutants.py --stale                         only lists texts that are not there
 
-    tests/timing/mutants.py SCRATCH [--only EXPRESSION]     only mutants in whose file or lines it is found
-    tests/timing/mutants.py --stale                         only lines that are not there any more
+Each mutant is one changed line of an engine. A copy of the tree is changed, built and tested; a mutant that no test
+notices is named.
 """
 
-import argparse
 import os
 import pathlib
-import re
 import resource
 import shutil
 import subprocess
 import sys
 
-from mutants_list import MUTANTS
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from mutants_list import MUTANTS  # noqa: E402
+from mutation import ROOT, Mutant, main  # noqa: E402
 
-SOURCE = pathlib.Path(__file__).resolve().parents[2]
+SOURCE = ROOT / "emulator"
 HAND = ["runs", "faults"]
 TESTS = [(["timing-rules-test", "docs/timing-rules.md"], {}), (["timing-dram-test"], {})]
 TESTS += [([f"timing-{name}-test"], {"TRAX_ENGINE": engine}) for engine in ("fast", "reference") for name in HAND]
@@ -31,9 +31,9 @@ TARGETS = sorted({test[0][0] for test in TESTS})
 
 
 def copy_tree(tree):
-    files = subprocess.run(["git", "ls-files", "-z"], cwd=SOURCE, check=True, capture_output=True).stdout.split(b"\0")
+    files = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, check=True, capture_output=True).stdout.split(b"\0")
     for name in filter(None, map(os.fsdecode, files)):
-        source, target = SOURCE / name, tree / name
+        source, target = ROOT / name, tree / name
         if not source.is_file() or (target.exists() and target.read_bytes() == source.read_bytes()):
             continue
         target.parent.mkdir(parents=True, exist_ok=True)
@@ -64,67 +64,38 @@ def first_failure(tree):
     return None
 
 
-def try_mutant(tree, name, old, new):
-    file = tree / "emulator" / name
-    text = file.read_text()
-    if text.count(old) != 1:
-        return "stale" if old not in text else "ambiguous"
-    file.write_text(text.replace(old, new))
-    try:
-        if build(tree).returncode:
-            return "does not compile"
-        test = first_failure(tree)
-    finally:
-        file.write_text(text)
-    if test is None:
-        return "SURVIVES"
-    command, environment = TESTS[test]
-    return f"{' '.join(environment.values())} {command[0]}".strip()
-
-
-def list_stale():
-    stale = [(name, old) for name, old, _ in MUTANTS if (SOURCE / "emulator" / name).read_text().count(old) != 1]
-    for name, old in stale:
-        print(f"{name}: {old.strip()}")
-    print(f"{len(stale)} of {len(MUTANTS)} mutants are stale")
-    return bool(stale)
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
-    parser.add_argument("scratch", type=pathlib.Path, nargs="?")
-    parser.add_argument("--only", default="")
-    parser.add_argument("--stale", action="store_true")
-    options = parser.parse_args()
-    if options.stale:
-        return list_stale()
-    if not options.scratch:
-        parser.error("a folder to work in is needed")
-    tree = options.scratch.resolve() / "tree"
+def tree_for(folder):
+    """A built copy of the sources beside the folder."""
+    tree = folder.parent / "tree"
     copy_tree(tree)
     if not (tree / "build/build.ninja").exists():
         launcher = ["-DCMAKE_C_COMPILER_LAUNCHER=ccache",
                     "-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
         subprocess.run(["cmake", "--preset", "release", *launcher], cwd=tree, check=True, stdout=subprocess.DEVNULL)
-    if build(tree).returncode or first_failure(tree) is not None:
-        sys.exit("mutants.py: the tests fail without a mutant")
-    totals = {}
-    for name, old, new in MUTANTS:
-        if not re.search(options.only, name + old + new):
-            continue
-        outcome = try_mutant(tree, name, old, new)
-        kind = name.split("/")[0]
-        caught = totals.setdefault(kind, [0, 0, 0])
-        caught[2] += 1
-        if "-test" in outcome:
-            caught[0] += 1
-            caught[1] += not outcome.startswith(("timing-engines", "timing-state", "timing-epochs",
-                                                 "timing-checkpoint"))
-        print(f"{outcome:28} {name}: {old.strip()}  ->  {new.strip()}", flush=True)
-    for kind, (caught, by_hand, total) in totals.items():
-        print(f"{kind}: {caught} of {total} caught, {by_hand} by counts derived by hand")
-    return any(caught != total for caught, _, total in totals.values())
+    return tree
+
+
+def noticed(folder, _, mutant):
+    """The first test that fails in a copy of the tree."""
+    tree = tree_for(folder)
+    (tree / "emulator" / mutant.file).write_text(mutant.changed(SOURCE))
+    if build(tree).returncode:
+        return ["does not compile"] if mutant.text == mutant.other else sys.exit(f"does not compile: {mutant}")
+    test = first_failure(tree)
+    if test is None:
+        return []
+    words, environment = TESTS[test]
+    return [f"{' '.join(environment.values())} {words[0]}".strip()]
+
+
+def print_totals(results):
+    """Of each engine: by counts derived by hand, not by comparison with another engine."""
+    by_comparison = ("timing-engines", "timing-state", "timing-epochs", "timing-checkpoint")
+    for kind in sorted({mutant.file.split("/")[0] for mutant, _ in results}):
+        found = [said for mutant, said in results if mutant.file.startswith(kind + "/")]
+        by_hand = sum(bool(said) and not said[0].startswith(by_comparison) for said in found)
+        print(f"{kind}: {sum(map(bool, found))} of {len(found)} caught, {by_hand} by counts derived by hand")
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(__doc__, SOURCE, [Mutant(*row) for row in MUTANTS], noticed, totals=print_totals))

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Two installations, the same bytes: inputs, statistics, pictures, traces and profiles of the five scenes, for both programs, on four
-chips with and without a second-level cache.
+"""Two installations, the same bytes: inputs, statistics, pictures, traces and profiles of the five scenes, for both
+programs, on four chips with and without a second-level cache.
 
     same_scenes.py OLD_BIN NEW_BIN SCENES [--size 160x90] [--only EXPRESSION] [--jobs N]
 
-Each run is made twice by each: whole, and its first cycles with everything that explains a run. Both run the inputs that OLD_BIN
-prepared. What depends on the host is left out, and names that changed are mapped by the tables here. Ends with status 1
-if anything differs."""
+Each run is made twice by each: whole, and its first cycles with everything that explains a run. Both run the inputs
+that OLD_BIN prepared. What depends on the host is left out, and names that changed are mapped by the tables here. Ends
+with status 1 if anything differs."""
 
 import argparse
 import concurrent.futures
@@ -23,24 +23,32 @@ import time
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 import interrupts  # noqa: E402
 
-# What the old installation calls it: what the new one does. Of the JSON (a path, and a mapping of its values) and of CSV files.
+# What the old installation calls it: what the new one does. Of the JSON (a path, and a mapping of its values) and of
+# CSV files.
 JSON_NAMES = {
     "configuration.dcache.lru": ("configuration.dcache.replacement", {False: "fifo", True: "lru"}),
     "configuration.l2.lru": ("configuration.l2.replacement", {False: "fifo", True: "lru"}),
 }
 CSV_NAMES = {}
 # What only the new one has: paths of the JSON, and names of columns.
-ADDED = re.compile(r"(tms\.\d+\.)?rays_by_kind\.|configuration\.(dram\.|memory\.model$|memory\.atomic_interval_cycles$|dcache\.fill_cycles$)")
+ADDED = re.compile(
+    r"(tms\.\d+\.)?rays_by_kind\.|"
+    r"configuration\.(dram\.|memory\.model$|memory\.atomic_interval_cycles$|dcache\.fill_cycles$)"
+)
 OF_THE_HOST = {"program", "host_seconds", "instructions_per_host_second"}
 
-SCENES = {"conference": ["conference.ply"], "crytek-sponza": ["crytek-sponza.ply"], "dragon": ["dragon.ply", "dragon_box.obj"],
-          "forest": ["generate:forest"], "sibenik": ["sibenik.ply"]}
+SCENES = {
+    "conference": ["conference.ply"], "crytek-sponza": ["crytek-sponza.ply"],
+    "dragon": ["dragon.ply", "dragon_box.obj"], "forest": ["generate:forest"], "sibenik": ["sibenik.ply"]
+}
 CHIPS = {"1x32": ["--config", "1x32"], "4x32": ["--config", "4x32"], "8x64": ["--config", "8x64"],
          "16x64": ["--config", "8x64", "--set", "chip.tms=16"]}
 CACHES = {"": [], " with l2": ["--set", "l2.bytes=262144"]}
 WHOLE = ["--stats", "--series"]
-EXPLAINED = [*WHOLE, "--profile", "--profile-folded", "--heat", "--heat-lines", "--items", "--lockstep", "--post-mortem", "--trace",
-             "--perfetto"]
+EXPLAINED = [
+    *WHOLE, "--profile", "--profile-folded", "--heat", "--heat-lines", "--items", "--lockstep", "--post-mortem",
+    "--trace", "--perfetto"
+]
 FIRST = ["--max-cycles", "12000", "--window", "10000:10600"]  # of the explained run
 
 
@@ -49,7 +57,12 @@ class Problem(Exception):
 
 
 def run(command, folder, expected=0):
-    done = subprocess.run(list(map(str, command)), cwd=folder, capture_output=True, text=True, errors="replace", check=False)
+    done = subprocess.run(list(map(str, command)),
+                          cwd=folder,
+                          capture_output=True,
+                          text=True,
+                          errors="replace",
+                          check=False)
     if done.returncode != expected:
         raise Problem(f"{shlex.join(map(str, command))}: exit status {done.returncode}: {done.stderr[-500:]}")
 
@@ -57,10 +70,15 @@ def run(command, folder, expected=0):
 def prepare(installation, scenes, scene, program, size, folder):
     meshes = []
     for name in SCENES[scene]:
-        places = [path for path in (os.path.join(scenes, name), os.path.join(scenes, name + ".xz")) if os.path.exists(path)]
+        places = [
+            path for path in (os.path.join(scenes, name), os.path.join(scenes, name + ".xz")) if os.path.exists(path)
+        ]
         meshes += [name] if name.startswith("generate:") else places[:1] or [os.path.join(scenes, name)]
     options = ["--program", os.path.join(installation, "..", "lib", "trax", "trax-era.elf")] if program == "era" else []
-    run([os.path.join(installation, "trax-render"), *meshes, "--view", scene, "--size", size, *options, "--prepare", folder, "--quiet"], scenes)
+    run([
+        os.path.join(installation, "trax-render"), *meshes, "--view", scene, "--size", size, *options, "--prepare",
+        folder, "--quiet"
+    ], scenes)
 
 
 def program_options(folder):
@@ -88,8 +106,11 @@ def files_of(installation, inputs, machine, files, more, folder, status):
     """Runs it; the bytes of all that it wrote."""
     os.makedirs(folder, exist_ok=True)
     outputs = [word for option in files for word in (option, option[2:])]
-    run([os.path.join(installation, "trax-sim"), *machine, *program_options(inputs), *outputs, *more, "--dump", "image=picture", "--host-threads", "1",
-         "--quiet", os.path.join(inputs, "program.elf")], folder, status)
+    run([
+        os.path.join(installation, "trax-sim"), *machine, *program_options(inputs), *outputs, *more, "--dump",
+        "image=picture", "--host-threads", "1", "--quiet",
+        os.path.join(inputs, "program.elf")
+    ], folder, status)
     contents = {}
     for name in [option[2:] for option in files] + ["picture"]:
         path = os.path.join(folder, name)
@@ -105,7 +126,10 @@ def flat(value, path=""):
     items = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else None
     if items is None:
         return {path: value}
-    return {inner: leaf for name, part in items for inner, leaf in flat(part, f"{path}.{name}" if path else str(name)).items()}
+    return {
+        inner: leaf
+        for name, part in items for inner, leaf in flat(part, f"{path}.{name}" if path else str(name)).items()
+    }
 
 
 def mapped(statistics):
@@ -120,7 +144,8 @@ def without_added(content, names):
     """A table without the columns that only the new installation has."""
     rows = [row.split(b",") for row in content.split(b"\n")]
     added = {place for place, word in enumerate(rows[0]) if word.decode() not in names and ADDED.match(word.decode())}
-    return b"\n".join(b",".join(cell for place, cell in enumerate(row) if place not in added) for row in rows) if added else content
+    return b"\n".join(b",".join(cell for place, cell in enumerate(row) if place not in added)
+                      for row in rows) if added else content
 
 
 def differences(name, old, new):
@@ -128,7 +153,10 @@ def differences(name, old, new):
     if name == "stats":
         one, other = (flat(json.loads(content)) for content in (old, new))
         one = mapped(one)
-        paths = [path for path in sorted(one.keys() | other.keys()) if path not in OF_THE_HOST and not (path not in one and ADDED.match(path))]
+        paths = [
+            path for path in sorted(one.keys() | other.keys())
+            if path not in OF_THE_HOST and not (path not in one and ADDED.match(path))
+        ]
         missing = object()
         wrong = [path for path in paths if one.get(path, missing) != other.get(path, missing)]
         return [f"{path}: {one.get(path, 'nothing')}, {other.get(path, 'nothing')}" for path in wrong]
@@ -192,15 +220,18 @@ class Comparison:
     def pair(self, where, inputs, machine, explained):
         files, more, status = (EXPLAINED, FIRST, 124) if explained else (WHOLE, [], 0)
         folder = os.path.join(self.folder, re.sub(r"\W+", "-", where) + str(explained))
-        pair = [files_of(os.path.abspath(installation), inputs, machine, files, more, os.path.join(folder, which), status)
-                for installation, which in ((self.options.old, "old"), (self.options.new, "new"))]
+        pair = [
+            files_of(os.path.abspath(installation), inputs, machine, files, more, os.path.join(folder, which), status)
+            for installation, which in ((self.options.old, "old"), (self.options.new, "new"))
+        ]
         self.runs += 1
         for name in sorted(pair[0].keys() | pair[1].keys()):
             old, new = (contents.get(name) for contents in pair)
             self.files += 1
             self.bytes += len(old or b"")
-            self.tell(where + (", explained" if explained else ""), name,
-                      differences(name, old, new) if old is not None and new is not None else ["is written by one only"])
+            self.tell(
+                where + (", explained" if explained else ""), name,
+                differences(name, old, new) if old is not None and new is not None else ["is written by one only"])
         missing = {option[2:] for option in files} - pair[0].keys() - {"post-mortem"}
         self.tell(where, "files", [f"{name} is not written" for name in sorted(missing)])
 
@@ -209,12 +240,16 @@ class Comparison:
             runs = []
             for scene in SCENES:
                 for program in ("ours", "era"):
-                    wanted = [(f"{scene}, {program}, {chip}{cache}", [*CHIPS[chip], *CACHES[cache]]) for chip in CHIPS for cache in CACHES]
+                    wanted = [(f"{scene}, {program}, {chip}{cache}", [*CHIPS[chip], *CACHES[cache]]) for chip in CHIPS
+                              for cache in CACHES]
                     wanted = [(where, machine) for where, machine in wanted if re.search(self.options.only, where)]
                     if not wanted:
                         continue
                     inputs = self.inputs(scene, program)
-                    runs += [pool.submit(self.pair, where, inputs, machine, explained) for where, machine in wanted for explained in (False, True)]
+                    runs += [
+                        pool.submit(self.pair, where, inputs, machine, explained) for where, machine in wanted
+                        for explained in (False, True)
+                    ]
             for one in runs:
                 one.result()
 
@@ -236,8 +271,9 @@ def main():
             comparison.all()
     except Problem as problem:
         sys.exit(f"same_scenes.py: error: {problem}")
-    print(f"{comparison.runs} pairs of runs, {comparison.files} files, {comparison.bytes:,} bytes: {comparison.differing} differ; "
-          f"{time.monotonic() - begin:.0f} s")
+    print(
+        f"{comparison.runs} pairs of runs, {comparison.files} files, {comparison.bytes:,} bytes: "
+        f"{comparison.differing} differ; {time.monotonic() - begin:.0f} s")
     return 1 if comparison.differing or not comparison.runs else 0
 
 

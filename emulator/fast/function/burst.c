@@ -3,7 +3,9 @@
    loads from shared blocks, loads and stores past the cache, fences, reads of the cycle counter, traps, ends of
    threads, and all instructions that fault. */
 #include "fast/chip.h"
+#define inline __inline__ __attribute__((always_inline)) /* a call costs as much as an instruction */
 #include "trax/semantics.h"
+#undef inline
 
 #include <string.h>
 
@@ -58,6 +60,6 @@ const void *const *trax_fast_operations(void) {
 }
 
 unsigned trax_fast_burst(struct trax_chip *chip, struct trax_tm *tm, unsigned number, unsigned limit) {
-  return limit == TRAX_BURST ? burst_whole(chip, tm, number, limit, NULL)
-                             : burst_exactly(chip, tm, number, limit, NULL);
+  return limit == TRAX_BURST && !tm->tp[number].atomics ? burst_whole(chip, tm, number, limit, NULL)
+                                                        : burst_exactly(chip, tm, number, limit, NULL);
 }

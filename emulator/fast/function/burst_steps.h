@@ -1,5 +1,6 @@
 /* The interpreter of bursts, included by burst.c twice: with EXACTLY 0, a burst ends before a chunk that may not fit;
-   with EXACTLY 1, it executes exactly `limit` instructions unless one of them ends it. */
+   with EXACTLY 1, it executes exactly `limit` instructions unless one of them ends it, or needs a register that an
+   increment under way will write. */
 static unsigned BURST(struct trax_chip *chip, struct trax_tm *tm, unsigned number, unsigned limit,
                       const void *const **operations) {
   __extension__ static const void *const places[] = {
@@ -28,9 +29,9 @@ static unsigned BURST(struct trax_chip *chip, struct trax_tm *tm, unsigned numbe
   uint64_t resume_pc = tp->resume_pc; /* the latest jump's target, needed if it is no text */
   int64_t *const count_deltas = tm->count_deltas;
   uint64_t lines = 0;
-  /* A burst that is executed again may have loaded from a block before it was SHARED. */
+  /* A burst that is executed again may have loaded from a block before it was SHARED. Its limit is less. */
   const bool alone = tp->alone;
-  const uint8_t last_loadable = EXACTLY || alone ? TRAX_BLOCK_SHARED : TRAX_BLOCK_WRITTEN;
+  const uint8_t last_loadable = limit < TRAX_BURST || alone ? TRAX_BLOCK_SHARED : TRAX_BLOCK_WRITTEN;
   tp->undo_count = 0;
   tm->watched[number] = 0;
   /* The number of inst's step is its distance from `begin`, which changes with each jump. */
@@ -149,7 +150,7 @@ chunk:
   const uint32_t index = (uint32_t)(inst - program->inst);
   lines |= program->chunk_lines[index];
 #if EXACTLY
-  if (at == limit)
+  if (at == limit || (program->timing[index].waits & (uint32_t)tp->atomics))
     goto stop;
   record_segment(tp, segment++, at, program->step + index, index, 1);
 #else

@@ -28,7 +28,7 @@ static bool stops_burst(const struct trax_decoded *decoded) {
   return decoded->is_nontemporal || decoded->is_atomic;
 }
 
-/* Whether the relative jump at `word` of a section of `words` leaves the section, or goes to the next instruction or
+/* Whether the relative jump at `word` of a segment of `words` leaves the segment, or goes to the next instruction or
    into the middle of one. burst_steps.h assumes that others do not. */
 static bool jumps_oddly(const struct trax_decoded *decoded, uint32_t word, uint32_t words) {
   const int64_t target = word + (int64_t)decoded->imm / 4;
@@ -72,7 +72,7 @@ trax_status trax_fast_program_create(struct trax_fast_program *program, const st
   const uint32_t line_bytes = config->icache.line_bytes;
   size_t total = 1;
   for (size_t i = 0; i < text->count; i++)
-    total += (text->sections[i].end - text->sections[i].begin) / 4 + 1;
+    total += (text->segments[i].end - text->segments[i].begin) / 4 + 1;
   program->inst_count = total;
   if (total >= (size_t)1 << 24)
     return trax_fail(error, "%zu instructions are too many for the fast engine", total);
@@ -87,7 +87,7 @@ trax_status trax_fast_program_create(struct trax_fast_program *program, const st
     return trax_fail(error, "out of memory for %zu instructions", total);
   uint32_t index = 0, lines = 0;
   for (size_t i = 0; i < text->count; i++) {
-    const struct trax_text_section *section = &text->sections[i];
+    const struct trax_text_segment *section = &text->segments[i];
     const uint32_t words = (section->end - section->begin) / 4, first_line = section->begin / line_bytes;
     program->sections[program->count++] =
         (struct trax_fast_section){section->begin, words * 4, first_line, (uint16_t)lines, program->inst + index};

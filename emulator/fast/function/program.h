@@ -7,8 +7,8 @@
 #include "machine/units.h"
 
 enum {
-  TRAX_BURST = 224,                      /* limit of a burst's instructions; fits in trax_fast_heads.at */
-  TRAX_CHUNK = 32,                       /* instructions of a chunk, which begins at a multiple of it */
+  TRAX_BURST = 128, /* limit of a burst's instructions: a TM's bursts should fit in the host's caches */
+  TRAX_CHUNK = 32,  /* instructions of a chunk, which begins at a multiple of it */
   TRAX_FAST_LINES = TRAX_KNOWN_LINES + 1 /* entries of `resident`; the last one stands for all further lines */
 };
 

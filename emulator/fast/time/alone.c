@@ -93,7 +93,7 @@ bool trax_fast_run_alone(struct trax_tm *tm, uint64_t t, uint64_t end) {
   tm->stats->icache_hits += t - begin;
   tm->stats->dcache_hits += hits;
   pass_arbiters(tm, number, &used);
-  tm->heads.load[number] = (uint8_t)load;
+  trax_fast_set_load(tm, number, load);
   trax_fast_set_head(&tm->heads, number, at);
   tm->now = t - 1;
   tm->next_cycle = t;

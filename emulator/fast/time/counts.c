@@ -62,6 +62,30 @@ static unsigned issued_of_burst(const struct trax_tm *tm, unsigned tp) {
   return (tm->executes_at_issue | tm->ended) >> tp & 1 ? 0 : tm->heads.at[tp];
 }
 
+/* Sets charges, [TRAX_CAUSE_COUNT], to those of a TP that is awake or has been settled, for the cycles that are over. */
+static void read_charges(const struct trax_tm *tm, unsigned number, uint64_t *charges) {
+  memcpy(charges, tm->tp_stats[number].cycles, sizeof tm->tp_stats[number].cycles);
+  charges[TRAX_CAUSE_ISSUED] += tm->tp[number].issued + issued_of_burst(tm, number);
+  for (unsigned bit = 0; bit < 64; bit++)
+    for (unsigned refused = 0; refused < TRAX_FAST_REFUSALS; refused++)
+      charges[refusal_causes[refused]] += (tm->refusal_counts.planes[bit][refused] >> number & 1) << bit;
+}
+
+void trax_fast_count_rays(struct trax_tm *tm, unsigned number, int32_t code, uint32_t value) {
+  uint64_t charges[TRAX_CAUSE_COUNT];
+  tm->chip->variant->count_log(&tm->refusal_counts);
+  read_charges(tm, number, charges);
+  trax_ray_cycles_trap(tm->ray_counts, &tm->rays[number], charges, code, value);
+}
+
+void trax_fast_settle_rays(struct trax_tm *tm) {
+  uint64_t charges[TRAX_CAUSE_COUNT];
+  for (unsigned tp = 0; tm->ray_counts && tp < tm->tps; tp++) {
+    read_charges(tm, tp, charges);
+    trax_ray_cycles_add(tm->ray_counts, &tm->rays[tp], charges);
+  }
+}
+
 /* Counts the issued part of a burst, and takes it off what the burst's end will count. */
 static void count_burst(struct trax_tm *tm, unsigned number) {
   struct trax_tp *tp = &tm->tp[number];

@@ -132,7 +132,7 @@ static bool classify(struct trax_tm *tm, unsigned number, uint64_t t) {
       step |= TRAX_STEP_QUEUE;
     else {
       step |= (uint16_t)(TRAX_STEP_BANK | tp->address / 4 % tm->data_banks << TRAX_STEP_BANK_SHIFT);
-      tm->tp[number].loads[0] = tp->address;
+      tp->loads[0] = tm->heads.address[number] = tp->address;
     }
   }
   tm->tp[number].step[0] = step | TRAX_STEP_SLOW;
@@ -203,7 +203,7 @@ static ALWAYS_INLINE void grant_four_banks(const struct trax_tm *tm, trax_fast_l
 #pragma GCC unroll 4
   for (unsigned i = 0; i < TRAX_FAST_LANES; i++) { /* without branches, since requests are hard to predict */
     const unsigned number = trax_first(winner[i] | (uint64_t)1 << 63);
-    const uint32_t line = trax_line_of(tags, tm->loads_of[number][tm->heads.load[number]]);
+    const uint32_t line = trax_line_of(tags, tm->heads.address[number]);
     const bool is_hit = tags->lines[(size_t)(line & tags->set_mask) * tags->ways] == (uint64_t)line + 1;
     *way0_hits |= winner[i] & -(uint64_t)is_hit;
   }
@@ -259,7 +259,7 @@ static __attribute__((noinline)) uint64_t in_filling_banks(struct trax_tm *tm, u
 }
 
 static bool load_hits(struct trax_tm *tm, unsigned number, uint64_t t) {
-  const uint32_t address = tm->tp[number].loads[tm->heads.load[number]];
+  const uint32_t address = tm->heads.address[number];
   if (!trax_cache_tags_use(&tm->dcache.tags, trax_line_of(&tm->dcache.tags, address)))
     return false;
   tm->stats->dcache_hits++;
@@ -454,7 +454,8 @@ static ALWAYS_INLINE void begin(struct tm_cycle *cycle) {
 
 static ALWAYS_INLINE void issue(const struct tm_cycle *cycle, const bool wide) {
   const uint64_t quick = cycle->granted & ~cycle->slow, slow = cycle->granted & cycle->slow;
-  trax_fast_pass_loads(&cycle->tm->heads, quick & cycle->banks);
+  for (uint64_t loads = quick & cycle->banks; loads; loads &= loads - 1)
+    trax_fast_set_load(cycle->tm, trax_first(loads), cycle->tm->heads.load[trax_first(loads)] + 1u);
   if (slow)
     issue_in_order(cycle->tm, quick, slow, cycle->t);
   else

@@ -53,19 +53,17 @@ void trax_fast_refill(struct trax_tm *tm, unsigned number) {
   const uint64_t bit = (uint64_t)1 << number;
   struct trax_tp *tp = &tm->tp[number];
   drop_arrived(tp);
-  unsigned count = 0;
-  if (!tp->atomics) { /* else it might read or overwrite a register that an increment will write */
-    tp->begin = tp->resume;
-    tp->alone = tm->chip->alone;
-    memcpy(tp->begin_reg, tp->reg, sizeof tp->begin_reg);
-    count = trax_fast_burst(tm->chip, tm, number, tm->chip->burst);
-  }
+  tp->begin = tp->resume;
+  tp->alone = tm->chip->alone;
+  memcpy(tp->begin_reg, tp->reg, sizeof tp->begin_reg);
+  const unsigned count = trax_fast_burst(tm->chip, tm, number, tm->chip->burst);
   if (count) {
     tm->executes_at_issue &= ~bit;
     tm->uncertain = (tm->uncertain & ~bit) | (all_resident(tm, number, count) ? 0 : bit);
+    tp->ends_slowly = tp->step[count - 1] & TRAX_STEP_SLOW;
     tp->step[count - 1] |= TRAX_STEP_SLOW;
     tm->heads.last[number] = (uint8_t)(count - 1);
-    tm->heads.load[number] = 0;
+    trax_fast_set_load(tm, number, 0);
     tm->heads.check_at[number] = (tm->busy | tm->uncertain) & bit ? 0 : NO_CHECK;
     trax_fast_set_head(&tm->heads, number, 0);
   } else {
@@ -77,15 +75,14 @@ void trax_fast_refill(struct trax_tm *tm, unsigned number) {
   }
 }
 
-uint32_t trax_fast_advance(struct trax_tm *tm, unsigned number) {
-  const uint64_t bit = (uint64_t)1 << number;
+void trax_fast_advance(struct trax_tm *tm, unsigned number) {
   if (tm->heads.at[number] == tm->heads.last[number]) {
     trax_fast_refill(tm, number);
   } else {
-    tm->heads.load[number] += (tm->heads.low[number] & TRAX_STEP_KIND) == TRAX_STEP_BANK;
+    if ((tm->heads.low[number] & TRAX_STEP_KIND) == TRAX_STEP_BANK)
+      trax_fast_set_load(tm, number, tm->heads.load[number] + 1u);
     trax_fast_set_head(&tm->heads, number, tm->heads.at[number] + 1u);
   }
-  return tm->executes_at_issue & bit ? tm->tp[number].pc : trax_fast_head_timing(tm, number)->pc;
 }
 
 void trax_fast_export_head(struct trax_tm *tm, unsigned number) {
@@ -95,7 +92,7 @@ void trax_fast_export_head(struct trax_tm *tm, unsigned number) {
     return; /* set when it became the head; classify has set the address */
   tp->inst = tm->chip->program.timing[index].decoded;
   tp->pc = tm->chip->program.timing[index].pc;
-  tp->address = tp->inst->bytes ? tm->tp[number].loads[tm->heads.load[number]] : 0;
+  tp->address = tp->inst->bytes ? tm->heads.address[number] : 0;
 }
 
 void trax_fast_end_burst(struct trax_tm *tm, unsigned number, unsigned executed, unsigned issued) {

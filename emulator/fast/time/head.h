@@ -35,6 +35,12 @@ static inline void trax_fast_set_busy(struct trax_tm *tm, unsigned tp, unsigned 
   trax_fast_schedule_check(tm, tp, false);
 }
 
+/* `load`: the number of loads of global memory before the head in its burst. */
+static inline void trax_fast_set_load(struct trax_tm *tm, unsigned tp, unsigned load) {
+  tm->heads.load[tp] = (uint8_t)load;
+  tm->heads.address[tp] = tm->tp[tp].loads[load];
+}
+
 /* Executes the next burst. If its first instruction cannot be executed before its issue, the head executes at issue. */
 void trax_fast_refill(struct trax_tm *tm, unsigned tp);
 /* Writes the head to the TP's structure, which tm.c and tp.c use: inst, pc, address. */
@@ -51,8 +57,8 @@ static inline void trax_fast_set_resident(struct trax_tm *tm, unsigned icache, u
     tm->resident_lines[icache] = (tm->resident_lines[icache] & ~((uint64_t)1 << line)) | (uint64_t)is_resident << line;
 }
 
-/* Makes the TP's next instruction its head, after a new burst if necessary; returns its pc. */
-uint32_t trax_fast_advance(struct trax_tm *tm, unsigned tp);
+/* Makes the TP's next instruction its head, after a new burst if necessary. */
+void trax_fast_advance(struct trax_tm *tm, unsigned tp);
 
 /* Makes an instruction the TP's head, which executes at issue; its step is the only one. */
 static inline void trax_fast_execute_at_issue(struct trax_tm *tm, unsigned number, uint16_t step, uint32_t index,
@@ -64,7 +70,8 @@ static inline void trax_fast_execute_at_issue(struct trax_tm *tm, unsigned numbe
   tp->segment[0] = 0;
   tp->origin[0] = index;
   tp->loads[0] = address;
-  tm->heads.last[number] = tm->heads.load[number] = 0;
+  tm->heads.last[number] = 0;
+  trax_fast_set_load(tm, number, 0);
   trax_fast_set_head(&tm->heads, number, 0);
 }
 

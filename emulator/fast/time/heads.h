@@ -32,10 +32,11 @@ enum { TRAX_FAST_NEXT = 4 /* steps in a lane */, TRAX_FAST_ROWS = 8 };
 
 struct trax_fast_heads {
   _Alignas(64) uint8_t at[64]; /* the number of the head's step in its burst */
-  uint8_t load[64];            /* the number of loads of global memory before it in its burst */
   uint8_t low[64], high[64];   /* the low and the high byte of the head's step */
   uint8_t check_at[64]; /* the first step of the burst at which the head must be checked (trax_fast_schedule_check) */
   uint8_t last[64];     /* the last step of the burst */
+  uint8_t load[64];     /* the number of loads of global memory before the head in its burst */
+  uint32_t address[64]; /* of the next load of global memory, from the head on */
   uint32_t begin[64];   /* the index of the TP's first step in `steps`; of TPs that do not exist, TP 0's */
   _Alignas(64) uint64_t next[TRAX_FAST_ROWS][8];
   uint32_t row_begin[TRAX_FAST_ROWS][8]; /* begin, in the order of the lanes */
@@ -178,6 +179,11 @@ static inline __attribute__((always_inline)) void trax_fast_move_on(struct trax_
   }
   trax_fast_set_steps(heads, wide, step);
 #elif defined(__AVX2__)
+  if (__builtin_popcountll(who) <= (wide ? 8 : 4)) { /* one by one is faster */
+    for (; who; who &= who - 1)
+      trax_fast_set_head(heads, (unsigned)__builtin_ctzll(who), heads->at[__builtin_ctzll(who)] + 1u);
+    return;
+  }
   const bool fills = ++heads->moves % TRAX_FAST_NEXT == 0;
 #pragma GCC unroll 2
   for (unsigned half = 0; half < 1u + wide; half++) {
@@ -240,17 +246,6 @@ static inline __attribute__((always_inline)) uint64_t trax_fast_due(const struct
     due |= trax_fast_bit_of_eight((at & ~check_at) | (~(at ^ check_at) & low_bits), 7) << i;
   }
   return due;
-#endif
-}
-
-/* Counts the heads of `who`, which are loads of global memory, as issued. */
-static inline __attribute__((always_inline)) void trax_fast_pass_loads(struct trax_fast_heads *heads, uint64_t who) {
-#ifdef __AVX512BW__
-  const __m512i load = _mm512_load_si512(heads->load);
-  _mm512_store_si512(heads->load, _mm512_mask_add_epi8(load, who, load, _mm512_set1_epi8(1)));
-#else
-  for (; who; who &= who - 1)
-    heads->load[__builtin_ctzll(who)]++;
 #endif
 }
 

@@ -35,6 +35,8 @@ static bool execute(struct trax_tm *tm, unsigned number, uint64_t t) {
   tm->at_issue++;
   tm->count_deltas[index]++;
   tm->count_deltas[index + 1]--;
+  if (tm->ray_counts && inst->op == TRAX_OP_TRAP)
+    trax_fast_count_rays(tm, number, inst->imm, tp->reg[inst->ra]);
   return true;
 }
 
@@ -60,24 +62,28 @@ static void set_result_usable(struct trax_tm *tm, unsigned number, uint64_t t) {
 static void issue_slowly(struct trax_tm *tm, unsigned number, uint64_t t) {
   const uint64_t bit = (uint64_t)1 << number;
   struct trax_tp *tp = &tm->tp[number];
-  trax_fast_export_head(tm, number);
+  const uint32_t bubble = tm->config->tp.branch_bubble_cycles;
+  if (bubble || tm->observer)
+    trax_fast_export_head(tm, number); /* inst, pc */
   const struct trax_decoded *inst = tp->inst;
   const uint32_t pc = tp->pc;
   if (tm->executes_at_issue & bit) {
     if (!execute(tm, number, t))
       return;
   } else {
-    set_result_usable(tm, number, t);
-    if (tm->heads.at[number] == tm->heads.last[number])
-      trax_fast_end_burst(tm, number, tm->heads.last[number] + 1u, tm->heads.last[number] + 1u);
+    const unsigned last = tm->heads.last[number];
+    if (tm->heads.at[number] < last || tp->ends_slowly)
+      set_result_usable(tm, number, t);
+    if (tm->heads.at[number] == last)
+      trax_fast_end_burst(tm, number, last + 1u, last + 1u);
   }
   tm->holding &= ~bit;
   if (tm->observer)
     trax_tm_notify_issue(tm, number, pc, inst, tm->executes_at_issue & bit ? tp->pc : tp->resume_pc);
   if (tm->ended & bit)
     return;
-  const uint32_t bubble = tm->config->tp.branch_bubble_cycles;
-  if (trax_fast_advance(tm, number) != pc + 4 && bubble)
+  trax_fast_advance(tm, number);
+  if (bubble && trax_fast_head_timing(tm, number)->pc != pc + 4)
     trax_tm_sleep_until(tm, number, t, t + 1, t + 1 + bubble, TRAX_CAUSE_BRANCH);
 }
 

@@ -65,7 +65,7 @@ void trax_tm_complete(struct trax_tm *tm, const struct trax_request *request, ui
     break;
   case TRAX_REQUEST_ATOMIC:
     tm->tp[request->tp].increments--;
-    tm->tp[request->tp].reg[request->rd] = request->value;
+    tm->tp[request->tp].reg[request->rd] = tm->tp[request->tp].begin_reg[request->rd] = request->value;
     if (tm->observer && tm->observer->arrival && request->rd != TRAX_NO_REGISTER)
       tm->observer->arrival(tm->observer->context,
                             &(struct trax_arrival){t, tm->number, request->tp, request->rd, request->value});

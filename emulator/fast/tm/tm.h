@@ -10,6 +10,7 @@
 #include "fast/tm/tp.h"
 #include "fast/tm/unit.h"
 #include "machine/machine.h"
+#include "machine/ray_cycles.h"
 
 #define TRAX_WHEEL 64 /* slots of the timer wheel, one for each cycle; they are the bits of wheel_occupied */
 
@@ -43,6 +44,8 @@ struct trax_tm {
   struct trax_tm_stats *stats;
   struct trax_tp_stats *tp_stats; /* [tps] */
   int32_t *exit_statuses;         /* [tps] */
+  trax_ray_counts *ray_counts;    /* NULL: the cycles of rays are not counted */
+  struct trax_thread_rays *rays;  /* [tps] */
 
   struct trax_store_buffer *buffer; /* in an epoch; else NULL */
   uint64_t now;                     /* the cycle that is being simulated */
@@ -60,8 +63,7 @@ struct trax_tm {
      the sum of [0] to [i]. So a segment costs two additions. */
   int64_t *count_deltas; /* [inst_count + 1] */
   struct trax_fast_heads heads;
-  bool wide;                                     /* more than 32 TPs */
-  const uint32_t *loads_of[TRAX_MAX_TPS_PER_TM]; /* trax_tp.loads; of TPs that do not exist, TP 0's */
+  bool wide; /* more than 32 TPs */
   /* Masks of registers that may not be usable yet: an issue sets the bit of its destination unless the result is usable
      in the next cycle, and a check that finds the register usable clears it. trax_tp.usable is only valid for registers
      whose bit is set. */

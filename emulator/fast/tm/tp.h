@@ -40,6 +40,7 @@ struct trax_tp {
   uint64_t atomics;                    /* mask of registers that atomic increments under way will write */
 
   uint64_t issued, jumps; /* instructions and taken jumps that were issued in earlier bursts */
+  bool ends_slowly;       /* the last step of the current burst is slow even if another one followed */
   bool alone;             /* the current burst may store to global memory (trax_chip.alone) */
   uint32_t load_count;    /* loads of global memory of the current burst, and stores to it */
   uint32_t burst_jumps;   /* taken jumps of the current burst, that of its last step included */
@@ -49,7 +50,7 @@ struct trax_tp {
      are not part of the burst. */
   _Alignas(64) uint16_t step[TRAX_BURST + TRAX_CHUNK];
   uint8_t segment[TRAX_BURST + TRAX_CHUNK]; /* [step]: the number of its segment */
-  uint32_t loads[TRAX_BURST];               /* the addresses of the burst's loads and stores of global memory */
+  uint32_t loads[TRAX_BURST + 1];           /* the addresses of the burst's loads and stores of global memory */
   uint32_t origin[TRAX_BURST + 1];          /* [segment]: its first instruction's index minus its first step */
 
   /* The state at the beginning of the burst, for a roll back (blocks.c). */

@@ -27,6 +27,8 @@
 extern "C" {
 #endif
 
+#pragma GCC visibility push(default) /* of the shared library */
+
 /* --- configuration: trax_config_describe and docs/trax-sim.md list the keys --- */
 typedef struct trax_config trax_config;
 
@@ -161,11 +163,12 @@ typedef struct trax_run_options {
   const char *engine;
   unsigned host_threads; /* of the fast engine; results do not depend on their number; 0: trax_host_processors */
   const trax_slot_sampling *slots; /* NULL: everything is simulated */
+  bool ray_cycles;                 /* also counts the thread-cycles of the rays of each kind, with the fast engine */
 } trax_run_options;
 
 /* Runs the program to its end; options may be NULL. Returns TRAX_ERROR without a program, for a second run and for bad
-   options, TRAX_FAULT after a fault of the program, TRAX_STUCK if max_cycles passed, TRAX_INTERRUPTED if *interrupt
-   became nonzero. */
+   options, TRAX_FAULT after a fault of the program, TRAX_STUCK if max_cycles was reached, TRAX_INTERRUPTED if
+   *interrupt became nonzero. */
 trax_status trax_machine_run(trax_machine *machine, const trax_run_options *options, trax_error *error);
 
 /* --- a run in parts: the same cycles, counts and bytes as in one --- */
@@ -217,8 +220,16 @@ const char *trax_stats_cause(unsigned number);
 void trax_stats_print(const trax_machine *machine, FILE *out);
 /* Writes all statistics as JSON. path "-" is standard output; a file appears only when it is complete. */
 trax_status trax_stats_write_json(const trax_machine *machine, const char *path, trax_error *error);
+/* Writes the same to a stream; without what the simulation took of the host unless `host`. */
+trax_status trax_stats_put_json(const trax_machine *machine, bool host, FILE *out, trax_error *error);
+/* After a run with ray_cycles: writes the thread-cycles of the rays of each kind by cause, as CSV. After a sampled run
+   these are estimates, and the parts that were simulated follow (docs/explaining.md). A file appears only when it is
+   complete. */
+trax_status trax_ray_cycles_write(const trax_machine *machine, const char *path, trax_error *error);
 /* Prints name, unit and meaning of every member of the JSON. */
 void trax_stats_describe(FILE *out);
+
+#pragma GCC visibility pop
 
 #ifdef __cplusplus
 }

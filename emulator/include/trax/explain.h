@@ -14,6 +14,8 @@
 extern "C" {
 #endif
 
+#pragma GCC visibility push(default) /* of the shared library */
+
 struct trax_explain;
 
 /* The files that explain a run: member of the options, option of trax-sim, value, meaning. */
@@ -112,6 +114,8 @@ struct trax_explore_picture {
 /* To be called before trax_explain_end. The objects to which `picture` points must stay valid until then. Without this
    call the page has no picture. */
 void trax_explain_picture(struct trax_explain *explain, const struct trax_explore_picture *picture);
+
+#pragma GCC visibility pop
 
 #ifdef __cplusplus
 }

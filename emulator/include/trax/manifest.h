@@ -10,6 +10,8 @@
 extern "C" {
 #endif
 
+#pragma GCC visibility push(default) /* of the shared library */
+
 #define TRAX_MANIFEST_NAME "manifest.json"
 #define TRAX_MANIFEST_PROGRAM "program.elf"
 
@@ -63,6 +65,8 @@ bool trax_manifest_picture(const trax_manifest *manifest, const char **symbol, u
 trax_status trax_manifest_configure(const trax_manifest *manifest, trax_config *config, trax_error *error);
 /* Loads the program and binds the buffers, if their files have the sizes and hashes of the manifest. */
 trax_status trax_manifest_load(const trax_manifest *manifest, trax_machine *machine, trax_error *error);
+
+#pragma GCC visibility pop
 
 #ifdef __cplusplus
 }

@@ -7,7 +7,7 @@
 
 struct trax_run_progress {
   trax_progress_line *line;
-  const char *step;
+  const char *task;
   bool shown;
   trax_progress last; /* as of the latest line, since which the rate is measured */
 };

@@ -9,12 +9,14 @@ import shutil
 import sys
 import time
 
+from fetch import main as fetch
 from report import docs, make
 from report.paper import Paper
 from report.results import Results
 from report.table import seconds
 from report.tables import print_tables
 from trax_eval import runners
+from trax_eval.estimate import estimate
 from trax_eval.finished import forget_damaged, is_intact
 from trax_eval.interrupts import Interrupted, catch_interrupts, end_by_signal
 from trax_eval.planner import Planner, check_machines, check_names, label
@@ -34,13 +36,14 @@ usage: trax-eval [OPTION...] EXPERIMENT... [SCENES]
        trax-eval [OPTION...] --all [SCENES]
        trax-eval report RESULTS.json -o PAGE.html
        trax-eval docs [--check] [RESULTS.json...] PAGE.md...
+       trax-eval fetch-scenes [OPTION...] [SCENE...]
 
 Repeats what the paper measured, and shows our figures beside the paper's. Finished runs are kept: the same
 command makes only what is missing, whenever and however the one before it ended.
 
 EXPERIMENT is one of those below, or a sweep file of your own (NAME.json): copy lib/trax/evaluation/example.json, and
 change it; README.md beside it has the format. SCENES is the folder with the scenes' meshes (default: the variable
-TRAX_SCENES, or else ./scenes).
+TRAX_SCENES, or else ./scenes); `trax-eval fetch-scenes` fetches them, and has a --help of its own.
 
 %s
 %s
@@ -148,6 +151,8 @@ def evaluate(options, tools, data, command):
             if not is_intact(out, key)
         ]
         print("\n".join([*missing, f"{len(missing)} of {len(labels)} runs are missing"]))
+        if known := estimate(out, plans):
+            print("they take about {} of a processor, by the {} that are there".format(seconds(known[0]), known[1]))
         return 0
     for sweep, keys in plans:
         write_plan(out, sweep, keys, tools)
@@ -189,6 +194,8 @@ def run_one_job(arguments, tools):
 
 
 def dispatch(arguments, tools, data):
+    if arguments[:1] == ["fetch-scenes"]:
+        return fetch.main(arguments[1:], tools)
     if "-h" in arguments or "--help" in arguments:
         print(help_text(data), end="")
         return 0

@@ -7,6 +7,7 @@ from .assertions import ASSERTIONS, NOT_MEASURED
 from .results import COLUMNS, deviation, mean, number, ratio
 
 AGREES, DIFFERS, UNKNOWN = "agrees", "differs", "unknown"
+FITTED = "fitted"  # it agrees by construction
 
 
 @dataclass
@@ -84,7 +85,8 @@ def _area(results, paper, program):
         value for run, wanted in rows
         if (value := deviation(run.get("values.area_units") if run else None, wanted)) is not None
     ]
-    return verdict, found + (f"; of the sum of units without wires, {100 * median(units):+.0f} %" if units else "")
+    found += f"; of the sum of units without wires, which is no fit, {100 * median(units):+.0f} %" if units else ""
+    return FITTED if verdict == AGREES else verdict, found
 
 
 def _table3(results, paper, program):
@@ -248,7 +250,9 @@ def _staggering(results, paper, program):
 
 
 _CLAIMS = [
-    ("Table 1: area of the chips", "each of the 15 within 10 %, by the fit to the paper's", "1.9 to 25.3 mm²", _area),
+    ("Table 1: area of the chips",
+     "each of the 15 within 10 %; the area is a fit to these figures, so that it agrees by construction",
+     "1.9 to 25.3 mm²", _area),
     ("Table 1: GFLOPS in ray tracing", "each of the 15 chips within 10 %, mean of the scenes", "2.5 to 23.1", _gflops),
     ("Table 2: rays per second", "each of the 60 cells within 10 %", "1.41 to 32.5 MRPS", _within),
     ("Table 3: 8 and 16 GB/s", "each of the 12 figures within 10 %", "5.69 to 18.5 MRPS", _table3),
@@ -283,7 +287,7 @@ def _verdict(judge, results, paper, program):
     others."""
     def judged(some):
         holds, text = judge(some, paper, program)
-        return (holds, text) if holds in (AGREES, DIFFERS, UNKNOWN) else _judged(holds, text)
+        return (holds, text) if holds in (AGREES, DIFFERS, UNKNOWN, FITTED) else _judged(holds, text)
 
     verdict, found = judged(results)
     if verdict != UNKNOWN or found != NOT_MEASURED:

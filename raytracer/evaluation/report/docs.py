@@ -20,7 +20,7 @@ import sys
 
 from trax_eval.util import Problem, check_files, complain, write_file
 
-from . import estimates, rays, simd, tables
+from . import choices, estimates, rays, simd, tables
 from .charts import all_figures, sweep_figure
 from .claims import UNKNOWN, claims
 from .data import compact, merged, read_data, results_of, without
@@ -67,7 +67,7 @@ class Builder:
                 self.add([made], sweep, {})
         self.add([
             self.claims, lambda: tables.described(results, paper), lambda: tables.hardware(results, paper),
-            lambda: rays.gain_table(results), lambda: rays.kinds_table(results),
+            lambda: rays.gain_table(results), lambda: rays.kinds_table(results), lambda: choices.table(results, paper),
             lambda: simd.best_table(results), lambda: simd.kinds_table(results),
             lambda: simd.verdict_table(results)
         ], None, {})
@@ -79,14 +79,16 @@ class Builder:
             if any(run.program == name and not run.variant for run in self.results.runs)
         ]
         judged = claims(self.results, self.paper, programs)
-        return tables.claims_table(
-            [claim for claim in judged if any(claim.verdicts[name][0] != UNKNOWN for name in programs)], programs)
+        known = [claim for claim in judged if any(claim.verdicts[name][0] != UNKNOWN for name in programs)]
+        return tables.claims_table(self.results, known, programs)
 
     def add(self, makers, sweep, before):
         """before: what was asked for to know which tables there are; each needs it of its own runs."""
         for make in makers:
             self.results.asked.clear()
             table = make()
+            if table is None:
+                continue
             self.known[table.identity] = table, sweep, {
                 index: names | before.get(index, set()) for index, names in self.results.asked.items()
             }

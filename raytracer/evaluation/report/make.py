@@ -15,9 +15,9 @@ import urllib.parse
 from trax_eval.outputs import IsInput, read, write_output
 from trax_eval.util import Problem, check_files, complain
 
-from . import estimates, machines, rays, simd, tables
+from . import choices, estimates, machines, rays, simd, tables
 from .charts import all_figures
-from .claims import AGREES, DIFFERS, claims, median, table2_deviations
+from .claims import AGREES, DIFFERS, FITTED, claims, median, table2_deviations
 from .markup import Html, el, join, table
 from .paper import Paper
 from .plots import draw, shapes
@@ -61,8 +61,8 @@ def summary(results, paper, judged):
     items = [el("p", " ".join(sentences))]
     for program in results.programs():
         deviations = table2_deviations(results, paper, program)
-        said, not_said = (sum(claim.verdicts[program][0] == verdict for claim in judged)
-                          for verdict in (AGREES, DIFFERS))
+        said, not_said, fitted = (sum(claim.verdicts[program][0] == verdict for claim in judged)
+                                  for verdict in (AGREES, DIFFERS, FITTED))
         text = [
             el(
                 "b", f"{program}: {title}" if
@@ -75,8 +75,8 @@ def summary(results, paper, judged):
                         f"{'more' if middle >= 0 else 'fewer'} rays per second{'' if single else ' (median)'}. ")
         text.append(tables.own_machine(results, program))
         text.append(
-            f"Agrees with the paper in {said} of {len(judged)} claims, differs in {not_said}; not known: "
-            f"{len(judged) - said - not_said}."
+            f"Agrees with the paper in {said} of {len(judged)} claims, differs in {not_said}; fitted: {fitted}; "
+            f"not known: {len(judged) - said - not_said - fitted}."
         )
         items.append(el("p", *text))
     return join(items)
@@ -175,8 +175,11 @@ class Page:
         """Yields (identity, title, content)."""
         results, paper = self.results, self.paper
         judged = claims(results, paper, self.programs)
-        verdicts = table(tables.claims_table(judged, self.programs)) if self.programs else None
-        yield "summary", "Summary", [summary(results, paper, judged), verdicts]
+        verdicts = table(tables.claims_table(results, judged, self.programs)) if self.programs else None
+        by_choice = choices.table(results, paper)
+        yield "summary", "Summary", [
+            summary(results, paper, judged), verdicts, *([table(by_choice)] if by_choice else [])
+        ]
         yield "tables", "The paper's tables", [
             table(tables.table1(results, paper)), *self.of_programs(tables.table2), table(tables.table3(results, paper))
         ]

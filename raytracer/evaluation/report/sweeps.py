@@ -60,14 +60,21 @@ class Value:
 
         return ratio(one(self.name), one(self.per)) if self.per else one(self.name)
 
+    def half(self, run):
+        """Half the width of the figure's interval, if the run is an estimate; else None."""
+        if self.name.startswith("kind.") and not self.per:
+            return run.get(f"values.rays.{run.kind}.{self.name[len('kind.'):]}_half")
+        interval = run.interval() if self.name == "mrps" and not self.per else None
+        return (interval[1] - interval[0]) / 2 if interval and interval[0] != interval[1] else None
+
     @property
     def is_relative(self):
         return self.compared in ("times", "percent")
 
-    def cell(self, value, **more):
+    def cell(self, value, digits=None, **more):
         if self.percent:
             return share(value, 1 if value and abs(value) < 0.01 else 0, **more)
-        return figure(value, self.digits, **more)
+        return figure(value, digits or self.digits, **more)
 
 
 def interval_text(run, per=None):
@@ -137,10 +144,15 @@ class Axes:
         return sorted(places, key=lambda place: [order[key].index(value) for key, value in zip(keys, place)])
 
 
-def relation(value, times):
+def plus_minus(half, cell):
+    """Half the width of an interval as text, in the unit of the cell, which `cell` makes of a value."""
+    return "" if half is None else f"± {cell(half).shown}"
+
+
+def relation(value, times, half=None):
     """A cell with the ratio of a figure to another, instead of both."""
     if value.compared == "times":
-        return figure(times, value.digits)
+        return figure(times, value.digits, below=plus_minus(half, lambda part: figure(part, 2)))
     change = None if times is None else times - 1
     return Cell(percent(change, signed=True, digits=1), change)
 
@@ -191,22 +203,44 @@ class SweepTable:
     def found(self, row, column, value):
         return mean(value.of(run) for run in self.of(row, column))
 
-    def times(self, row, column, value):
-        """The figure by that of the runs that have the values of `relative` and are otherwise the same."""
+    def half(self, row, column, value):
+        """Half the width of the interval of a figure, or of the mean of several, whose errors are independent."""
+        halves = [value.half(run) for run in self.of(row, column)]
+        known = [half for half in halves if half is not None]
+        return math.sqrt(math.fsum(half**2 for half in known)) / len(halves) if known else None
+
+    def half_of_times(self, row, column, value):
+        """The same of `times`: relative errors add up as squares."""
+        sides = [(row, column), self.base(row, column)]
+        parts = [ratio(self.half(*side, value), self.found(*side, value)) for side in sides]
+        known = [part for part in parts if part is not None]
+        times = self.times(row, column, value)
+        if not known or times is None or sides[0] == sides[1]:
+            return None
+        return times * math.sqrt(math.fsum(part**2 for part in known))
+
+    def base(self, row, column):
+        """The place of the runs that have the values of `relative` and are otherwise the same."""
         def at(place, keys):
             return tuple(self.reference.get(key, one) for key, one in zip(keys, place))
 
+        return at(row, self.rows), at(column, self.columns)
+
+    def times(self, row, column, value):
+        """The figure by that of the runs at its base."""
         if not self.reference:
             return None
-        base = self.found(at(row, self.rows), at(column, self.columns), value)
-        return ratio(self.found(row, column, value), base)
+        return ratio(self.found(row, column, value), self.found(*self.base(row, column), value))
 
     def cell(self, row, column, value):
         some = self.of(row, column)
         if value.is_relative:
-            return relation(value, self.times(row, column, value))
+            half = self.half_of_times(row, column, value)
+            return relation(value, self.times(row, column, value), half)
         quotient = self.times(row, column, value) if value.compared == "change" else None
         below = interval_text(some[0], value.per) if value.name == "mrps" and len(some) == 1 else ""
+        if not below:
+            below = plus_minus(self.half(row, column, value), lambda part: value.cell(part, digits=2))
         below = below if quotient is None else percent(quotient - 1, signed=True, digits=1)
         link = f"#run-{some[0].index}" if len(some) == 1 else ""
         return value.cell(self.found(row, column, value), below=below, link=link)

@@ -2,14 +2,15 @@
 output and docs."""
 
 from .charts import CAUSES, shares
-from .claims import AGREES, DIFFERS, UNKNOWN, speedup
+from .claims import AGREES, DIFFERS, FITTED, UNKNOWN, speedup
 from .results import deviation, mean, ratio
 from .sweeps import interval_text
 from .sweeps import makers as any_makers
 from .table import EMPTY, Cell, Table, duration, figure, percent, seconds, share, words
 
-_VERDICTS = {
-    AGREES: ("✓ agrees", "verdict yes"), DIFFERS: ("✗ differs", "verdict no"), UNKNOWN: ("? not known", "verdict open")
+VERDICTS = {
+    AGREES: ("✓ agrees", "verdict yes"), DIFFERS: ("✗ differs", "verdict no"),
+    UNKNOWN: ("? not known", "verdict open"), FITTED: ("○ fitted", "verdict open")
 }
 
 
@@ -43,20 +44,21 @@ def measured(run, wanted):
     return compared(run.get("mrps"), wanted, 4, interval_text(run), link=f"#run-{run.index}", title=title)
 
 
-def claims_table(claims, programs):
+def claims_table(results, claims, programs):
     columns = [("claim", "t"), ("paper", None), *((program, "t") for program in programs), ("how it is judged", None)]
     rows, notes = [], []
     for claim in claims:
         row, more = [words(claim.title), Cell(claim.paper)], []
         for program in programs:
             verdict, found = claim.verdicts[program]
-            text, style = _VERDICTS[verdict]
+            text, style = VERDICTS[verdict]
             short, _, rest = found.partition("; ")  # the first clause; what explains it stands below the table
             row.append(Cell(text, verdict, short, style))
             more += [f"{program}: {rest}"] if rest else []
         rows.append(row + [Cell(claim.rule, style="rule")])
         notes += [(claim.title, ". ".join(more))] if more else []
-    return Table("claims", "What the paper says, and what was measured", columns, rows, notes=notes)
+    machines = [f"{program}: {own}" for program in programs if (own := own_machine(results, program).strip())]
+    return Table("claims", "What the paper says, and what was measured", columns, rows, " ".join(machines), notes)
 
 
 def own_machine(results, program):
@@ -255,7 +257,7 @@ def described(results, paper):
     for what, says, key, wanted in _DESCRIBED:
         values = sorted({value for run in runs if key not in run.set and (value := run.setting(key)) is not None})
         verdict = AGREES if values == [wanted] else DIFFERS if values else UNKNOWN
-        text, style = _VERDICTS[verdict]
+        text, style = VERDICTS[verdict]
         rows.append([
             words(what),
             words(says),

@@ -58,7 +58,8 @@ def simulator(engine):
 def make_job(tools, inputs, point):
     more = {
         name: value for name, value in (("counters", point.program.counters),
-                                        ("measure", [name for name in MEASURES if getattr(point, name)])) if value
+                                        ("measure", [name for name in MEASURES if getattr(point, name)]),
+                                        ("ray_cycles", point.ray_cycles)) if value
     }
     engine = engine_of(tools, point)
     if "measure" in more:
@@ -117,10 +118,11 @@ def renderer(tools, inputs, job, scratch, threads):
 
 def command_of(tools, inputs, job, scratch, threads):
     """trax-sim on the job's inputs; what it writes is in scratch."""
+    rays = ["--ray-cycles", f"{scratch}/rays.csv"] if job.get("ray_cycles") else []
     if job["engine"] == "quick":
         return [
             *renderer(tools, inputs, job, scratch, threads), "--sampled", "--stats", f"{scratch}/stats.json", "-o",
-            f"{scratch}/image.png"
+            f"{scratch}/image.png", *rays
         ]
     command = [
         tools.path("trax-sim"), "--quiet", "--config", f"{scratch}/machine.cfg", "--engine", job["engine"], "--stats",
@@ -136,7 +138,7 @@ def command_of(tools, inputs, job, scratch, threads):
     if job["ray_kinds"]:
         command += ["--ray-kinds", f"{scratch}/kinds.csv"]
         command += ["--lockstep-rays", f"{scratch}/lanes.csv"] if job["lockstep"] else []
-    return [*command, str(inputs / NAME)]
+    return [*command, *rays, str(inputs / NAME)]
 
 
 def measure(tools, out, inputs, job, scratch, threads, run):
@@ -236,6 +238,8 @@ def keep_results(out, key, job, scratch, statistics, figures, code, host):
         result["ray_kinds"] = read_kinds(pathlib.Path(scratch, "kinds.csv"))
         if job["lockstep"]:
             result["ray_lanes"] = read_kinds(pathlib.Path(scratch, "lanes.csv"))
+    if job.get("ray_cycles"):
+        result["ray_cycles"] = read_kinds(pathlib.Path(scratch, "rays.csv"))
     write_sealed(out / "runs" / f"{key}.host.json", host)
     write_sealed(out / "runs" / f"{key}.json", result)
     (out / "runs" / f"{key}.error").unlink(missing_ok=True)
@@ -253,9 +257,10 @@ def processor():
 
 
 def read_kinds(path):
-    """Rows of numbers, but for the kind."""
+    """Rows of numbers, but for the kind and the part of the run."""
     columns, rows = read_csv(path)
-    return [{name: value if name == "kind" else float(value) for name, value in zip(columns, row)} for row in rows]
+    words = ("kind", "part")
+    return [{name: value if name in words else float(value) for name, value in zip(columns, row)} for row in rows]
 
 
 def read_csv(path):

@@ -186,7 +186,7 @@ class Planner:
                 return "-" + hash_value([
                     point.scene, point.program.file, machine, point.size, point.mode, point.series,
                     point.lockstep, point.ray_kinds, point.workload,
-                    [pair for pair in point.settings if option_of(pair[0])], point.error, point.hits
+                    [pair for pair in point.settings if option_of(pair[0])], point.error, point.hits, point.ray_cycles
                 ]), None
             job = make_job(self.tools, inputs, point)
         except Problem as problem:

@@ -53,7 +53,7 @@ def find_mesh(directory, name, beside=None):
     for candidate in (*([pathlib.Path(beside, name)] if beside else []), directory / name, directory / (name + ".xz")):
         if candidate.is_file():
             return str(candidate.resolve())
-    raise Problem(f"{directory}: neither {name} nor {name}.xz is there; README.md says where the scenes are to be had")
+    raise Problem(f"{directory}: neither {name} nor {name}.xz is there; trax-eval fetch-scenes fetches the scenes")
 
 
 PAPERS_LINES = 256  # of the data cache, what trax-scene takes by itself
@@ -147,4 +147,5 @@ def import_scenes(wanted, jobs, scratch):
 def mesh_files(directory, name):
     """The meshes of a scene that comes with trax, in the folder of scenes: for scripts that measure without
     trax-eval."""
-    return [find_mesh(directory, mesh) for mesh in find_scenes(name, ".", False)[0]["meshes"]]
+    scene = find_scenes(name, ".", False)[0]
+    return [find_mesh(directory, mesh, scene["folder"]) for mesh in scene["meshes"]]

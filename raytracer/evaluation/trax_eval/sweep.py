@@ -23,7 +23,7 @@ WORD = r"[A-Za-z][\w.:-]*"  # of a key whose values are words
 QUICK_PIXELS, QUICK_WIDTH, QUICK_SIDE = 640 * 360, 80, 2 / 3
 MOST_RUNS = 100000  # of one sweep: all combinations of a few long lists take all memory
 KEYS = ("name", "title", "claim", "x", "y", "y_per", "scenes", "programs", "chips", "set", "size", "mode", "series",
-        "lockstep", "workloads", "ray_kinds", "reference", "error", "hits", "table", "all")
+        "lockstep", "workloads", "ray_kinds", "ray_cycles", "reference", "error", "hits", "table", "all")
 # Keys of `set` may be options of these programs: "trax-scene --leaf". What trax-eval says itself is not for sweeps,
 # programs and workloads, nor is what writes files, which the programs' tables tell (Tools.given).
 TAKEN = {
@@ -74,6 +74,7 @@ class Point:
     variant: str = ""
     error: bool = False  # how far the picture is off
     hits: bool = False  # which triangles it shows
+    ray_cycles: bool = False  # how long the rays of each kind took, without what else they cost
 
     @property
     def chip_file(self):
@@ -92,7 +93,8 @@ class Point:
             *(self.program.scene if tool == "trax-scene" else self.program.render),
             *workload["scene" if tool == "trax-scene" else "render"]
         ]
-        words += ["--mark-rays"] if tool == "trax-render" and self.ray_kinds and self.program.specialised else []
+        marked = (self.ray_kinds or self.ray_cycles) and self.program.specialised
+        words += ["--mark-rays"] if tool == "trax-render" and marked else []
         for key, value in self.settings:
             if (option := option_of(key)) and option[0] == tool:
                 words = [*without_option(words, option[1]), *option_words(option[1], value)]
@@ -256,8 +258,8 @@ def check_programs(reader, used, rays, measured):
     """Refuses programs that cannot do what the sweep asks for."""
     if rays and (unfit := [program for program in used if not program.rays]):
         reader.fail(
-            "programs", f'workloads and ray_kinds need programs with "rays": true, which {unfit[0].file} has not: they '
-            "take workloads, and tell where rays begin")
+            "programs", f'workloads, ray_kinds and ray_cycles need programs with "rays": true, which {unfit[0].file} '
+            "has not: they take workloads, and tell where rays begin")
     if measured and (unfit := [program for program in used if not program.specialised or program.convert]):
         reader.fail(
             "programs",
@@ -270,7 +272,7 @@ def mode_of(reader, mode, needs_exact):
     chosen = mode or reader.strings("mode", "exact", MODES)[0]
     if needs_exact and chosen != "exact" and "mode" in reader.value and not mode:
         reader.fail(
-            "mode", "series, lockstep, ray_kinds, workloads, error, hits and programs that are compiled or converted "
+            "mode", "series, lockstep, ray_kinds, error, hits and programs that are compiled or converted "
             'need "exact"')
     return "exact" if needs_exact else chosen
 
@@ -292,9 +294,10 @@ def read_sweep(path, *, size=None, mode=None, programs=None, chips=None, only_sc
     if type(series) is not int or not 0 <= series <= 10**9:
         reader.fail("series",
                     f"expected the cycles of an interval, 1 to 1000000000, or 0 for no series, is {canonical(series)}")
-    lockstep, ray_kinds, error, hits = map(reader.flag, ("lockstep", "ray_kinds", "error", "hits"))
+    lockstep, ray_kinds, ray_cycles, error, hits = map(reader.flag,
+                                                       ("lockstep", "ray_kinds", "ray_cycles", "error", "hits"))
     workloads = reader.workloads()
-    rays = ray_kinds or list(workloads) != [PAPER]
+    rays = ray_kinds or ray_cycles or list(workloads) != [PAPER]
     chosen_programs, variants = reader.programs(rays), reader.variants()
     named = list(dict.fromkeys(variant[0] for variant in variants if variant[0]))
     reference = reader.text("reference", "")
@@ -307,9 +310,9 @@ def read_sweep(path, *, size=None, mode=None, programs=None, chips=None, only_sc
                     if not program or program.name in programs]
     used = used_programs(chosen_programs, variants)
     check_programs(reader, used, rays, error or hits)
-    needs_exact = bool(series or lockstep or rays or error or hits) or not all(program.plain for program in used)
+    needs_exact = bool(series or lockstep or ray_kinds or error or hits) or not all(program.plain for program in used)
     chosen_mode = mode_of(reader, mode, needs_exact)
-    if mode == "quick" and not size and not ray_kinds:
+    if mode == "quick" and not size and not ray_kinds and not ray_cycles:
         chosen_size, chosen_mode = quick_size(chosen_size, chosen_mode)
     scenes = {name: scene for name, scene in reader.scenes().items() if only_scenes is None or name in only_scenes}
     chips = reader.chips() if chips is None else {chip: "" for chip in chips}
@@ -322,7 +325,7 @@ def read_sweep(path, *, size=None, mode=None, programs=None, chips=None, only_sc
         reader.fail(None, f"it asks for {runs} runs; at most {MOST_RUNS} are allowed")
     points = [
         Point(scene, program, chip, settings, size or chosen_size, chosen_mode, series, lockstep, ray_kinds, workload,
-              chips[chip], variant, error, hits)
+              chips[chip], variant, error, hits, ray_cycles)
         for workload, scene, (program, some) in itertools.product(workloads, scenes, groups.items())
         for chip, (variant, _, settings) in itertools.product(chips, some)
     ]

@@ -2,6 +2,7 @@
 
 import csv
 import math
+import statistics as stat
 
 
 def ratio(numerator, denominator):
@@ -96,11 +97,26 @@ STALLS = {
 }
 
 
+def rows_of_rays(result, statistics):
+    """The row of each kind of ray, of trax-sim --ray-kinds or --ray-cycles."""
+    rate = statistics["configuration"]["chip"]["clock_mhz"] * statistics["threads"]
+    whole, *parts = parts_of_rays(result) or [{}]
+    cycles = []
+    for kind, row in whole.items():
+        # Of a sampled run by the rays of its parts: cycles of a ray vary less from place to place than rays do.
+        rays, spent = (math.fsum(part[kind][name] for part in parts or [whole]) for name in ("rays", "thread_cycles"))
+        cycles.append(row | {"mrps": ratio(rate * rays, spent)})
+    return [
+        row for row in result.get("ray_kinds", cycles) if row["kind"] not in ("all", "rest") and row["thread_cycles"]
+    ]
+
+
 def values_of_rays(result, statistics):
     """Returns values by kind of ray, with `none` for work for no ray: rays.KIND.count, mrps, bytes_per_ray,
     energy_per_ray (nJ), share (of the thread-cycles before the threads' ends), utilisation, one of STALLS and rest
-    (shares of the kind's thread-cycles), and lanes.WIDTH."""
-    rows = [row for row in result.get("ray_kinds", []) if row["kind"] not in ("all", "rest") and row["thread_cycles"]]
+    (shares of the kind's thread-cycles), and lanes.WIDTH. Of a sampled run also half the width of a figure's interval,
+    NAME_half."""
+    rows = rows_of_rays(result, statistics)
     lanes = {(row["kind"], int(row["width"])): row["utilisation"] for row in result.get("ray_lanes", [])}
     live = statistics["thread_cycles"] - statistics["causes"]["halted"]
     values = {}
@@ -112,10 +128,81 @@ def values_of_rays(result, statistics):
         mine["rest"] = max(
             0, 1 - math.fsum(value or 0 for name, value in mine.items() if name in STALLS or name == "utilisation"))
         if row["rays"]:
-            mine |= {
-                "mrps": row["mrps"], "bytes_per_ray": row["bytes_per_ray"],
-                "energy_per_ray": 1e9 * row["energy_per_ray"]
-            }
+            mine["mrps"] = row["mrps"]
+        if row["rays"] and "energy_per_ray" in row:
+            mine |= {"bytes_per_ray": row["bytes_per_ray"], "energy_per_ray": 1e9 * row["energy_per_ray"]}
         mine |= {f"lanes.{width}": share for (kind, width), share in lanes.items() if kind == row["kind"]}
         values |= {f"rays.{row['kind']}.{name}": value for name, value in mine.items()}
-    return values
+    return values | halves_of_rays(result, values)
+
+
+# --- intervals of sampled runs
+
+BIAS = 0.01  # for caches after a warm-up, as in docs/sampling.md
+
+
+def student_95(degrees):
+    """The quantile of Student's distribution: a value lies between minus and plus the result with probability 0.95
+    (Abramowitz and Stegun, 26.7.5; the first from tables)."""
+    few = (0, 12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228, 2.201, 2.179)
+    if degrees < len(few):
+        return few[degrees]
+    z, n = 1.959964, degrees
+    terms = z, (z**3 + z) / 4, (5 * z**5 + 16 * z**3 + 3 * z) / 96, (3 * z**7 + 19 * z**5 + 17 * z**3 - 15 * z) / 384
+    return sum(term / n**power for power, term in enumerate(terms))
+
+
+def half_width(draws, whole, divisor=None):
+    """Half the width of the interval of an estimated total, or of its quotient by another one. draws: (total, other) of
+    each draw, weighted, so that they add up to what was sampled. The error of a quotient is that of its numerator
+    minus the quotient times its denominator, to first order (Cochran, Sampling Techniques, 6.3)."""
+    estimate = whole if divisor is None else whole / divisor
+    errors = [total - (0 if divisor is None else estimate * other) for total, other in draws]
+    spread = math.sqrt(len(errors) * stat.variance(errors)) / (divisor or 1)
+    return student_95(len(errors) - 1) * spread + BIAS * abs(estimate)
+
+
+def parts_of_rays(result):
+    """The parts of a run that counted the cycles of rays, a row for each kind: the whole, and if it was sampled its
+    beginning and end, and then the draws, weighted so that they add up."""
+    rows = result.get("ray_cycles", [])
+    kinds = len({row["kind"] for row in rows})
+    parts = [{row["kind"]: row for row in rows[first:first + kinds]} for first in range(0, len(rows), kinds or 1)]
+    return [{
+        kind: {name: value if name in ("part", "kind") else row["weight"] * value for name, value in row.items()}
+        for kind, row in part.items()
+    } for part in parts]
+
+
+def halves_of_rays(result, values):
+    """Half widths of the figures that values_of_rays returns of a sampled run."""
+    whole, *parts = parts_of_rays(result) or [{}]
+    if len(parts) < 3:  # an exact run, or a single draw
+        return {}
+    halves = {}
+    known = [cause for stall in STALLS.values() for cause in stall] + ["issued"]
+    shares = {"utilisation": ["issued"], "rest": known} | STALLS
+
+    def live(row):
+        return row["thread_cycles"] - row["halted"]
+
+    def half(kind, over, below=None):
+        """Of the sum of over(part), or of its quotient by that of below(part); relative."""
+        draws = [(over(part[kind]), below(part[kind]) if below else 0) for part in parts[1:]]
+        sums = [math.fsum(side(part[kind]) for part in parts) for side in (over, below) if side]
+        return ratio(half_width(draws, *sums), sums[0] / sums[1] if below else sums[0]) if all(sums) else 0
+
+    for kind in whole:
+        for name in ("mrps", "share", *shares):
+            value = values.get(f"rays.{kind}.{name}")
+            if value is None:
+                continue
+            if name == "mrps":
+                width = half(kind, lambda row: row["thread_cycles"], lambda row: row["rays"])
+            elif name == "share":
+                width = half(kind, live)
+            else:
+                width = half(kind, lambda row, causes=shares[name]: sum(row[cause] for cause in causes), live)
+            # The error of what is left is that of what is known.
+            halves[f"rays.{kind}.{name}_half"] = width * (1 - value if name == "rest" and value else value)
+    return halves

@@ -1,5 +1,4 @@
-/* The log of the twin's way through the scene: which nodes and triangles it reads, ray by ray and slot by slot. One
-   thread at a time. */
+/* The log of the nodes and triangles that the twin reads, ray by ray and slot by slot. By one thread at a time. */
 #ifndef TRAX_ACCESS_H
 #define TRAX_ACCESS_H
 
@@ -12,12 +11,12 @@ typedef uint32_t trax_access;
 /* A ray, after it was traced. */
 struct trax_traced_ray {
   float origin[3], direction[3];
-  float farthest;    /* it asks for what lies before; a distance in units of the direction */
+  float farthest;    /* limit of the distances of hits, in units of the direction */
   uint32_t pixel;    /* y << 16 | x */
   uint32_t sample;   /* of the pixel */
   uint32_t kind;     /* enum trax_ray_kind */
   uint32_t found;    /* it hit something */
-  uint32_t triangle; /* the nearest: bytes from the start of the scene; 0: nothing, or the ray did not ask which */
+  uint32_t triangle; /* the nearest: bytes from the start of the scene; 0: none, or any hit sufficed */
   float distance, weight1,
       weight2; /* of that: in units of the direction; barycentric, of the second and third corner */
 };
@@ -29,7 +28,7 @@ struct trax_access_log {
   /* The slot is done, with this many rays; its accesses are those since the previous call. */
   void (*slot)(struct trax_access_log *log, uint32_t slot, uint32_t rays);
   /* The ray was traced; its accesses are those in the log since the call before, and those that were discarded. NULL:
-     nobody wants to know. */
+     not called. */
   void (*ray)(struct trax_access_log *log, const struct trax_traced_ray *ray);
 };
 

@@ -65,8 +65,8 @@ struct trax_mesh {
   uint32_t vertex_count, triangle_count, material_count, texture_count, texel_count, camera_count;
 };
 
-/* A name as meshes have it: of one that is longer its beginning, "~", and 16 digits that depend on all of it, so that
-   names that differ stay different. */
+/* A name of at most TRAX_MESH_NAME - 1 characters. A longer one becomes its beginning, "~", and 16 digits that depend
+   on all of it, so that different names stay different. */
 void trax_mesh_name(char name[TRAX_MESH_NAME], const char *text);
 
 /* Reports the progress of a long step. fraction is 0 to 1, or negative if unknown. May be called from any thread. */
@@ -101,7 +101,6 @@ bool trax_parse_size(const char *text, size_t *bytes);
 
 struct trax_import_options {
   bool drop_nonfinite;     /* drop triangles with a NaN or infinite vertex instead of refusing the mesh */
-  bool keep_degenerate;    /* keep triangles of exactly zero area, which no ray can hit */
   bool no_textures;        /* images are not read; materials keep only their colours */
   unsigned texture_size;   /* limit of texels a side; a power of two up to 4096; 0: 4096 */
   size_t unpack_limit;     /* bytes; 0: TRAX_DEFAULT_UNPACK_LIMIT */
@@ -148,8 +147,8 @@ trax_status trax_mesh_import(struct trax_mesh *mesh, const char *const *paths, s
                              trax_error *error);
 void trax_mesh_release(struct trax_mesh *mesh);
 
-/* From now on each file that is read for an import or a build is listed in the file of this descriptor: a line as of
-   `xxhsum -H2`, or one that begins with "-" for a file that cannot be read. 0: no more. */
+/* From now on, lists each file that an import or a build reads in the file of this descriptor: a line as of `xxhsum
+   -H2`, or one that begins with "-" for a file that cannot be read. 0 ends the list. */
 void trax_scene_list_files(int descriptor);
 
 /* --- scenes --- */
@@ -176,9 +175,7 @@ struct trax_scene {
   struct trax_scene_grid grid;
 };
 
-/* What there is to know of a layout without its nodes, which begin with two boxes of six planes each and two
- * references.
- */
+/* A layout of nodes. A node begins with two boxes of six planes each and two references. */
 struct trax_node_format {
   const char *name;     /* of trax-scene --nodes */
   uint32_t bytes;       /* of a node */
@@ -214,8 +211,7 @@ struct trax_build_options {
                               leaves; 0 or 1: none */
   bool choose_splits;      /* the default instead, if many triangles' boxes are much larger than they; never of lamps */
   unsigned passes;         /* over the tree that was built, to improve it: at most TRAX_SCENE_MAX_PASSES */
-  float traversal_cost;    /* of a node, relative to intersection_cost; 0: default */
-  float intersection_cost; /* of a triangle; 0: default */
+  float traversal_cost;    /* of a node, relative to a triangle's; 0: default */
   /* Another builder's tree instead, from arrays (docs/own-tree.md): .npy files. NULL: none; without tree_boxes each
      triangle is in one leaf. */
   const char *tree_nodes, *tree_triangles, *tree_boxes;
@@ -229,10 +225,10 @@ struct trax_build_options {
   const volatile int *interrupt; /* polled; may be NULL */
 };
 
-/* From a layout's name, or auto. False: there is no such layout. */
+/* Sets the layout by its name, or auto. False if there is no such layout. */
 bool trax_node_layout_choose(const char *name, struct trax_build_options *build);
 
-/* From a number, auto, or NULL for the default. False: it is none, or out of range. */
+/* Sets the splits: a number, auto, or NULL for the default. False if it is none of these, or out of range. */
 bool trax_splits_choose(const char *text, struct trax_build_options *build);
 
 #define TRAX_DEFAULT_SPLITS 1.5f

@@ -83,8 +83,8 @@ trax_status trax_view_aim(struct trax_view *view, const float look_at[3], trax_e
 /* Sets up, which need not be perpendicular. Errors: no length, or parallel to the direction. */
 trax_status trax_view_set_up(struct trax_view *view, const float up[3], trax_error *error);
 
-/* Turns eye and camera together around a point: by `angle` degrees, counterclockwise from above, around the coordinate
-   axis that points most upwards, after they were raised by `elevation` degrees. Lights do not move. */
+/* Raises eye and camera by `elevation` degrees around a point, then turns them by `angle` degrees, counterclockwise
+   from above, around the coordinate axis that points most upwards. Lights do not move. */
 void trax_view_orbit(struct trax_view *view, const float centre[3], float angle, float elevation);
 
 /* Writes a view file that reads back as this view. It is written under a temporary name and renamed. */

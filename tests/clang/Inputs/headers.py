@@ -4,6 +4,7 @@ without warnings, twice in a row; what C17 promises of each is declared, and its
 status 1 and the compiler's words if not."""
 
 import os
+import re
 import subprocess
 import sys
 
@@ -67,6 +68,9 @@ HEADERS = {
     "wctype.h": "iswalnum iswalpha iswblank iswcntrl iswdigit iswgraph iswlower iswprint iswpunct iswspace iswupper "
                 "iswxdigit iswctype "
     "wctype towlower towupper towctrans wctrans WEOF", "trax.h": "trax_thread", }
+# Names that programs use for themselves after these headers.
+FREE = {header: "time clock difftime gmtime strftime" for header in
+        "sys/time.h sys/times.h utime.h unistd.h sys/types.h".split()}
 # What is not here; docs/porting.md says so.
 WITHOUT = {
     "threads.h": "cnd_broadcast cnd_destroy cnd_init cnd_signal cnd_timedwait cnd_wait mtx_timedlock thrd_detach "
@@ -111,11 +115,14 @@ def program(header, names, cxx):
     return "\n".join(lines) + "\n"
 
 
-def declares(clang, header, name):
-    done = subprocess.run([*clang, "-fsyntax-only", "-x", "c", "-"],
-                          input=f"#include <{header}>\nvoid *f = (void *){name};", text=True,
-                          stderr=subprocess.DEVNULL, check=False)
-    return done.returncode == 0
+def declared(clang, header, names):
+    """Those of the names that the header declares: no error is in their lines."""
+    lines = [f"void *f{number} = (void *){name};" for number, name in enumerate(names)]
+    text = "\n".join([f"#include <{header}>", '#line 0 "names"', *lines, ""])
+    done = subprocess.run([*clang, "-fsyntax-only", "-ferror-limit=0", "-x", "c", "-"], input=text, text=True,
+                          stderr=subprocess.PIPE, check=False)
+    wrong = {int(number) for number in re.findall(r"^names:(\d+):\d+: error: ", done.stderr, re.MULTILINE)}
+    return [name for number, name in enumerate(names) if number not in wrong]
 
 
 def missing_functions(clang, folder):
@@ -143,10 +150,13 @@ def main():
     print(words, file=sys.stderr)
     failed = bool(words)
     for header, names in WITHOUT.items():
-        wrong = [name for name in names.split() if declares(clang, header, name)]
-        if wrong:
+        if wrong := declared(clang, header, names.split()):
             failed = True
             print(f"<{header}> declares {wrong}: not in WITHOUT, and in docs/porting.md", file=sys.stderr)
+    for header, names in FREE.items():
+        if wrong := declared(clang, header, names.split()):
+            failed = True
+            print(f"<{header}> declares {wrong}, which are names of programs", file=sys.stderr)
     for header, names in HEADERS.items():
         variants = [("c", "-std=c17"), ("c", "-std=gnu2x")] + ([] if header in NOT_IN_CXX else [("cpp", "-std=c++17")])
         for ending, standard in variants:

@@ -1,6 +1,7 @@
-"""Parts of files_test.py that are not random: limits of the host, what another process puts to a name before it is written, and
-input by the library."""
+"""Parts of files_test.py that are not random: limits of the host, what another process puts to a name before it is
+written, and input by the library."""
 
+import json
 import os
 import resource
 import subprocess
@@ -93,7 +94,8 @@ def moved(tools, _):
 
 
 def resumed(tools, _):
-    """What a checkpoint has is complete, whether the host's files are those before or after the changes that belong to it."""
+    """What a checkpoint has is complete, whether the host's files are those before or after the changes that belong to
+    it."""
     begin = "Q q\nF a 20000 1 644 0\nF b 10 2 644 0\n"
     new = [line for name in "nk" for line in (f"o 1 {name} wct", "w 1 9 1", "c 1")]
     for committed in (True, False):
@@ -116,6 +118,42 @@ def resumed(tools, _):
             status == 0 and sorted(os.listdir(folder / "q")) == ["d", "m"] and contents(folder / "q" / "d") == whole,
             (status, message, os.listdir(folder / "q")),
         )
+
+
+def ended(tools, _):
+    """A run that is killed while it changes files after its program's end is resumed from there."""
+    begin = "Q q\nF a 20000 1 644 0\nF b 10 2 644 0\n"
+    lines = ["Q q", "R a c", "u b", "o 1 n wct", "w 1 9 1", "c 1", "o 2 m wct", "w 2 7 3"]
+    changes = [
+        lambda folder: (folder / "n").write_bytes(b"half"),
+        lambda folder: (folder / "a").rename(folder / "c"),
+        lambda folder: (folder / "b").unlink(),
+    ]
+    stats, state = tools.root / "stats", tools.root / "state"
+    for config in ("1x32", "4x32"):
+        folder = tools.fresh("guest-files", begin)
+        path = tools.write(tools.root / "script", "\n".join([*lines, ""]))
+        how = ("--config", config, "--stats", stats)
+        status, _, message = tools.run(tools.simulate(*how, "--checkpoint", state), folder, path)
+        tools.check(f"ended, {config}", status == 0 and state.exists(), (status, message))
+        expected, figures = tools.list(folder), statistics(stats)
+        for made in (*range(4), "all"):
+            if made != "all":
+                folder = tools.fresh("guest-files", begin)
+                for change in changes[:made]:
+                    change(folder / "q")
+            tools.write(path, "\n".join([*lines, ""]))
+            done = tools.run(tools.simulate(*how, "--resume", state), folder, path)
+            tools.check(
+                f"ended, {config}, {made} changes made",
+                done == (0, "", "") and tools.list(folder) == expected and statistics(stats) == figures,
+                (done, tools.list(folder)),
+            )
+
+
+def statistics(path):
+    figures = json.loads(path.read_text())
+    return {name: value for name, value in figures.items() if "host" not in name}
 
 
 def put_link(path):
@@ -173,8 +211,8 @@ def obstacles(tools, _):
 
 
 def exchanged(tools, _):
-    """Two files exchange names, and another process gives one of the names to a folder. The other file's contents stay: under
-    their former name, or if that has been replaced, in a temporary file that the message names."""
+    """Two files exchange names, and another process gives one of the names to a folder. The other file's contents stay:
+    under their former name, or if that has been replaced, in a temporary file that the message names."""
     kept = []
     for taken, other in ("ab", "ba"):
         folder = tools.fresh("guest-files", "Q q\nF a 20000 1 644 0\nF b 10 2 644 0\n") / "q"
@@ -222,7 +260,8 @@ def library(tools, options):
 def outputs(tools, _):
     """An output of the simulator is no file that the program has read or written."""
     begin = "Q q\nF a 20 1 644 0\n"
-    for label, lines, left in (("read", ["o 1 a r", "r 1 5", "c 1"], 20), ("written", ["o 1 a wct", "w 1 9 1", "c 1"], 9)):
+    for label, lines, left in (("read", ["o 1 a r", "r 1 5", "c 1"], 20), ("written", ["o 1 a wct", "w 1 9 1",
+                                                                                       "c 1"], 9)):
         for option in ("--stats", "--trace"):
             folder = tools.fresh("guest-files", begin)
             path = tools.write(tools.root / "script", "\n".join(["Q q", *lines, ""]))
@@ -234,8 +273,12 @@ def outputs(tools, _):
                 (status, message, os.listdir(folder / "q")),
             )
     folder = tools.fresh("guest-files", begin)
-    status, _, message = tools.run(tools.simulate("--stats", folder / "q" / "b"), folder, tools.write(tools.root / "script", "Q q\n"))
+    status, _, message = tools.run(tools.simulate("--stats", folder / "q" / "b"), folder,
+                                   tools.write(tools.root / "script", "Q q\n"))
     tools.check("beside the program's files", status == 0 and (folder / "q" / "b").exists(), message)
 
 
-PARTS = {"limits": limits, "moved": moved, "resumed": resumed, "obstacles": obstacles, "exchanged": exchanged, "library": library, "outputs": outputs}
+PARTS = {
+    "limits": limits, "moved": moved, "resumed": resumed, "ended": ended, "obstacles": obstacles,
+    "exchanged": exchanged, "library": library, "outputs": outputs
+}

@@ -2,9 +2,9 @@
 of the user is then as a whole what it was or what the program wrote, and nothing outside the folder is read or
 written."""
 
-import os
 import pathlib
 import random
+import stat
 import subprocess
 import time
 
@@ -31,9 +31,11 @@ class Versions:
             self.begin.append(f"F {name} {size} {pick.randrange(100)} 644 0")
             self.last[name] = contents(size, int(self.begin[-1].split()[3]))
         self.all = {name: [self.last[name]] for name in NAMES}
+        self.possible = {name: [self.last[name]] for name in NAMES}  # each write may fail
         for _ in range(120):
             name, size, seed = pick.choice(NAMES), pick.choice(sequences.SIZES), pick.randrange(100)
             written, way = contents(size, seed), pick.randrange(4)
+            self.possible[name] += [text + written for text in self.possible[name]] if way == 1 else [written]
             path, flags = (name, "wct") if way == 0 else (name, "wa") if way == 1 else ("t", "wct")
             written = self.last[name] + written if way == 1 else written
             self.lines += (
@@ -50,9 +52,9 @@ class Versions:
         return "\n".join(["Q q", *self.begin, ""]), "\n".join(["Q q", *self.lines, ""])
 
 
-def wrong(versions, folder):
+def wrong(allowed_by_name, folder):
     """Names of files that are none of their versions."""
-    whole = [versions.all[name] for name in NAMES]
+    whole = [allowed_by_name[name] for name in NAMES]
     return [name for name, allowed in zip(NAMES, whole) if (folder / "q" / name).read_bytes() not in allowed]
 
 
@@ -69,7 +71,7 @@ def killed(tools, options):
             time.sleep(pick.uniform(0, 0.06))
             process.kill()
             process.communicate()
-        tools.check(f"killed {options.seed + i}", not wrong(versions, folder), wrong(versions, folder))
+        tools.check(f"killed {options.seed + i}", not wrong(versions.all, folder), wrong(versions.all, folder))
     print(f"killed: {count} runs", flush=True)
 
 
@@ -96,8 +98,8 @@ def limited(tools, options):
         status, _, message = tools.run(tools.simulate("--checkpoint", tools.root / "none"), folder, path, room)
         tools.check(
             f"limited with checkpoints {options.seed + i}",
-            not wrong(versions, folder) and (status == 0 or "cannot be written" in message),
-            (status, message, wrong(versions, folder)),
+            not wrong(versions.all, folder) and (status == 0 or "cannot be written" in message),
+            (status, message, wrong(versions.all, folder)),
         )
     full(tools, options, count)
     print(f"limited: {count} runs", flush=True)
@@ -131,7 +133,7 @@ def full(tools, options, count):
                 )
                 tools.check(
                     f"full {how[0]} {options.seed + i}",
-                    not wrong(versions, place)
+                    not wrong(versions.possible, place)
                     and ("c -1 28" in output or status == 0 or "cannot be written" in message),
                     (status, output[-200:], message),
                 )
@@ -174,8 +176,9 @@ def disturbed(tools, options):
 
 
 def listing(folder):
-    return {str(path): path.read_bytes() for path in pathlib.Path(folder).rglob("*") if path.is_file()} | {
-        "count": len(os.listdir(folder))
+    return {
+        str(path): path.read_bytes() if stat.S_ISREG(path.lstat().st_mode) else stat.filemode(path.lstat().st_mode)
+        for path in pathlib.Path(folder).rglob("*")
     }
 
 

@@ -263,29 +263,32 @@ static void list(const char *path) {
 }
 
 /* Puts links out of the folder, pipes, folders and other files to names, and folders to other places, all the time. */
+/* Nothing is done in q/d while that is a link: the program may have renamed one of the links made here. */
 static void disturb(double seconds, unsigned seed) {
   static const char *const names[] = {"q/a", "q/b", "q/c", "q/d/a", "q/d/b", "q/h", "q/t"};
   static const char *const folders[] = {"q/d", "q/e", "q/f"};
   const clock_t end = clock() + (clock_t)(seconds * CLOCKS_PER_SEC);
   srandom(seed);
   while (clock() < end) {
-    const char *name = names[(unsigned)random() % 7], *place = folders[(unsigned)random() % 3];
+    const char *path = names[(unsigned)random() % 7], *place = folders[(unsigned)random() % 3];
+    const char *name = strrchr(path, '/') + 1;
+    const int at = open(path[2] == 'd' ? "q/d" : "q", O_PATH | O_DIRECTORY | O_NOFOLLOW);
     switch ((unsigned)random() % 9) {
     case 0: /* a link over the name, in one step */
-      if (symlink(strncmp(name, "q/d/", 4) == 0 ? "../../../outside/secret" : "../../outside/secret", "q/.link") == 0)
-        rename("q/.link", name);
+      if (symlink(path[2] == 'd' ? "../../../outside/secret" : "../../outside/secret", "q/.link") == 0)
+        renameat(AT_FDCWD, "q/.link", at, name);
       break;
     case 1:
       if (mkfifo("q/.pipe", 0600) == 0)
-        rename("q/.pipe", name);
+        renameat(AT_FDCWD, "q/.pipe", at, name);
       break;
     case 2:
-      unlink(name);
-      mkdir(name, 0777);
+      unlinkat(at, name, 0);
+      mkdirat(at, name, 0777);
       break;
     case 3:
-      rmdir(name);
-      unlink(name);
+      unlinkat(at, name, AT_REMOVEDIR);
+      unlinkat(at, name, 0);
       break;
     case 4: /* a folder becomes a link to that outside */
       if (rename(place, "q/.moved") == 0 && symlink("../../outside", place) == 0)
@@ -302,9 +305,11 @@ static void disturb(double seconds, unsigned seed) {
     default: {
       const int descriptor = open("q/.file", O_WRONLY | O_CREAT | O_TRUNC, 0600);
       if (write(descriptor, "other", 5) == 5 && close(descriptor) == 0)
-        rename("q/.file", name);
+        renameat(AT_FDCWD, "q/.file", at, name);
     }
     }
+    if (at >= 0)
+      close(at);
   }
 }
 #endif

@@ -118,11 +118,13 @@ def section(elf, name):
     """The offset of a section."""
     start, size, count, names = struct.unpack_from("<I10xHHH", elf, 32)
     headers = [struct.unpack_from("<10I", elf, start + size * i) for i in range(count)]
-    return next(at for word, _, _, _, at, *_ in headers if elf[headers[names][4] + word:].startswith(name.encode() + b"\0"))
+    return next(at for word, _, _, _, at, *_ in headers
+                if elf[headers[names][4] + word:].startswith(name.encode() + b"\0"))
 
 
 def changed(work, name, options, change):
-    """What trax-sim prints for a program whose bytes were changed: when it writes symbols, and at the program's fault."""
+    """What trax-sim prints for a program whose bytes were changed: when it writes symbols, and at the program's
+    fault."""
     elf = os.path.join(work, "changed.elf")
     subprocess.run([f"{BIN}/clang", "--target=trax", "-g", *options, "-o", elf, f"{HERE}/{name}.c"], check=True)
     with open(elf, "r+b") as file:

@@ -1,26 +1,24 @@
 #!/usr/bin/env python3
 """Show that isa-exhaustive, and the oracle's own test, notice every mistake: each rule of the oracle is broken in turn.
 
-    tests/isa/oracle/mutants.py --build build
-    tests/isa/oracle/mutants.py --stale                    only lists texts that are not there
+    mutants.py [SCRATCH] [--build build] [--only EXPRESSION]
+    mutants.py --stale             only lists texts that are not there
 
-A mutant is oracle.c with one text replaced. isa-exhaustive compares the emulator's arithmetic with it over --count
+A mutant is oracle.c with one text replaced. isa-exhaustive compares the emulator's arithmetic with it over a million
 cases of each operation, so a mutant that passes would also be a mistake of the emulator that passes. The oracle's test
 is tried as well, once as a whole and once without the comparison with MPFR, by the hand-worked cases alone. Exit
 status: 0 if isa-exhaustive and the whole test notice all.
 """
 
-import argparse
-import json
 import pathlib
-import shlex
-import subprocess
 import sys
-import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parents[1] / "render"))
-from mutation import list_stale  # noqa: E402
+sys.path.insert(0, str(HERE.parents[1]))
+from mutation import Mutant, failure, main, relinked  # noqa: E402
+
+COUNT = 1000000
+SECONDS = 600
 
 MUTANTS = [  # (what is wrong, text, replacement)
     ("ties to odd", "kept % 2 == 1)", "kept % 2 == 0)"), ("ties away", "(sticky || kept % 2 == 1)", "true"),
@@ -90,72 +88,23 @@ MUTANTS = [  # (what is wrong, text, replacement)
      "(uint32_t)1 << (SIGNIFICANT_BITS - bits) / 2 * 2"), ]
 
 
-def flags_and_objects(build):
-    """The command that compiles oracle.c, without names of files; objects that isa-exhaustive and isa-oracle-test are
-    linked from."""
-    entries = json.loads((build / "compile_commands.json").read_text())
-    for entry in entries:
-        if pathlib.Path(entry["file"]) == HERE / "oracle.c":
-            words = shlex.split(entry["command"])
-            compile_words = words[: words.index("-o")]
-            break
-    else:
-        sys.exit(f"mutants.py: {build}/compile_commands.json does not compile oracle.c")
-    objects = {}
-    for target in ("isa-exhaustive", "isa-oracle-test"):
-        objects[target] = sorted((build / f"tests/isa/oracle/CMakeFiles/{target}.dir").rglob("*.o"))
-        if not objects[target]:
-            sys.exit(f"mutants.py: build {target} first")
-    objects["isa-exhaustive"] += [build / "runtime/trax-runtime-host.o", "-lm", "-lpthread"]
-    objects["isa-oracle-test"] += ["-lcmocka", "-lmpfr", "-lgmp"]
-    return compile_words, objects
+TESTS = {"isa-exhaustive": ("isa-exhaustive", "--count", COUNT), "the oracle's test": ("isa-oracle-test",),
+         "hand-worked cases": ("isa-oracle-test", "--by-hand")}
+REQUIRED = list(TESTS)[:2]
 
 
-def fails(command):
-    done = subprocess.run([str(word) for word in command], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                          check=False)
-    return done.returncode != 0
+def noticed(folder, build, mutant):
+    """What notices it; nothing if not all that must do so notice it."""
+    relinked(folder, build, "tests/isa/oracle/CMakeFiles/isa_oracle.dir", HERE / mutant.file, mutant.changed(HERE),
+             ("isa-exhaustive", "isa-oracle-test"))
+    found = [by for by, (program, *words) in TESTS.items() if failure(SECONDS, folder / program, *words)]
+    return found if mutant.text == mutant.other or set(REQUIRED) <= set(found) else []
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
-    parser.add_argument("--build", type=pathlib.Path, default=HERE / "../../../build", help="the build folder")
-    parser.add_argument("--count", type=int, default=1000000,
-                        help="isa-exhaustive's cases of each operation (default: 1000000)")
-    parser.add_argument("--stale", action="store_true", help="only lists mutants of texts that are not there")
-    options = parser.parse_args()
-    if options.stale:
-        return list_stale(MUTANTS, HERE, lambda mutant: ("oracle.c", mutant[1]))
-    compile_words, objects = flags_and_objects(options.build.resolve())
-    source = (HERE / "oracle.c").read_text()
-    caught = {"isa-exhaustive": 0, "oracle's test": 0, "hand-worked cases": 0}
-    for number, (what, text, replacement) in enumerate([("nothing", "", "")] + MUTANTS):
-        if number and source.count(text) != 1:
-            sys.exit(f"mutants.py: '{text}' is there {source.count(text)} times")
-        with tempfile.TemporaryDirectory() as name:
-            folder = pathlib.Path(name)
-            (folder / "oracle.c").write_text(source.replace(text, replacement) if number else source)
-            (folder / "oracle.h").write_text((HERE / "oracle.h").read_text())
-            if fails([*compile_words, "-w", "-c", folder / "oracle.c", "-o", folder / "oracle.o"]):
-                sys.exit(f"mutants.py: '{what}' does not compile")
-            for target, more in objects.items():
-                if fails(["cc", folder / "oracle.o", *more, "-o", folder / target]):
-                    sys.exit(f"mutants.py: '{what}' does not link")
-            results = {"isa-exhaustive": fails([folder / "isa-exhaustive", "--count", options.count]),
-                       "oracle's test": fails([folder / "isa-oracle-test"]),
-                       "hand-worked cases": fails([folder / "isa-oracle-test", "--by-hand"])}
-        if number == 0:
-            if any(results.values()):
-                sys.exit("mutants.py: the oracle itself fails")
-            continue
-        for by, noticed in results.items():
-            caught[by] += noticed
-        missed = [by for by, noticed in results.items() if not noticed]
-        print(f"{number:2}/{len(MUTANTS)} {what}: {'not noticed by ' + ', '.join(missed) if missed else 'noticed'}",
-              flush=True)
-    print(", ".join(f"{by} notices {n} of {len(MUTANTS)}" for by, n in caught.items()))
-    return min(caught["isa-exhaustive"], caught["oracle's test"]) < len(MUTANTS)
+def print_totals(results):
+    print(", ".join(f"{by} notices {sum(by in found for _, found in results)}" for by in TESTS))
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    LIST = [Mutant("oracle.c", text, other, what) for what, text, other in MUTANTS]
+    sys.exit(main(__doc__, HERE, LIST, noticed, totals=print_totals))

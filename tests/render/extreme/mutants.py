@@ -2,9 +2,10 @@
 """Takes one precaution at a time out of the device program, in a copy, and says which cases of the extreme suite
 notice.
 
-    mutants.py SCRATCH [--build build] [--only NAME]
+    mutants.py [SCRATCH] [--build build] [--only EXPRESSION]
+    mutants.py --stale             only lists texts that are not there
 
-Needs a finished build, which is not changed. Exit status 0 if every mutant fails in the case that is there for it.
+Exit status 0 if every mutant fails in the case that is there for it.
 """
 
 import pathlib
@@ -12,8 +13,10 @@ import shutil
 import subprocess
 import sys
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
-from mutation import ROOT, command, main  # noqa: E402
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path[:0] = map(str, (HERE.parent, HERE.parents[1]))
+from device_copy import DEVICE, changed_copy  # noqa: E402
+from mutation import ROOT, Mutant, command, compile_as, main  # noqa: E402
 
 TESTS = "tests/render/extreme"
 
@@ -46,38 +49,33 @@ MUTANTS = [
 ]
 
 
-def compile_query(build, output, folder, made):
-    """As ninja makes the output of query.c, of the copy of query.c."""
-    words = command(build, output)
-    words[words.index(str(ROOT / TESTS / "query.c"))] = folder / TESTS / "query.c"
-    words[words.index("-MF") + 1] = "/dev/null"
-    words[words.index("-o") + 1] = made
-    subprocess.run([*words, "-w"], check=True, cwd=build)
-
-
 def make(folder, build):
     """Compiles the query programs and the suite with them."""
+    query = TESTS + "/query.c"
     for program in (build / "lib/trax").glob("query-*.elf"):
-        compile_query(build, f"lib/trax/{program.name}", folder, folder / program.name)
+        compile_as(build, f"lib/trax/{program.name}", ROOT / query, folder / query, folder / program.name)
     for program in ("trax-raytracer.elf", "trax-raytracer-exact.elf"):
         shutil.copy(build / "lib/trax" / program, folder)
     link = command(build, "tests/bin/render-extreme")
     for i, word in enumerate(link):
         if word.endswith("/query.c.o"):
             link[i] = folder / f"{i}.o"
-            compile_query(build, word, folder, link[i])
+            compile_as(build, word, ROOT / query, folder / query, link[i])
     link[link.index("-o") + 1] = folder / "render-extreme"
     subprocess.run(link, check=True, cwd=build)
 
 
-def said(folder, case):
-    """What the suite says of the case."""
-    run = subprocess.run([folder / "render-extreme", "--program-directory", folder, "--case", case],
-                         capture_output=True, text=True, timeout=600)
+def noticed(folder, build, mutant):
+    """What the suite says of the mutant's case."""
+    changed_copy(folder, TESTS, mutant)
+    make(folder, build)
+    run = subprocess.run([folder / "render-extreme", "--program-directory", folder, "--case", mutant.case],
+                         capture_output=True, text=True, timeout=600, check=False)
     return sorted({
         line.split(": ", 2)[2]
         for line in run.stderr.splitlines() if line.startswith(("FAILED: ", "render-extreme: error: "))})
 
 
 if __name__ == "__main__":
-    sys.exit(main(__doc__, TESTS, MUTANTS, make, said))
+    LIST = [Mutant(file, text, other, name, case) for name, file, text, other, case in MUTANTS]
+    sys.exit(main(__doc__, DEVICE, LIST, noticed, unchanged=lambda mutant: mutant.case))

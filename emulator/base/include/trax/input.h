@@ -12,7 +12,7 @@
    a hundredth of it. */
 #define TRAX_TEXT_LIMIT ((size_t)1 << 20)
 
-/* A file that is read in several steps. */
+/* A file that is read piece by piece. */
 typedef struct trax_input {
   const char *path; /* for messages */
   int descriptor;

@@ -11,7 +11,7 @@ typedef enum trax_status {
   TRAX_ERROR,       /* bad input: the message names the place */
   TRAX_FAULT,       /* the guest caused a fault, which trax_machine_print_fault reports */
   TRAX_INTERRUPTED, /* options.interrupt became true; statistics are partial */
-  TRAX_STUCK        /* max_cycles passed, or the watchdog ended the run; statistics are partial */
+  TRAX_STUCK        /* max_cycles was reached, or the watchdog ended the run; statistics are partial */
 } trax_status;
 
 typedef struct trax_error {

@@ -1,8 +1,10 @@
-//===- TraxBuiltinNames.cpp - keep the builtins' names in the IR ---------===//
+//===- TraxDeclarations.cpp - what clang leaves to do with declarations --===//
 //
-// Clang drops `__builtin_` from the name of a builtin that becomes a library call. `trax_rsqrt` and its like are names
-// that a program may use, so each builtin that a file mentions gets its full name back as an assembler label before
-// code is generated.
+// A plugin that is linked in. It sees declarations before the code generator does.
+//
+// - Clang drops `__builtin_` from the name of a builtin that becomes a library call. `trax_rsqrt` and the like are names
+//   that a program may use. So each builtin that a file mentions gets its full name back as an assembler label.
+// - Clang accepts ifunc, and builtins that take _Float16, for every ELF target. Here they are errors.
 //
 //===----------------------------------------------------------------------===//
 
@@ -26,13 +28,20 @@ const char *const Labels[][2] = {
     {"__builtin_debugtrap", "llvm.debugtrap"},
 };
 
-class LabelBuiltins final : public ASTConsumer {
+class Declarations final : public ASTConsumer {
 public:
   void Initialize(ASTContext &C) override { Context = &C; }
 
-  // A body is complete when it arrives here, and what it calls declared.
-  bool HandleTopLevelDecl(DeclGroupRef) override {
+  // Bodies are complete here, and their callees declared.
+  bool HandleTopLevelDecl(DeclGroupRef Group) override {
     label();
+    for (const Decl *Declared : Group)
+      if (const auto *Attribute = Declared->getAttr<IFuncAttr>())
+        Context->getDiagnostics().Report(
+            Attribute->getLocation(),
+            Context->getDiagnostics().getCustomDiagID(DiagnosticsEngine::Error,
+                                                      "ifunc is not supported: nothing resolves functions at start"))
+            << Attribute->getRange();
     return true;
   }
   void HandleInlineFunctionDefinition(FunctionDecl *) override { label(); }
@@ -44,8 +53,8 @@ public:
 private:
   ASTContext *Context = nullptr;
 
-  /// Clang refuses _Float16 where it is written, but not the builtins that take it. Their declarations are at their
-  /// first use.
+  /// Clang refuses _Float16 where it is written, but not the builtins that take it. A builtin is declared at its first
+  /// use.
   void refuseHalf() {
     DiagnosticsEngine &Diags = Context->getDiagnostics();
     const unsigned ID =
@@ -77,17 +86,17 @@ private:
   }
 };
 
-class LabelBuiltinsAction final : public PluginASTAction {
+class DeclarationsPlugin final : public PluginASTAction {
   std::unique_ptr<ASTConsumer> CreateASTConsumer(CompilerInstance &CI, llvm::StringRef) override {
     if (trax::isTraxTriple(CI.getTarget().getTriple()))
-      return std::make_unique<LabelBuiltins>();
+      return std::make_unique<Declarations>();
     return std::make_unique<ASTConsumer>();
   }
   bool ParseArgs(const CompilerInstance &, const std::vector<std::string> &) override { return true; }
   ActionType getActionType() override { return AddBeforeMainAction; }
 };
 
-const FrontendPluginRegistry::Add<LabelBuiltinsAction> Registration("trax-builtin-names",
-                                                                    "keep the names of Trax builtins");
+const FrontendPluginRegistry::Add<DeclarationsPlugin> Registration("trax-declarations",
+                                                                   "names of builtins, and unsupported declarations");
 
 } // namespace

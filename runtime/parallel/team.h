@@ -1,0 +1,23 @@
+/* The threads that wait for work, and what they look at. */
+#ifndef TRAX_RUNTIME_TEAM_H
+#define TRAX_RUNTIME_TEAM_H
+
+#include "../internal/machine.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <trax/parallel.h>
+
+#ifdef __trax__
+
+/* Calls the function on the threads below `size` (0: all), or on this one alone; gives their number. */
+unsigned __trax_team_run(void (*function)(void *), void *context, unsigned size);
+/* Lets the other threads wait for work; gives their number. */
+unsigned __trax_team_open(void);
+
+/* Of programs with thrd_create: a waiting thread looks for a function there; whether threads run such functions. */
+__attribute__((weak)) void __trax_errand(void);
+__attribute__((weak)) unsigned __trax_errands(void);
+
+#endif
+#endif

@@ -1,0 +1,123 @@
+"""The driver of the lists of mutants: changed lines of the sources, each of which some test must notice.
+
+    mutants.py [SCRATCH] [--build build] [--only EXPRESSION]    tries those in whose name, file or lines it is found
+    mutants.py --stale                                          lists texts that are not exactly once in their file
+
+Needs a finished build, which is not changed. Exit status 0 if every mutant is noticed.
+"""
+
+import argparse
+import os
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+from typing import NamedTuple
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+
+
+class Mutant(NamedTuple):
+    file: str  # below the sources of the list
+    text: str  # which is there once
+    other: str  # what it becomes
+    name: str = ""
+    case: str = ""  # the only one that is tried
+
+    def __str__(self):
+        return ": ".join(filter(None, (self.name or f"{self.file}: {self.text.strip()}  ->  {self.other.strip()}",
+                                       self.case)))
+
+    def changed(self, sources):
+        return (sources / self.file).read_text().replace(self.text, self.other)
+
+
+def command(build, output):
+    """How ninja makes the output, as words."""
+    last = subprocess.run(["ninja", "-C", str(build), "-t", "commands", output], check=True, capture_output=True,
+                          text=True).stdout.splitlines()[-1]
+    return shlex.split(next(part for part in last.split(" && ") if part.split()[0] not in ("cd", ":")))
+
+
+def compile_as(build, output, source, other, made, *options):
+    """Compiles another source as ninja compiles the source of this output."""
+    words = command(build, output)
+    words[words.index(str(source))] = other
+    words[words.index("-MF") + 1] = os.devnull
+    words[words.index("-o") + 1] = made
+    subprocess.run([*words, *options, "-w"], check=True, cwd=build)
+
+
+def link_as(build, output, made, objects, without=()):
+    """Links as ninja links the output, with the objects before the archives, so that they take the place of the same
+    ones there."""
+    words = [word for word in command(build, output) if not word.endswith(tuple(without))]
+    at = next(i for i, word in enumerate(words) if word.endswith(".a"))
+    words[words.index("-o") + 1] = made
+    subprocess.run([*words[:at], *objects, *words[at:]], check=True, cwd=build)
+
+
+def relinked(folder, build, target, source, text, tests):
+    """Programs like these tests, with the text in the place of the source of the target's library."""
+    changed, made = folder / source.name, folder / f"{source.name}.o"
+    changed.write_text(text)
+    compile_as(build, f"{target}/{source.name}.o", source, changed, made, f"-I{source.parent}")
+    for test in tests:
+        link_as(build, f"tests/bin/{test}", folder / test, [made])
+    return [folder / test for test in tests]
+
+
+def failure(seconds, program, *words, environment=None):
+    """Why the program does not end with status 0; None if it does."""
+    try:
+        done = subprocess.run([program, *map(str, words)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                              timeout=seconds, check=False, env=os.environ | (environment or {}))
+    except subprocess.TimeoutExpired:
+        return f"{program.name} does not end"
+    return program.name if done.returncode else None
+
+
+def list_stale(sources, mutants):
+    stale = [(one, count) for one in mutants if (count := (sources / one.file).read_text().count(one.text)) != 1]
+    for one, count in stale:
+        print(f"{one}: {one.file}: {count} times there: {one.text}")
+    print(f"{len(stale)} of {len(mutants)} mutants are stale")
+    return bool(stale)
+
+
+def main(description, sources, mutants, noticed, unchanged=lambda mutant: "", totals=None):
+    """Tries mutants of files below the folder `sources`. noticed(folder, build, mutant) says which tests notice one, in
+    a new folder. First it is called with mutants that change nothing, one for each value of unchanged(mutant).
+    totals(results) prints more about (mutant, said). The exit status."""
+    parser = argparse.ArgumentParser(description=description.split("\n")[0])
+    parser.add_argument("scratch", type=pathlib.Path, nargs="?", help="a folder that keeps what is made")
+    parser.add_argument("--stale", action="store_true", help="only lists mutants of texts that are not there")
+    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build", help="the build folder")
+    parser.add_argument("--only", default="", help="mutants in whose name, file or lines it is found")
+    options = parser.parse_args()
+    if options.stale:
+        return list_stale(sources, mutants)
+    chosen = [one for one in mutants if re.search(options.only, "\n".join(one))]
+    if not chosen or list_stale(sources, chosen):
+        sys.exit(f"mutants.py: error: {'stale' if chosen else 'no'} mutants")
+    with tempfile.TemporaryDirectory() as temporary:
+        scratch = (options.scratch or pathlib.Path(temporary)).resolve()
+
+        def said(number, one):
+            folder = scratch / str(number)
+            folder.mkdir(parents=True, exist_ok=True)
+            return noticed(folder, options.build.resolve(), one)
+
+        for key, one in {unchanged(one): one for one in chosen}.items():
+            if failed := said("unchanged", one._replace(other=one.text)):
+                sys.exit(f"mutants.py: error: without a mutant: {key} {'; '.join(failed)}")
+        results = []
+        for number, one in enumerate(chosen):
+            results.append((one, said(number, one)))
+            print(f"{one}: {'; '.join(results[-1][1]) or 'NOT NOTICED'}", flush=True)
+    if totals:
+        totals(results)
+    print(f"{sum(bool(found) for _, found in results)} of {len(chosen)} noticed")
+    return not all(found for _, found in results)

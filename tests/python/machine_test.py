@@ -1,0 +1,177 @@
+"""Machines: the figures are those of trax-sim, memory is shared, errors are exceptions with the place."""
+
+import gc
+import json
+import os
+import signal
+import subprocess
+import sys
+import textwrap
+import threading
+import time
+
+import numpy
+import pytest
+
+import trax
+
+VALUES = numpy.arange(1000, dtype=numpy.uint32)
+HOST = ("host_seconds", "instructions_per_host_second", "program")
+
+
+def sim(*words):
+    """Statistics of trax-sim, without what is the host's."""
+    command = [trax.tool("trax-sim"), "--quiet", "--stats", "-", *words]
+    done = subprocess.run(command, stdout=subprocess.PIPE, check=True)
+    return without_host(json.loads(done.stdout[done.stdout.index(b"{"):]))
+
+
+def without_host(statistics):
+    return {name: value for name, value in statistics.items() if name not in HOST}
+
+
+def triple(programs, *machine, **run):
+    made = trax.Machine(programs["triple"], *machine)
+    made.bind("data", VALUES)
+    return made, made.run(**run)
+
+
+@pytest.mark.parametrize("engine", [None, "reference", "functional"])
+def test_figures_are_those_of_trax_sim(programs, tmp_path, engine):
+    (tmp_path / "data").write_bytes(VALUES.tobytes())
+    _, run = triple(programs, "2x32", {"memory.bandwidth_gbps": 16}, engine=engine)
+    expected = sim("--config", "2x32", "--set", "memory.bandwidth_gbps=16", "--bind", f"data={tmp_path}/data",
+                   *(["--engine", engine] if engine else []), programs["triple"])
+    assert without_host(run.statistics) == expected
+    assert run.output == "1 \n" and run.exit_status == 0
+    assert run["dcache.hits"] == expected["dcache"]["hits"] == run.figures()["dcache.hits"]
+
+
+def test_picture_is_that_of_trax_render(manifest, tmp_path):
+    run = trax.Machine(manifest, "1x32").run()
+    assert run.picture.size == (48, 27) and run["rays"] > 48 * 27
+    subprocess.run([trax.tool("trax-sim"), "--quiet", "--config", "1x32", "--dump", f"image={tmp_path}/image",
+                    manifest], check=True)
+    assert run.picture.pixels.tobytes() == (tmp_path / "image").read_bytes()
+    run.picture.save(tmp_path / "picture.png")
+    # A reader of other hands: the product's.
+    trax_compare = subprocess.run([trax.tool("trax-compare"), tmp_path / "picture.png", tmp_path / "picture.png"],
+                                  capture_output=True, text=True, check=False)
+    assert trax_compare.returncode == 0, trax_compare.stderr
+
+
+def test_buffers_are_the_memory_of_the_machine(programs):
+    machine = trax.Machine(programs["triple"])
+    machine.bind("data", VALUES)
+    before = machine.buffer("data", numpy.uint32)
+    assert (before == VALUES).all()
+    machine.run()
+    after = machine.buffer("data", numpy.uint32)
+    assert (after == 3 * VALUES).all() and numpy.shares_memory(before, after)
+    assert machine.symbol("counter")[0] == len(VALUES) + 1
+    del machine
+    gc.collect()
+    assert (after == 3 * VALUES).all()  # the array keeps the machine
+    with pytest.raises(ValueError):
+        after[0] = 1
+
+
+def test_zeros_and_arguments(programs):
+    machine = trax.Machine(programs["triple"], arguments=["word"])
+    machine.bind("data", 64)
+    assert machine.run().output == "2 word\n"
+    assert not machine.buffer("data").any() and len(machine.buffer("data")) == 64
+
+
+def test_input(programs, tmp_path):
+    (tmp_path / "text").write_text("HAL\n")
+    with open(tmp_path / "text", "rb") as file:
+        run = trax.Machine(programs["echo"]).run(input=file)
+    assert run.output == "IBM\v" and run.exit_status == 3
+
+
+def test_errors_have_places(programs, manifest):
+    with pytest.raises(trax.TraxError, match="no-such.elf"):
+        trax.Machine("no-such.elf")
+    with pytest.raises(trax.TraxError, match="memory.latency"):
+        trax.Config("4x32", {"memory.latency": 3})
+    with pytest.raises(trax.TraxError, match="chip.tms"):
+        trax.Machine(programs["triple"], "4x32", {"chip.tms": 0})
+    machine = trax.Machine(programs["triple"])
+    with pytest.raises(trax.TraxError, match="nothing"):
+        machine.bind("nothing", b"1234")
+    with pytest.raises(trax.TraxError, match="-1"):
+        machine.bind("data", -1)
+    with pytest.raises(trax.TraxError, match="no option"):
+        machine.run(explode="x.html")
+    with pytest.raises(trax.TraxError, match="engine"):
+        trax.Machine(programs["triple"]).run(engine="steam")
+    with pytest.raises(trax.TraxError, match="undeclared"):
+        source = os.path.join(os.path.dirname(manifest), "wrong.c")
+        with open(source, "w", encoding="utf-8") as file:
+            file.write("int main(void) { return x; }")
+        trax.compile(source, output=source + ".elf")
+    with pytest.raises(trax.TraxError, match="no-such.ply"):
+        trax.prepare("no-such.ply", folder="nowhere")
+
+
+def test_a_machine_runs_once(programs):
+    machine, _ = triple(programs)
+    with pytest.raises(trax.TraxError, match="once"):
+        machine.run()
+
+
+def test_fault_and_limit_have_figures(programs):
+    with pytest.raises(trax.Fault) as fault:
+        trax.Machine(programs["fault"]).run()
+    assert "0x70000000" in fault.value.report and fault.value.run["fault.address"] == "0x70000000"
+    with pytest.raises(trax.Stuck) as stuck:
+        trax.Machine(programs["loop"]).run(max_cycles=1000)
+    assert stuck.value.run.cycles == 1000 and not isinstance(stuck.value, trax.Interrupted)
+
+
+def test_explanations(programs, tmp_path):
+    triple(programs, "1x32", profile=tmp_path / "profile.txt", series=tmp_path / "series.csv", series_interval=100)
+    assert "main" in (tmp_path / "profile.txt").read_text()
+    assert (tmp_path / "series.csv").read_text().count("\n") > 10
+
+
+def test_progress_and_its_exceptions(programs):
+    seen = []
+
+    def look(cycle, instructions, items):
+        seen.append((cycle, instructions, items))
+        if len(seen) == 2:
+            raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        trax.Machine(programs["loop"]).run(progress=look)
+    assert len(seen) >= 2 and seen[1][0] > seen[0][0] and seen[1][2] == 0
+
+
+def test_interrupt_from_another_thread(programs):
+    machine = trax.Machine(programs["loop"])
+    timer = threading.Timer(0.3, machine.interrupt)
+    timer.start()
+    with pytest.raises(trax.Interrupted) as interrupted:
+        machine.run()
+    assert interrupted.value.run.cycles > 0
+
+
+@pytest.mark.parametrize("text", ["trax.Machine(path).run()", "trax.sweep(path, ['1x32', '2x32', '4x32'], jobs=2)"])
+def test_control_c(programs, text):
+    script = textwrap.dedent(f"""\
+        import sys, trax
+        path = sys.argv[1]
+        print("begun", flush=True)
+        {text}
+        """)
+    with subprocess.Popen([sys.executable, "-c", script, programs["loop"]], stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, text=True) as process:
+        process.stdout.readline()
+        time.sleep(0.5)
+        begin = time.monotonic()
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=60)
+    assert "KeyboardInterrupt" in errors and process.returncode in (-signal.SIGINT, 130)
+    assert time.monotonic() - begin < 30

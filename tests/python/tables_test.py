@@ -1,0 +1,79 @@
+"""Configurations, sweeps and tables."""
+
+import json
+import os
+import pathlib
+import subprocess
+import sys
+
+import numpy
+
+import trax
+
+VALUES = numpy.arange(200, dtype=numpy.uint32)
+
+
+def test_configuration():
+    config = trax.Config("4x32", {"memory.bandwidth_gbps": 16.5, "dcache.replacement": "lru"})
+    assert config["chip.tms"] == 4 and config["memory.bandwidth_gbps"] == 16.5 and config["dcache.replacement"] == "lru"
+    assert config.changes() == {
+        "chip.tms": 4, "chip.tps_per_tm": 32, "memory.bandwidth_gbps": 16.5, "dcache.replacement": "lru"}
+    other = config.copy()
+    other["fpu.compare_units"] = True
+    assert other["fpu.compare_units"] is True and config["fpu.compare_units"] is False
+    assert len(config) == len(list(config)) > 60 and "simt.width" in config
+    described = trax.describe_keys()
+    assert all(key in described for key in config)
+
+
+def test_configuration_is_a_file_of_trax_sim(tmp_path):
+    config = trax.Config("2x48", {"memory.latency_cycles": 7})
+    (tmp_path / "chip.cfg").write_text(config.text())
+    assert dict(trax.Config(tmp_path / "chip.cfg")) == dict(config)
+    assert trax.presets()[0] == "1x32" and "8x64" in trax.presets()
+
+
+def test_sweep(programs):
+    table = trax.sweep(programs["triple"], ["1x32", "2x32"], {"memory.latency_cycles": [50, 100]}, jobs=2,
+                       setup=lambda machine: machine.bind("data", VALUES))
+    assert list(table["chip"]) == ["1x32", "1x32", "2x32", "2x32"]
+    assert list(table["memory.latency_cycles"]) == [50, 100, 50, 100]
+    for row in range(4):
+        machine = trax.Machine(programs["triple"], table["chip"][row],
+                               {"memory.latency_cycles": int(table["memory.latency_cycles"][row])})
+        machine.bind("data", VALUES)
+        assert machine.run().cycles == table["cycles"][row]
+
+
+def test_tables_of_a_run(programs):
+    machine = trax.Machine(programs["triple"], "2x32")
+    machine.bind("data", VALUES)
+    run = machine.run()
+    assert len(run.tms()) == 2 and len(run.tps()) == 64
+    causes = run.tps().filter(like="causes.")
+    assert causes.to_numpy().sum() == run.cycles * 64 == run["identity.thread_cycles"]
+    assert run.tms()["dcache.hits"].sum() == run["dcache.hits"] > 0
+
+
+def test_results_of_an_evaluation(tmp_path):
+    sweep = {"name": "x", "scenes": [{"name": "f", "meshes": ["generate:forest"], "view": "forest"}],
+             "programs": "ours", "chips": ["1x32", "2x32"], "size": "8x4"}
+    (tmp_path / "x.json").write_text(json.dumps(sweep))
+    subprocess.run([sys.executable, trax.tool("trax-eval"), "x.json", ".", "-q", "-o", "out"], cwd=tmp_path, check=True)
+    table = trax.results(tmp_path / "out/results.json")
+    assert list(table["config"]) == ["1x32", "2x32"] and set(table["status"]) == {"done"}
+    assert (table["width"] == 8).all() and table["cycles"][0] > table["cycles"][1] > 0
+
+
+def test_wheel(tmp_path):
+    """pip's package of the tree is whole: the library is in it, and the programs are found."""
+    source = pathlib.Path(__file__).parents[2] / "emulator/python"
+    done = subprocess.run([sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--no-index", "--target",
+                           tmp_path / "site", source], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    environment = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "TRAX_BIN")}
+    code = "import trax; print(trax.__file__); print(trax.tool('trax-sim')); print(trax.Config('4x32')['chip.tms'])"
+    lines = subprocess.run([sys.executable, "-c", code], env=environment | {"PYTHONPATH": str(tmp_path / "site")},
+                           capture_output=True, text=True, check=True).stdout.split("\n")
+    assert lines[0].startswith(str(tmp_path)) and lines[2] == "4"
+    assert lines[1] == str(pathlib.Path(os.environ["TRAX_BUILD"]).resolve() / "bin/trax-sim")

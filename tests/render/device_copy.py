@@ -1,0 +1,15 @@
+"""What mutants.py here and in extreme share: a changed copy of the device program."""
+
+import shutil
+
+from mutation import ROOT
+
+DEVICE = ROOT / "raytracer/device"
+
+
+def changed_copy(folder, tests, mutant):
+    """Gives the folder raytracer/device, changed as the mutant says, and the folder tests of the tree."""
+    for part in ("raytracer/device", tests):
+        shutil.rmtree(folder / part, ignore_errors=True)
+        shutil.copytree(ROOT / part, folder / part)
+    (folder / "raytracer/device" / mutant.file).write_text(mutant.changed(DEVICE))
