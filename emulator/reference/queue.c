@@ -87,8 +87,8 @@ void trax_ref_arrivals(struct trax_ref_tm *tm, uint64_t t) {
   for (uint32_t i = 0; i < tm->places; i++)
     if (tm->queue[i].stage == SERVED && tm->queue[i].completion == t)
       arrive(tm, &tm->queue[i], t);
-    else
-      tm->queue[kept++] = tm->queue[i];
+    else if (kept++ < i)
+      tm->queue[kept - 1] = tm->queue[i];
   tm->places = kept;
 }
 

@@ -10,15 +10,6 @@ uint64_t trax_simt_arbitrate(trax_ref_pointer *pointer, uint64_t asks, uint32_t 
   return trax_simt_bit(winner);
 }
 
-bool trax_simt_is_charged(struct trax_simt_warp *warp, struct trax_ref_tp *lane) {
-  if (!lane->charged)
-    return false;
-  lane->charged = false; /* for the next cycle */
-  warp->active &= ~trax_simt_bit(lane->number);
-  warp->uncharged &= ~trax_simt_bit(lane->number);
-  return true;
-}
-
 void trax_simt_charge(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint64_t set, uint64_t t,
                       trax_cause cause) {
   struct trax_tp_stats *stats = &tm->ref->machine->tp_stats[tm->ref->number * tm->ref->tps];
@@ -34,14 +25,15 @@ void trax_simt_charge(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint
   }
 }
 
-void trax_simt_charge_bubbles(struct trax_simt_tm *tm, uint64_t t) {
-  for (uint32_t i = 0; i < tm->warps; i++) {
-    struct trax_simt_warp *warp = &tm->warp[i];
+void trax_simt_charge_idle(struct trax_simt_tm *tm, uint64_t t) {
+  for (uint64_t awake = tm->awake; awake;) {
+    struct trax_simt_warp *warp = &tm->warp[trax_simt_take(&awake)];
     warp->uncharged = warp->group;
+    trax_simt_charge(tm, warp, warp->group & ~warp->running, t, TRAX_CAUSE_HALTED);
     if (!tm->ref->config->tp.branch_bubble_cycles)
       continue;
     uint64_t in_bubble = 0;
-    for (uint64_t set = warp->group; set;) {
+    for (uint64_t set = warp->uncharged; set;) {
       const uint32_t lane = trax_simt_take(&set);
       if (t < tm->ref->tp[lane].bubble_ends)
         in_bubble |= trax_simt_bit(lane);
@@ -50,8 +42,8 @@ void trax_simt_charge_bubbles(struct trax_simt_tm *tm, uint64_t t) {
   }
 }
 
-static void charge_cycles(const struct trax_simt_tm *tm, uint32_t lane, trax_cause cause, uint64_t since,
-                          uint64_t cycles) {
+void trax_simt_charge_cycles(const struct trax_simt_tm *tm, uint32_t lane, trax_cause cause, uint64_t since,
+                             uint64_t cycles) {
   struct trax_machine *machine = tm->ref->machine;
   machine->tp_stats[tm->ref->number * tm->ref->tps + lane].cycles[cause] += cycles;
   if (cycles && machine->observer && machine->observer->charge)
@@ -64,8 +56,8 @@ void trax_simt_catch_up(struct trax_simt_tm *tm, uint32_t lane, uint64_t t) {
   const struct trax_ref_tp *tp = &tm->ref->tp[lane];
   const uint64_t since = tm->lane[lane].charged, ends = tp->ended ? 0 : tp->bubble_ends;
   const uint64_t bubble = ends <= since ? since : ends < t ? ends : t;
-  charge_cycles(tm, lane, TRAX_CAUSE_BRANCH, since, bubble - since);
-  charge_cycles(tm, lane, tp->ended ? TRAX_CAUSE_HALTED : TRAX_CAUSE_DIVERGENCE, bubble, t - bubble);
+  trax_simt_charge_cycles(tm, lane, TRAX_CAUSE_BRANCH, since, bubble - since);
+  trax_simt_charge_cycles(tm, lane, tp->ended ? TRAX_CAUSE_HALTED : TRAX_CAUSE_DIVERGENCE, bubble, t - bubble);
   tm->lane[lane].charged = t;
 }
 
@@ -75,7 +67,7 @@ static void issue(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint64_t
     struct trax_ref_tp *lane = &tm->ref->tp[trax_simt_take(&set)];
     const uint64_t bit = trax_simt_bit(lane->number);
     trax_ref_issue_of(tm->ref, lane, t);
-    trax_simt_is_charged(warp, lane);
+    trax_simt_note_charge(warp, lane);
     if (!lane->holds) {
       warp->left &= ~bit;
       tm->ref->stats->broadcast_loads += (tm->broadcast & bit) != 0;
@@ -87,10 +79,8 @@ static void issue(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint64_t
 }
 
 void trax_simt_issue(struct trax_simt_tm *tm, uint64_t t) {
-  for (uint32_t i = 0; i < tm->warps; i++) {
-    struct trax_simt_warp *warp = &tm->warp[i];
-    if (!warp->group)
-      continue;
+  for (uint64_t awake = tm->awake; awake;) {
+    struct trax_simt_warp *warp = &tm->warp[trax_simt_take(&awake)];
     const bool is_held = warp->left;
     issue(tm, warp, t);
     trax_simt_charge(tm, warp, warp->group, t, TRAX_CAUSE_LOCKSTEP);

@@ -12,41 +12,53 @@ static uint32_t part_of_patience(const struct trax_simt_tm *tm) {
   return at_least_one(tm->ref->config->simt.patience / WAITS);
 }
 
-/* Whether lane a comes before lane b: greatest depth, then least pc. */
-static bool is_before(const struct trax_simt_tm *tm, uint32_t a, uint32_t b) {
-  if (tm->lane[a].depth != tm->lane[b].depth)
-    return tm->lane[a].depth > tm->lane[b].depth;
-  return tm->ref->tp[a].pc < tm->ref->tp[b].pc;
+void trax_simt_place(struct trax_simt_tm *tm, uint32_t lane, int32_t calls) {
+  const uint32_t shallowness = (uint32_t)(tm->place[lane] >> 32) - (uint32_t)calls;
+  tm->place[lane] = (uint64_t)shallowness << 32 | tm->ref->tp[lane].pc;
+}
+
+/* Gives the turn to the lane that has waited longest, if that is long enough. */
+static void give_turn(const struct trax_simt_tm *tm, struct trax_simt_warp *warp) {
+  uint64_t running = warp->running;
+  uint32_t longest = trax_simt_take(&running);
+  while (running) {
+    const uint32_t i = trax_simt_take(&running);
+    if (tm->last_issued[i] < tm->last_issued[longest])
+      longest = i;
+  }
+  warp->turns_lane = longest;
+  warp->waits_from = tm->last_issued[longest];
+  if (warp->issued - warp->waits_from >= tm->ref->config->simt.patience)
+    warp->turns_left = part_of_patience(tm);
 }
 
 /* Returns the lane whose pc the group is at. */
 static uint32_t choose_lane(const struct trax_simt_tm *tm, struct trax_simt_warp *warp) {
-  if (warp->turns_left && warp->running & trax_simt_bit(warp->turns_lane))
+  if (!(warp->running & trax_simt_bit(warp->turns_lane)))
+    warp->turns_left = 0;
+  if (!warp->turns_left && warp->issued - warp->waits_from >= tm->ref->config->simt.patience)
+    give_turn(tm, warp);
+  if (warp->turns_left)
     return warp->turns_lane;
   uint64_t running = warp->running;
-  uint32_t first = trax_simt_take(&running), longest = first;
+  uint32_t first = trax_simt_take(&running);
   while (running) {
     const uint32_t i = trax_simt_take(&running);
-    if (is_before(tm, i, first))
+    if (tm->place[i] < tm->place[first])
       first = i;
-    if (tm->lane[i].waited > tm->lane[longest].waited)
-      longest = i;
   }
-  const bool has_turn = tm->lane[longest].waited >= tm->ref->config->simt.patience;
-  warp->turns_lane = longest;
-  warp->turns_left = has_turn ? part_of_patience(tm) : 0;
-  return has_turn ? longest : first;
+  return first;
 }
 
 void trax_simt_choose(struct trax_simt_tm *tm, uint64_t t) {
-  for (uint32_t i = 0; i < tm->warps; i++) {
-    struct trax_simt_warp *warp = &tm->warp[i];
-    if (warp->group || !warp->running)
+  for (uint64_t awake = tm->awake; awake;) {
+    struct trax_simt_warp *warp = &tm->warp[trax_simt_take(&awake)];
+    if (warp->group)
       continue;
-    const uint32_t pc = tm->ref->tp[choose_lane(tm, warp)].pc;
+    const uint32_t pc = (uint32_t)tm->place[choose_lane(tm, warp)];
     for (uint64_t set = warp->running; set;) {
       const uint32_t lane = trax_simt_take(&set);
-      if (tm->ref->tp[lane].pc != pc)
+      if ((uint32_t)tm->place[lane] != pc)
         continue;
       warp->group |= trax_simt_bit(lane);
       trax_simt_catch_up(tm, lane, t);
@@ -74,14 +86,13 @@ void trax_simt_dissolve(struct trax_simt_tm *tm, struct trax_simt_warp *warp, ui
   const uint32_t part = part_of_patience(tm), cost = waits ? part : 1;
   const uint32_t of_turn = waits ? at_least_one(part / WAITS_OF_TURN) : 1;
   const int32_t calls = deeper(speaker);
+  warp->issued += cost;
   for (uint64_t set = warp->group; set;) {
-    struct trax_simt_lane *lane = &tm->lane[trax_simt_take(&set)];
-    lane->waited = 0;
-    lane->depth += calls;
-    lane->charged = t + 1;
+    const uint32_t lane = trax_simt_take(&set);
+    tm->last_issued[lane] = warp->issued;
+    trax_simt_place(tm, lane, calls);
+    tm->lane[lane].charged = t + 1;
   }
-  for (uint64_t set = warp->running & ~warp->group; set;)
-    tm->lane[trax_simt_take(&set)].waited += cost;
   warp->turns_left -= warp->turns_left < of_turn ? warp->turns_left : of_turn;
   warp->group = 0;
   warp->is_checked = warp->has_operands = false;

@@ -17,9 +17,9 @@ static void take(struct trax_simt_tm *tm, struct trax_simt_warp *warp) {
 /* Returns the first lanes of the groups that ask. Those whose pc is no text fault. */
 static uint64_t collect(struct trax_simt_tm *tm, uint64_t t) {
   uint64_t asks = 0;
-  for (uint32_t i = 0; i < tm->warps; i++) {
-    struct trax_simt_warp *warp = &tm->warp[i];
-    if (!warp->group || warp->left)
+  for (uint64_t awake = tm->awake; awake;) {
+    struct trax_simt_warp *warp = &tm->warp[trax_simt_take(&awake)];
+    if (warp->left)
       continue;
     struct trax_ref_tp *first = trax_simt_speaker(tm, warp->group);
     take(tm, warp); /* its line may have arrived */
@@ -29,7 +29,7 @@ static uint64_t collect(struct trax_simt_tm *tm, uint64_t t) {
     const trax_fault_kind kind = trax_ref_text(tm->ref, first->pc, &word);
     if (kind)
       trax_ref_fault(tm->ref, first, t, kind, first->pc);
-    if (!trax_simt_is_charged(warp, first))
+    if (!trax_simt_note_charge(warp, first))
       asks |= trax_simt_bit(first->number);
   }
   return asks;
@@ -52,10 +52,13 @@ static uint64_t grant_bank(struct trax_simt_tm *tm, uint32_t bank, uint64_t asks
 
 /* Returns the lanes that win their banks. */
 static uint64_t grant_banks(struct trax_simt_tm *tm, uint64_t asks) {
-  uint32_t bank[MOST];
+  struct {
+    uint32_t icache, bank;
+  } of[MOST];
   for (uint64_t set = asks; set;) {
     const uint32_t i = trax_simt_take(&set);
-    bank[i] = tm->ref->tp[i].pc / 4 % tm->ref->config->icache.banks;
+    of[i].icache = icache_of(tm, i);
+    of[i].bank = tm->ref->tp[i].pc / 4 % tm->ref->config->icache.banks;
   }
   uint64_t won = 0;
   while (asks) {
@@ -63,10 +66,10 @@ static uint64_t grant_banks(struct trax_simt_tm *tm, uint64_t asks) {
     uint64_t rivals = trax_simt_bit(first);
     for (uint64_t set = asks; set;) {
       const uint32_t i = trax_simt_take(&set);
-      if (bank[i] == bank[first] && icache_of(tm, i) == icache_of(tm, first))
+      if (of[i].bank == of[first].bank && of[i].icache == of[first].icache)
         rivals |= trax_simt_bit(i);
     }
-    won |= grant_bank(tm, bank[first], rivals);
+    won |= grant_bank(tm, of[first].bank, rivals);
     asks &= ~rivals;
   }
   return won;
@@ -76,9 +79,9 @@ void trax_simt_fetch(struct trax_simt_tm *tm, uint64_t t) {
   const uint64_t asks = collect(tm, t), won = grant_banks(tm, asks);
   for (uint64_t set = won; set;)
     trax_ref_look_up(tm->ref, &tm->ref->tp[trax_simt_take(&set)], t);
-  for (uint32_t i = 0; i < tm->warps; i++) {
-    struct trax_simt_warp *warp = &tm->warp[i];
-    if (!warp->group || warp->left)
+  for (uint64_t awake = tm->awake; awake;) {
+    struct trax_simt_warp *warp = &tm->warp[trax_simt_take(&awake)];
+    if (warp->left)
       continue;
     take(tm, warp);
     struct trax_ref_tp *first = trax_simt_speaker(tm, warp->group);
@@ -87,7 +90,7 @@ void trax_simt_fetch(struct trax_simt_tm *tm, uint64_t t) {
       trax_simt_charge(tm, warp, warp->group, t, TRAX_CAUSE_ICACHE_MISS);
     else if (asks & ~won & bit)
       trax_simt_charge(tm, warp, warp->group, t, TRAX_CAUSE_ICACHE_BANK);
-    else if (trax_simt_is_charged(warp, first))
+    else if (trax_simt_note_charge(warp, first))
       trax_simt_charge(tm, warp, warp->group, t, TRAX_CAUSE_MEMORY_QUEUE);
   }
 }

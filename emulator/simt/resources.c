@@ -1,6 +1,15 @@
 /* docs/simt.md, "A cycle", steps 3 and 4: what lanes ask for one by one; and "Data cache". */
 #include "simt/simt.h"
 
+/* Charges the active lanes of the set. */
+static void charge_active(struct trax_simt_tm *tm, uint64_t set, uint64_t t, trax_cause cause) {
+  for (uint64_t awake = tm->awake; set && awake;) {
+    struct trax_simt_warp *warp = &tm->warp[trax_simt_take(&awake)];
+    trax_simt_charge(tm, warp, set & warp->active, t, cause);
+    set &= ~warp->group;
+  }
+}
+
 /* --- shared units --- */
 
 /* The units of a group of TPs accept lanes of the set. Returns the winners. */
@@ -28,20 +37,22 @@ static uint64_t lanes_of_group(const struct trax_shared_kind *kind, uint32_t num
 
 void trax_simt_grant_units(struct trax_simt_tm *tm, uint64_t t) {
   uint64_t asks[TRAX_SHARED_COUNT + 1] = {0};
-  for (uint32_t i = 0; i < tm->warps; i++)
-    asks[tm->warp[i].unit] |= tm->warp[i].active;
+  for (uint64_t awake = tm->awake; awake;) {
+    const struct trax_simt_warp *warp = &tm->warp[trax_simt_take(&awake)];
+    asks[warp->unit] |= warp->active;
+  }
   for (trax_shared unit = 0; unit < TRAX_SHARED_COUNT; unit++) {
-    if (!asks[unit])
+    if (!asks[unit] || !tm->refuses[unit])
       continue;
     const struct trax_shared_kind kind = trax_shared_kind(unit, tm->ref->config);
     uint64_t lost = 0;
-    for (uint32_t i = 0; i < kind.groups; i++) {
-      const uint64_t asking = asks[unit] & lanes_of_group(&kind, i);
-      if (asking)
-        lost |= asking & ~grant_group(tm, unit, &kind, i, asking, t);
+    for (uint64_t left = asks[unit]; left;) {
+      const uint32_t number = trax_simt_first(left) / kind.group_size;
+      const uint64_t asking = left & lanes_of_group(&kind, number);
+      lost |= asking & ~grant_group(tm, unit, &kind, number, asking, t);
+      left &= ~asking;
     }
-    for (uint32_t i = 0; lost && i < tm->warps; i++)
-      trax_simt_charge(tm, &tm->warp[i], lost & tm->warp[i].active, t, kind.refused);
+    charge_active(tm, lost, t, kind.refused);
   }
 }
 
@@ -66,16 +77,17 @@ static uint64_t served(const struct trax_simt_tm *tm, uint32_t winner, uint64_t 
 
 void trax_simt_grant_data_banks(struct trax_simt_tm *tm, uint64_t t) {
   const uint32_t banks = trax_ref_data_banks(tm->ref);
-  uint64_t asks[MOST] = {0}, asked = 0, lost = 0;
-  for (uint32_t i = 0; i < tm->warps; i++)
-    for (uint64_t set = tm->warp[i].active; set;) {
+  uint64_t asks[MOST], asked = 0, lost = 0;
+  for (uint64_t awake = tm->awake; awake;)
+    for (uint64_t set = tm->warp[trax_simt_take(&awake)].active; set;) {
       const struct trax_ref_tp *lane = &tm->ref->tp[trax_simt_take(&set)];
       if (!trax_ref_accesses_memory(lane))
         break; /* nor does another one of the group */
       if (!trax_ref_asks_for_bank(lane))
         continue;
-      asks[lane->address / 4 % banks] |= trax_simt_bit(lane->number);
-      asked |= trax_simt_bit(lane->address / 4 % banks);
+      const uint32_t bank = lane->address / 4 % banks;
+      asks[bank] = (asked & trax_simt_bit(bank) ? asks[bank] : 0) | trax_simt_bit(lane->number);
+      asked |= trax_simt_bit(bank);
     }
   tm->broadcast = 0;
   while (asked) {
@@ -88,8 +100,7 @@ void trax_simt_grant_data_banks(struct trax_simt_tm *tm, uint64_t t) {
     }
     lost |= asks[bank];
   }
-  for (uint32_t i = 0; lost && i < tm->warps; i++)
-    trax_simt_charge(tm, &tm->warp[i], lost & tm->warp[i].active, t, TRAX_CAUSE_DCACHE_BANK);
+  charge_active(tm, lost, t, TRAX_CAUSE_DCACHE_BANK);
 }
 
 /* --- memory queue --- */
@@ -100,15 +111,17 @@ static bool needs_turn(const struct trax_ref_tp *lane) {
 
 void trax_simt_grant_places(struct trax_simt_tm *tm, uint64_t t) {
   uint64_t asks = 0;
-  for (uint32_t i = 0; i < tm->warps; i++)
-    if (tm->warp[i].active && needs_turn(trax_simt_speaker(tm, tm->warp[i].active)))
-      asks |= tm->warp[i].active;
+  for (uint64_t awake = tm->awake; awake;) {
+    const uint64_t active = tm->warp[trax_simt_take(&awake)].active;
+    if (active && needs_turn(trax_simt_speaker(tm, active)))
+      asks |= active;
+  }
   const uint64_t before = trax_simt_bit(tm->ref->queue_pointer) - 1;
   uint64_t rounds[] = {asks & ~before, asks & before};
   for (unsigned i = 0; i < 2; i++)
     while (rounds[i]) {
       struct trax_ref_tp *lane = &tm->ref->tp[trax_simt_take(&rounds[i])];
       trax_ref_take_turn(tm->ref, lane, t);
-      trax_simt_is_charged(&tm->warp[lane->number / tm->ref->config->simt.width], lane);
+      trax_simt_note_charge(&tm->warp[lane->number / tm->ref->config->simt.width], lane);
     }
 }

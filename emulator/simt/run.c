@@ -10,8 +10,16 @@ static void create_tm(struct trax_simt_tm *tm, struct trax_ref_tm *ref) {
   const uint32_t width = ref->config->simt.width;
   tm->ref = ref;
   tm->warps = ref->tps / width;
-  for (uint32_t i = 0; i < ref->tps; i++)
+  for (uint32_t i = 0; i < ref->tps; i++) {
     tm->warp[i / width].running |= trax_simt_bit(i);
+    tm->awake |= trax_simt_bit(i / width);
+    tm->place[i] = TRAX_SIMT_SURFACE << 32 | ref->tp[i].pc;
+  }
+  tm->wakes = TRAX_NEVER;
+  for (trax_shared unit = 0; unit < TRAX_SHARED_COUNT; unit++) {
+    const struct trax_shared_kind kind = trax_shared_kind(unit, ref->config);
+    tm->refuses[unit] = kind.per_group < kind.group_size || !trax_always_free(unit, ref->config);
+  }
 }
 
 static trax_status create(struct trax_run *run, trax_error *error) {
@@ -33,20 +41,29 @@ static void destroy(void *context) {
   free(chip);
 }
 
+/* The steps of a TM. */
+static void steps(struct trax_simt_tm *tm, uint64_t t) {
+  trax_simt_choose(tm, t);
+  trax_simt_charge_idle(tm, t);
+  trax_simt_fetch(tm, t);
+  trax_simt_check_operands(tm, t);
+  trax_simt_grant_units(tm, t);
+  trax_simt_grant_data_banks(tm, t);
+  trax_simt_grant_places(tm, t);
+  trax_simt_issue(tm, t);
+  trax_simt_sleep(tm, t);
+}
+
 static void cycle(struct trax_simt_chip *chip, uint64_t t) {
-  for (uint32_t i = 0; i < chip->ref.tms; i++)
-    trax_ref_arrivals(&chip->ref.tm[i], t);
+  uint64_t has_arrived = 0; /* TMs, as a set */
   for (uint32_t i = 0; i < chip->ref.tms; i++) {
-    struct trax_simt_tm *tm = &chip->tm[i];
-    trax_simt_choose(tm, t);
-    trax_simt_charge_bubbles(tm, t);
-    trax_simt_fetch(tm, t);
-    trax_simt_check_operands(tm, t);
-    trax_simt_grant_units(tm, t);
-    trax_simt_grant_data_banks(tm, t);
-    trax_simt_grant_places(tm, t);
-    trax_simt_issue(tm, t);
+    const uint32_t places = chip->ref.tm[i].places;
+    trax_ref_arrivals(&chip->ref.tm[i], t);
+    has_arrived |= (uint64_t)(chip->ref.tm[i].places != places) << i;
   }
+  for (uint32_t i = 0; i < chip->ref.tms; i++)
+    if (trax_simt_wake(&chip->tm[i], t, has_arrived >> i & 1))
+      steps(&chip->tm[i], t);
   trax_ref_l2_cycle(&chip->ref, t);
   trax_ref_controller_cycle(&chip->ref, t);
 }
@@ -70,10 +87,15 @@ static enum trax_advance advance(void *context, uint64_t *t, uint64_t until) {
 static void settle(void *context, uint64_t t) {
   struct trax_simt_chip *chip = context;
   const uint32_t width = chip->ref.config->simt.width;
-  for (uint32_t i = 0; i < chip->ref.tms; i++)
-    for (uint32_t lane = 0; lane < chip->ref.tm->tps; lane++)
-      if (!(chip->tm[i].warp[lane / width].group & trax_simt_bit(lane)))
-        trax_simt_catch_up(&chip->tm[i], lane, t);
+  for (uint32_t i = 0; i < chip->ref.tms; i++) {
+    struct trax_simt_tm *tm = &chip->tm[i];
+    for (uint32_t lane = 0; lane < tm->ref->tps; lane++)
+      if (!(tm->warp[lane / width].group & trax_simt_bit(lane)))
+        trax_simt_catch_up(tm, lane, t);
+    for (uint32_t warp = 0; warp < tm->warps; warp++)
+      if (!(tm->awake & trax_simt_bit(warp)))
+        trax_simt_charge_sleep(tm, &tm->warp[warp], t);
+  }
 }
 
 static struct trax_thread thread(void *context, uint32_t number) {
@@ -89,6 +111,7 @@ static void set_pc(void *context, uint32_t number, uint32_t pc) {
   const uint32_t tps = chip->ref.tm->tps;
   struct trax_simt_tm *tm = &chip->tm[number / tps];
   struct trax_simt_warp *warp = &tm->warp[number % tps / chip->ref.config->simt.width];
+  trax_simt_wake(tm, chip->t, true);
   for (uint64_t set = warp->group; set;) {
     struct trax_ref_tp *lane = &tm->ref->tp[trax_simt_take(&set)];
     lane->holds = lane->awaits_line = false;
@@ -97,6 +120,7 @@ static void set_pc(void *context, uint32_t number, uint32_t pc) {
   warp->group = warp->left = 0;
   warp->is_checked = warp->has_operands = false;
   tm->ref->tp[number % tps].pc = pc;
+  trax_simt_place(tm, number % tps, 0);
 }
 
 static uint32_t queued(const void *context, uint32_t tm, uint64_t t) {

@@ -7,34 +7,47 @@
 #ifndef TRAX_SIMT_H
 #define TRAX_SIMT_H
 
+#include "machine/watch.h"
 #include "reference/reference.h"
 
+#define TRAX_SIMT_SURFACE UINT64_C(0x7FFFFFFF) /* of a depth of 0, so that depths may be negative */
+
 struct trax_simt_lane {
-  int32_t depth;     /* number of calls that it is in */
-  uint32_t waited;   /* what its warp has issued since its last instruction, by cost (Choice) */
   uint64_t charged;  /* the number of cycles for which it is charged, unless it is in a group */
   uint8_t waits_for; /* the register that refused it in the latest step 2; 0: none */
 };
 
 struct trax_simt_warp {
   uint64_t running;    /* lanes whose threads have not ended */
-  uint64_t group;      /* 0: none */
+  uint64_t group;      /* the active mask; 0: none */
   uint64_t left;       /* lanes of the group that hold its instruction and have not issued it; 0: it is not fetched */
   uint64_t active;     /* those of them that no step of this cycle has refused so far */
   uint64_t uncharged;  /* lanes of the group that have not been charged in this cycle */
   bool is_checked;     /* the lanes of the group have been in step 2 */
   bool has_operands;   /* step 2 has accepted all of them */
   trax_shared unit;    /* that they then ask for, unless they access memory */
+  uint64_t issued;     /* what it has issued, by cost (Choice) */
+  uint64_t waits_from; /* no running lane has issued last when `issued` was less */
   uint32_t turns_lane; /* the lane that has the turn */
   uint32_t turns_left; /* instructions of its turn; 0: no lane has it */
+  uint64_t wakes;      /* asleep: the cycle in which it wakes at the latest */
+  uint64_t slept_from; /* asleep: the first cycle for which the lanes of its group are not charged */
 };
 
+/* A warp whose group waits for registers or for a line of instructions sleeps: nothing changes for it before a known
+   cycle or an arrival, and its lanes are charged when it wakes. It is no rule of the page, and shows in nothing. */
 struct trax_simt_tm {
   struct trax_ref_tm *ref;
   uint32_t warps;
+  bool refuses[TRAX_SHARED_COUNT]; /* whether units of the kind are ever taken */
+  uint64_t awake;                  /* warps, as a set; those whose lanes have all ended are not awake either */
+  uint64_t wakes;                  /* if no warp is awake: the cycle in which the first one wakes at the latest */
   struct trax_simt_warp warp[MOST];
   struct trax_simt_lane lane[MOST];
-  uint64_t broadcast; /* lanes that another lane's access to a bank serves in this cycle */
+  /* Of lanes, for Choice: */
+  uint64_t place[MOST];       /* TRAX_SIMT_SURFACE less its depth, then its pc: the least goes first */
+  uint64_t last_issued[MOST]; /* `issued` of its warp when it issued last */
+  uint64_t broadcast;         /* lanes that another lane's access to a bank serves in this cycle */
 };
 
 struct trax_simt_chip {
@@ -66,10 +79,22 @@ static inline struct trax_ref_tp *trax_simt_speaker(const struct trax_simt_tm *t
   return &tm->ref->tp[trax_simt_first(group)];
 }
 
+/* Takes note of what a step of the reference has charged the lane for. False: for nothing. */
+static inline bool trax_simt_note_charge(struct trax_simt_warp *warp, struct trax_ref_tp *lane) {
+  if (!lane->charged)
+    return false;
+  lane->charged = false; /* for the next cycle */
+  warp->active &= ~trax_simt_bit(lane->number);
+  warp->uncharged &= ~trax_simt_bit(lane->number);
+  return true;
+}
+
 /* Serves an arbiter over the n lanes from `first` on. Returns the winner, as a set; 0 if nobody asks. */
 uint64_t trax_simt_arbitrate(trax_ref_pointer *pointer, uint64_t asks, uint32_t first, uint32_t n);
 
 /* --- Choice: choice.c --- */
+/* Notes where a lane is: its pc, and the calls that it has gone into or come out of. */
+void trax_simt_place(struct trax_simt_tm *tm, uint32_t lane, int32_t calls);
 void trax_simt_choose(struct trax_simt_tm *tm, uint64_t t);
 /* Accounts for an instruction that all lanes of the warp's group have issued, and dissolves the group. */
 void trax_simt_dissolve(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint64_t t);
@@ -80,19 +105,27 @@ void trax_simt_fetch(struct trax_simt_tm *tm, uint64_t t);
 /* --- Operands: operands.c --- */
 void trax_simt_check_operands(struct trax_simt_tm *tm, uint64_t t);
 
+/* --- Sleep: sleep.c --- */
+/* Wakes the warps that wait for cycle t, and all if something has arrived. False: no warp is awake. */
+bool trax_simt_wake(struct trax_simt_tm *tm, uint64_t t, bool has_arrived);
+/* Puts the warps to sleep that have nothing to do in the next cycle. The last step of a cycle. */
+void trax_simt_sleep(struct trax_simt_tm *tm, uint64_t t);
+/* Charges the lanes of a sleeping warp's group for all cycles before t. */
+void trax_simt_charge_sleep(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint64_t t);
+
 /* --- Shared units, data cache, memory queue: resources.c --- */
 void trax_simt_grant_units(struct trax_simt_tm *tm, uint64_t t);
 void trax_simt_grant_data_banks(struct trax_simt_tm *tm, uint64_t t);
 void trax_simt_grant_places(struct trax_simt_tm *tm, uint64_t t);
 
 /* --- Issue, and Accounting: accounting.c --- */
-/* Charges the lanes of groups that are in a branch bubble. The first step of a cycle. */
-void trax_simt_charge_bubbles(struct trax_simt_tm *tm, uint64_t t);
+/* Charges the lanes of groups that have ended or are in a branch bubble. The first step of a cycle. */
+void trax_simt_charge_idle(struct trax_simt_tm *tm, uint64_t t);
 void trax_simt_issue(struct trax_simt_tm *tm, uint64_t t);
-/* Whether a step of the reference has charged the lane. */
-bool trax_simt_is_charged(struct trax_simt_warp *warp, struct trax_ref_tp *lane);
 /* Charges the lanes of the set that have not been charged in this cycle. They do nothing in the later steps. */
 void trax_simt_charge(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint64_t set, uint64_t t, trax_cause cause);
+void trax_simt_charge_cycles(const struct trax_simt_tm *tm, uint32_t lane, trax_cause cause, uint64_t since,
+                             uint64_t cycles);
 /* Charges a lane outside of groups for all cycles before t. */
 void trax_simt_catch_up(struct trax_simt_tm *tm, uint32_t lane, uint64_t t);
 

@@ -342,6 +342,47 @@ static void halt_of_some_lanes(void **state) {
   bench_end(&bench);
 }
 
+/* A unit for each lane is not always free. */
+static void units_of_lanes_may_be_busy(void **state) {
+  (void)state;
+  struct trax_config config = near_warps(2, 2);
+  config.special.units_per_tm = 2;
+  config.special.pipelined = false;
+  config.special.latency_cycles = 8;
+  struct bench bench = BENCH(config, R(FDIV, 1, 0, 0), R(FDIV, 2, 0, 0), HALT);
+  for (unsigned lane = 0; lane < 2; lane++)
+    ISSUES(&bench, lane, 1, 9, 10);
+  bench_end(&bench);
+}
+
+/* The box is in r10 to r15, and the fifth of them comes late. */
+static void a_group_waits_for_groups_of_registers(void **state) {
+  (void)state;
+  struct trax_config config = near_warps(2, 2);
+  config.ray.units_per_group = 1;
+  config.fpu.mul_latency_cycles = 12;
+  config.fpu.tps_per_cluster = 1;
+  struct bench bench = BENCH(config, R(FMUL, 14, 0, 0), R(FBOX, 1, 16, 10), HALT);
+  ISSUES(&bench, 0, 1, 13, 15);
+  ISSUES(&bench, 1, 1, 14, 15);
+  bench_end(&bench);
+}
+
+/* Each halt writes a run, and the queue has one place. */
+static void an_ended_lane_is_halted_while_its_group_waits(void **state) {
+  (void)state;
+  struct trax_config config = near_warps(2, 2);
+  config.memory.queue_depth = 1;
+  struct bench bench =
+      BENCH(config, U(RDSR, 1, TRAX_SR_TP), I(SLLI, 1, 1, 6), U(LUI, 2, 1), R(ADD, 1, 1, 2), S(SWNT, 1, 1, 0), HALT);
+  ISSUES(&bench, 0, 1, 2, 3, 4, 5, 6);
+  ISSUES(&bench, 1, 1, 2, 3, 4, 5, 7);
+  CHARGES(&bench, 0, TRAX_CAUSE_ICACHE_MISS, 1);
+  CHARGES(&bench, 1, TRAX_CAUSE_ICACHE_MISS, 1, TRAX_CAUSE_MEMORY_QUEUE, 1);
+  assert_int_equal(bench_charge(&bench, 0, TRAX_CAUSE_HALTED), bench_cycles(&bench) - 7);
+  bench_end(&bench);
+}
+
 static void fault_of_a_lane(void **state) {
   (void)state;
   const struct trax_config config = near_warps(2, 2);
@@ -414,6 +455,9 @@ int main(void) {
       cmocka_unit_test(fence),
       cmocka_unit_test(exit_of_a_lane),
       cmocka_unit_test(halt_of_some_lanes),
+      cmocka_unit_test(units_of_lanes_may_be_busy),
+      cmocka_unit_test(a_group_waits_for_groups_of_registers),
+      cmocka_unit_test(an_ended_lane_is_halted_while_its_group_waits),
       cmocka_unit_test(fault_of_a_lane),
       cmocka_unit_test(bubble_of_a_lane),
       cmocka_unit_test(engines_that_have_warps),

@@ -1,6 +1,7 @@
 """The command line."""
 
 import contextlib
+import math
 import os
 import pathlib
 import shlex
@@ -12,8 +13,8 @@ from fetch import main as fetch
 from report import docs, make
 from report.paper import Paper
 from report.results import Results
-from report.tables import print_tables
 from report.table import seconds
+from report.tables import print_tables
 from trax_eval import runners
 from trax_eval.estimate import estimate
 from trax_eval.finished import forget_damaged, is_intact
@@ -159,10 +160,12 @@ def evaluate(options, tools, data, command):
     failed = runners.run_all(out, tools, labels, options)
     results = collect(out, tools, Areas(data / "paper"), command, time.monotonic() - begin)
     if not options.quiet:
+        spent = math.fsum(run["host"]["processor_seconds"] for run in results["runs"]
+                          if run["key"] in labels and (run.get("host") or {}).get("processor_seconds"))
         print_tables(Results(results), Paper(data / "paper"), [sweep.name for sweep in sweeps], sys.stdout)
         print(
             f"{len(labels) - failed} runs are there, {failed} failed, {without} could not be prepared; "
-            f"{out / 'results.json'}"
+            f"they took {seconds(spent) or '0 s'} of a processor; {out / 'results.json'}"
         )
     unreported = (options.all or options.report) and make.main(
         [str(out / "results.json"), "-o", str(out / "report.html")])

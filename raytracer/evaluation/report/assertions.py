@@ -1,6 +1,8 @@
 """The paper's assertions about its choices, judged by the sweeps. A judge returns (holds, finding); holds is None if it
 is not known."""
 
+from .machines import RULE as RULE_OF_SIMD
+from .machines import judged, tried
 from .results import mean, ratio
 
 NOT_MEASURED = "not measured"
@@ -87,6 +89,10 @@ def _lockstep(results, paper, program):
                                   "whatever the order; this program does not keep its loops in step")
 
 
+def _simd(results, paper, program):
+    return judged(results) if tried(results, program) else _NOT_KNOWN
+
+
 def _peak(results, paper, program):
     found = []
     for chip, wanted in (("1x32", 9), ("1x48", 13), ("1x64", 17)):
@@ -119,4 +125,5 @@ ASSERTIONS = [
     ("Lanes in use in lockstep",
      "between the figures that the paper quotes for a ray tracer on a GTX 280: warps of 32 on 4x32", "61 to 86 %",
      _lockstep),
+    ("Pure SIMD is not the most efficient architecture", RULE_OF_SIMD, "described, no figures", _simd),
 ]

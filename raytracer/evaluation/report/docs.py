@@ -20,7 +20,7 @@ import sys
 
 from trax_eval.util import Problem, check_files, complain, write_file
 
-from . import choices, estimates, rays, tables
+from . import choices, estimates, rays, simd, tables
 from .charts import all_figures, sweep_figure
 from .claims import UNKNOWN, claims
 from .data import compact, merged, read_data, results_of, without
@@ -67,7 +67,9 @@ class Builder:
                 self.add([made], sweep, {})
         self.add([
             self.claims, lambda: tables.described(results, paper), lambda: tables.hardware(results, paper),
-            lambda: rays.gain_table(results), lambda: rays.kinds_table(results), lambda: choices.table(results, paper)
+            lambda: rays.gain_table(results), lambda: rays.kinds_table(results), lambda: choices.table(results, paper),
+            lambda: simd.best_table(results), lambda: simd.kinds_table(results),
+            lambda: simd.verdict_table(results)
         ], None, {})
 
     def claims(self):
@@ -99,7 +101,8 @@ class Builder:
                 if figure:
                     return figure, sweep, dict(self.results.asked)
         self.results.asked.clear()
-        for figure in itertools.chain(rays.figures(self.results, self.paper), all_figures(self.results, self.paper)):
+        for figure in itertools.chain(rays.figures(self.results, self.paper), simd.figures(self.results),
+                                      all_figures(self.results, self.paper)):
             if figure.identity == name and not figure.empty():
                 return figure, None, dict(self.results.asked)
             self.results.asked.clear()

@@ -15,7 +15,7 @@ import urllib.parse
 from trax_eval.outputs import IsInput, read, write_output
 from trax_eval.util import Problem, check_files, complain
 
-from . import choices, estimates, rays, tables
+from . import choices, estimates, machines, rays, simd, tables
 from .charts import all_figures
 from .claims import AGREES, DIFFERS, FITTED, claims, median, table2_deviations
 from .markup import Html, el, join, table
@@ -26,7 +26,8 @@ from .table import seconds
 
 HERE = pathlib.Path(__file__).resolve().parent
 SHORT = {
-    "tables": "Tables", "rays": "Rays by kind", "stalls": "Time", "units": "Hardware", "error": "Error and run time"
+    "tables": "Tables", "rays": "Rays by kind", "simd": "SIMD", "stalls": "Time", "units": "Hardware",
+    "error": "Error and run time"
 }  # in the page's head
 
 
@@ -160,7 +161,7 @@ class Page:
     def __init__(self, results, paper, base, folder):
         self.results, self.paper, self.base, self.folder = results, paper, base, folder
         self.programs = results.programs()
-        figures = (*all_figures(results, paper), *rays.figures(results, paper))
+        figures = (*all_figures(results, paper), *rays.figures(results, paper), *simd.figures(results))
         self.drawn = {figure.identity: draw(figure) for figure in figures}
 
     def figures(self, prefix):
@@ -186,6 +187,11 @@ class Page:
             yield "rays", "What MIMD gains as rays lose coherence", [
                 el("p", rays.EXPLAINED), self.figures("rays-"), table(rays.gain_table(results)),
                 el("details", el("summary", "Every kind of ray on every machine"), table(rays.kinds_table(results)))
+            ]
+        if machines.machines(results):
+            yield "simd", "MIMD against SIMD", [
+                el("p", simd.EXPLAINED), self.figures("simd-"), table(simd.best_table(results)),
+                el("details", el("summary", "By kind of ray"), table(simd.kinds_table(results)))
             ]
         text = "Speed-up over the same program on 1x32. Where chips have as many threads, each is a mark of its own."
         yield "scaling", "Scaling", [

@@ -43,6 +43,13 @@ MEASURES = ("error", "hits")  # what trax-render tells of a picture, beside the 
 ENGINES = {"exact": "fast", "quick": "quick"}
 
 
+def engine_of(tools, point):
+    """Machines whose TPs are lanes of warps have an engine of their own (docs/simt.md)."""
+    if point.mode == "exact" and tools.whole(point.chip_file, point.machine(), "simt.width") > 1:
+        return "simt"
+    return ENGINES[point.mode]
+
+
 def simulator(engine):
     """The program that makes a run."""
     return "trax-render" if engine == "quick" else "trax-sim"
@@ -54,15 +61,16 @@ def make_job(tools, inputs, point):
                                         ("measure", [name for name in MEASURES if getattr(point, name)]),
                                         ("ray_cycles", point.ray_cycles)) if value
     }
+    engine = engine_of(tools, point)
     if "measure" in more:
         more["renderer"] = tools.hash("trax-render")
         more["judge"] = tools.hash("trax-compare")
     return more | {
         "format": FORMAT,
-        "emulator": tools.hash(simulator(ENGINES[point.mode])),
+        "emulator": tools.hash(simulator(engine)),
         "inputs": inputs,
         "configuration": tools.configuration(point.chip_file, point.machine()),
-        "engine": ENGINES[point.mode],
+        "engine": engine,
         "series": point.series,
         "lockstep": point.lockstep,
         "ray_kinds": point.ray_kinds,

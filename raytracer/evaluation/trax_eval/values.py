@@ -10,6 +10,7 @@ def ratio(numerator, denominator):
 
 
 FRAME = 1280 * 720  # pixels of the paper's pictures
+ICACHE = 4096  # bytes, of the instruction caches in areas.csv
 
 
 class Areas:
@@ -19,7 +20,11 @@ class Areas:
             self.units = {row["unit"]: float(row["mm2"]) for row in csv.DictReader(file)}
 
     def cache(self, kind, size, banks):
-        """mm2; between two numbers of banks in proportion, None where there is no figure."""
+        """mm2; between two numbers of banks in proportion, None where there is no figure. An instruction cache of
+        another size than 4 kB in proportion to it."""
+        if kind == "icache" and size != ICACHE:
+            area = self.cache(kind, ICACHE, banks)
+            return area and area * size / ICACHE
         known = sorted(
             (int(name.split("_")[2]), area) for name, area in self.units.items() if name.startswith(f"{kind}_{size}_"))
         for (low, below), (high, above) in zip(known, known[1:] or known):
