@@ -115,10 +115,6 @@ END_SCENE
 DATA = {"data.txt": text(300), "small.txt": b"hello, world\n"}
 
 CHIP = ("--config", "4x32", "--main-on", "0")
-GENES = "".join(
-    f">gene{i}\n" + "".join("ACGT"[(j * j + j // 7 + (i >> j % 4) * (j % 5 == 0)) % 4] for j in range(90)) + "\n"
-    for i in range(24)).encode()
-
 PROGRAMS = [
     Program("bzip2", "bzip2", "bzip2",
             [Case(["-k", "data.txt"]),
@@ -178,11 +174,8 @@ PROGRAMS = [
     Program("tachyon-openmp", "tachyon", "compile/linux/tachyon", [
         Case(["scene.dat", "-format", "PPM", "-o", "out.ppm", "-res", "64", "48"])], [[
             "make", "-C", "unix", "all", "ARCH=linux", CC, "CFLAGS=-O2 -DBsd -fopenmp",
-            "LIBS=-fopenmp -L. -ltachyon -lm",
-            "AR=ar", "ARFLAGS=r", "STRIP=true", "RANLIB=ranlib"]], files={"scene.dat": SCENE},
-            noise=rb"\s*Rendering Progress:.*?complete *\r?|[0-9.]+ seconds|.*CPU.*\n", chip=CHIP),
-    Program("fasttree", "fasttree", "fasttree", [Case(["-nt", "-quiet", "-nopr", "genes.fasta"])],
-            [["sh", "-c", "{cc} -DOPENMP -fopenmp -O2 fasttree.c -o fasttree -lm"]], files={"genes.fasta": GENES},
+            "LIBS=-fopenmp -L. -ltachyon -lm", "AR=ar", "ARFLAGS=r", "STRIP=true", "RANLIB=ranlib"]],
+            files={"scene.dat": SCENE}, noise=rb"\s*Rendering Progress:.*?complete *\r?|[0-9.]+ seconds|.*CPU.*\n",
             chip=CHIP),
     Program(
         "potrace", "potrace", "src/potrace",
