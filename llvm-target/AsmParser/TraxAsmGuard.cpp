@@ -146,6 +146,17 @@ void trax::stopAssembly(const SourceMgr *Sources, SMLoc Loc, const Twine &Messag
   report_fatal_error((At.Line ? At.File + ":" + Twine(At.Line) + ": " : Twine("")) + Message, /*gen_crash_diag=*/false);
 }
 
+/// Prints a problem without its line if that is too long to be read: it may have thousands of problems.
+static void print(const SMDiagnostic &Problem) {
+  constexpr size_t LongestLine = 1000;
+  if (Problem.getLineContents().size() <= LongestLine || !Problem.getSourceMgr())
+    return Problem.print(nullptr, errs());
+  const std::string Message = ("column " + Twine(Problem.getColumnNo() + 1) + ": " + Problem.getMessage()).str();
+  SMDiagnostic(*Problem.getSourceMgr(), Problem.getLoc(), Problem.getFilename(), Problem.getLineNo(), /*Col=*/-1,
+               Problem.getKind(), Message, /*LineStr=*/"", {})
+      .print(nullptr, errs());
+}
+
 void trax::limitAssembly(SourceMgr &Sources) {
   static unsigned Errors;
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
@@ -156,7 +167,7 @@ void trax::limitAssembly(SourceMgr &Sources) {
     const unsigned Buffer = From && Problem.getLoc().isValid() ? From->FindBufferContainingLoc(Problem.getLoc()) : 0;
     if (Buffer > 1 && From->getParentIncludeLoc(Buffer).isValid())
       From->PrintIncludeStack(From->getParentIncludeLoc(Buffer), errs());
-    Problem.print(nullptr, errs());
+    print(Problem);
     if (Problem.getKind() == SourceMgr::DK_Error && Buffer && isExpansion(*From->getMemoryBuffer(Buffer)) &&
         ++Errors == 200)
       stopAssembly(From, Problem.getLoc(), "too many errors");
