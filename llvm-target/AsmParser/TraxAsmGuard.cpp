@@ -174,6 +174,11 @@ void trax::limitAssembly(SourceMgr &Sources) {
   });
 }
 
+void trax::limitMessages(MCContext &Context) {
+  Context.setDiagnosticHandler(
+      [](const SMDiagnostic &Problem, bool, const SourceMgr &, std::vector<const MDNode *> &) { print(Problem); });
+}
+
 namespace {
 
 // LLVM parses a million statements in a second, and looks through all expansions at the end of each.

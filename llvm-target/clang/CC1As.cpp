@@ -160,6 +160,7 @@ bool assemble(const llvm::opt::InputArgList &Args, DiagnosticsEngine &Diags) {
       Target->createMCSubtargetInfo(Triple.str(), Args.getLastArgValue(options::OPT_target_cpu), Features));
 
   llvm::MCContext Context(Triple, AsmInfo.get(), Registers.get(), Subtarget.get(), &Sources, &Options);
+  trax::limitMessages(Context);
   const bool PIC = Args.getLastArgValue(options::OPT_mrelocation_model, "static") == "pic";
   const std::unique_ptr<llvm::MCObjectFileInfo> ObjectFile(Target->createMCObjectFileInfo(Context, PIC));
   Context.setObjectFileInfo(ObjectFile.get());

@@ -14,6 +14,7 @@
 
 namespace llvm {
 class MCAsmParser;
+class MCContext;
 class SourceMgr;
 } // namespace llvm
 
@@ -31,6 +32,9 @@ void enterParser(const llvm::MCAsmParser *Parser);
 
 /// For a process that assembles one file: at most 200 errors in what is expanded, and 2 GB of memory.
 void limitAssembly(llvm::SourceMgr &Sources);
+
+/// Prints what is wrong with labels and the like without lines that are too long, as limitAssembly does with the rest.
+void limitMessages(llvm::MCContext &Context);
 
 /// The expansions of one run of a parser.
 class AsmLimits {

@@ -169,6 +169,7 @@ int main(int Argc, char **Argv) {
 
   Machine M(T);
   trax::limitAssembly(M.Sources);
+  trax::limitMessages(*M.Ctx);
   M.Sources.AddNewSourceBuffer(std::move(*Buffer), SMLoc());
   SmallString<0> Bytes;
   raw_svector_ostream OS(Bytes);

@@ -43,6 +43,7 @@ CASES = {
     "bundle": ".bundle_align_mode 30\nnop",
     "chain": ".set s0, x\n" + "".join(f".set s{i}, s{i - 1}+1\n" for i in range(1, 1000)) + ".word s999",
     "double": ".set s0, x-y\n" + "".join(f".set s{i}, s{i - 1}+s{i - 1}\n" for i in range(1, 60)) + ".word s59",
+    "labels": "a:" * 3000,
     "itself": '.include "itself.s"',
     "twice": '.include "twice.s"\n.include "twice.s"',
 }
@@ -58,7 +59,8 @@ def check(name, command, folder):
     except subprocess.TimeoutExpired:
         ended = subprocess.CompletedProcess(command, "no end", "", "")
     if ended.returncode != 1 or not re.search(rf"({name}\.s|<inline asm>|<instantiation>):\d+:",
-                                              ended.stderr) or "PLEASE" in ended.stderr:
+                                              ended.stderr) or "PLEASE" in ended.stderr or len(
+                                                  ended.stderr) > 1 << 22:
         failures += 1
         print(f"{name}: {command}: {ended.returncode}: {ended.stderr[:500]}")
 
