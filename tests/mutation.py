@@ -10,7 +10,9 @@ import argparse
 import os
 import pathlib
 import re
+import resource
 import shlex
+import signal
 import subprocess
 import sys
 import tempfile
@@ -69,14 +71,24 @@ def relinked(folder, build, target, source, text, tests):
     return [folder / test for test in tests]
 
 
-def failure(seconds, program, *words, environment=None):
-    """Why the program does not end with status 0; None if it does."""
+def ended(seconds, program, *words, **options):
+    """The finished program; None if it does not end. It has so many seconds of a processor, however much others leave
+    of the host, and many times as long to wait."""
+    def limit():
+        resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds))
+
     try:
-        done = subprocess.run([program, *map(str, words)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                              timeout=seconds, check=False, env=os.environ | (environment or {}))
+        done = subprocess.run([program, *map(str, words)], capture_output=True, text=True, errors="replace",
+                              timeout=60 * seconds, check=False, preexec_fn=limit, **options)
     except subprocess.TimeoutExpired:
-        return f"{program.name} does not end"
-    return program.name if done.returncode else None
+        return None
+    return None if done.returncode in (-signal.SIGXCPU, -signal.SIGKILL) else done
+
+
+def failure(seconds, program, *words, **options):
+    """Why the program does not end with status 0; None if it does."""
+    done = ended(seconds, program, *words, **options)
+    return f"{program.name} does not end" if done is None else program.name if done.returncode else None
 
 
 def list_stale(sources, mutants):

@@ -137,12 +137,12 @@ static void check_lines_listed(struct trax_state_checker *checker, const struct 
     arriving += l2->mshr[l2->used[i]].arrival != TRAX_NEVER;
   for (unsigned i = 0; i < TRAX_MAX_CHANNELS; i++) {
     uint64_t before = 0;
-    for (trax_request_id id = l2->arriving[i].first; id != TRAX_NO_REQUEST;
-         arriving--) { /* check_list has checked ids */
+    for (trax_request_id id = l2->arriving[i].first; id != TRAX_NO_REQUEST;) { /* check_list has checked the ids */
       const struct trax_l2_mshr *mshr = id >= TRAX_LINE_REQUEST ? &l2->mshr[id - TRAX_LINE_REQUEST] : NULL;
       if (!trax_state_expect(checker, mshr && mshr->arrival != TRAX_NEVER && mshr->arrival >= before,
                              "coming line: request 0x%" PRIx32, id))
         return;
+      arriving--;
       before = mshr->arrival;
       id = mshr->request.next;
     }

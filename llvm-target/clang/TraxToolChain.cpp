@@ -122,7 +122,7 @@ public:
       Args.ClaimAllArgs(OPT_mstack_size_EQ);
       Out.push_back(Args.MakeArgString("--defsym=__trax_stack_size=" + llvm::Twine(parseSize(stackSize(Args)))));
     }
-    for (const auto Id : {OPT_L, OPT_r, OPT_u, OPT_s, OPT_t}) // trax-ld refuses -r
+    for (const auto Id : {OPT_L, OPT_u, OPT_s, OPT_t})
       Args.AddAllArgs(Out, Id);
     for (const Arg *Address : Args.filtered(OPT_T_Group)) { // clang parses -Ttext=ADDRESS as -T
       Address->claim();

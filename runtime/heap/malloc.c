@@ -151,7 +151,7 @@ static inline void give(struct page *page, void *memory) {
   if (before & bit)
     __trax_heap_complain();
   page->free[word] = now;
-  if (before == 0 || (now & (now + 1)) == 0)
+  if ((before == 0 || (now & (now + 1)) == 0) && (page->first == WORDS || page->before || page->next))
     freed(page, word);
 }
 
@@ -196,15 +196,24 @@ static int add_page(struct heap *heap, unsigned class) {
   return 1;
 }
 
+/* A block of a page, or NULL. */
+static inline void *take_any(struct page *page) {
+  unsigned word = page->first;
+  if (!page->free[word]) {
+    for (word = 0; !page->free[word];)
+      if (++word == WORDS)
+        return NULL;
+    page->first = (uint8_t)word;
+  }
+  return take(page, word);
+}
+
 /* A block of the class from the thread's pages, or NULL. */
 static void *take_small(unsigned class) {
-  for (struct page *page; (page = pages[class]); unlink_page(page)) {
-    for (unsigned word = 0; word < WORDS; word++)
-      if (page->free[word]) {
-        page->first = (uint8_t)word;
-        return take(page, word);
-      }
-    page->first = WORDS;
+  for (struct page *page; (page = pages[class]); unlink_page(page), page->first = WORDS) {
+    void *memory = take_any(page);
+    if (memory)
+      return memory;
   }
   return NULL;
 }
@@ -231,8 +240,9 @@ __attribute__((noinline)) static void *allocate(size_t size) {
 void *malloc(size_t size) {
   if (size - 1 < PAGE) {
     struct page *page = pages[class_of(size)];
-    if (page && page->free[page->first])
-      return take(page, page->first);
+    void *memory = page ? take_any(page) : NULL;
+    if (memory)
+      return memory;
   }
   return allocate(size);
 }

@@ -12,7 +12,7 @@ struct dispatch {
   unsigned number; /* of such loops in the region */
   unsigned kind;
   unsigned long long chunk, trips, lower, stride;
-  unsigned part;                    /* the next one, if the region has one thread */
+  unsigned part;                    /* the next one, if the region has one thread; else whether it has had one */
   unsigned round;                   /* guided: as many parts as threads have the same length */
   unsigned long long start, length; /* of this round's parts */
 };

@@ -22,6 +22,10 @@ static struct {
   unsigned number;
 } job;
 struct counter __kmp_counters[COUNTERS];
+static struct partial {  /* of a reduction, for each thread */
+  unsigned ready, taken; /* numbers of reductions */
+  void *data;
+} * partials;
 
 int __kmpc_global_thread_num(void *place) {
   (void)place;
@@ -66,6 +70,8 @@ void __kmpc_fork_call(void *place, int count, microtask *task, ...) {
     call(task, argument, 1, 0);
     return;
   }
+  if (!partials && !(partials = calloc(trax_threads(), sizeof *partials)))
+    machine_abort("OpenMP: no memory for reductions");
   job.task = task;
   job.number++;
   memset(__kmp_counters, 0, sizeof __kmp_counters);
@@ -158,28 +164,12 @@ void __kmpc_copyprivate(void *place, int thread, size_t size, void *data, void (
 }
 
 /* Reductions go up a tree: the same order in every run with the same number of threads. */
-static struct partial {
-  unsigned ready, taken; /* numbers of reductions */
-  void *data;
-} * partials;
-static struct ticket_lock partials_lock;
-
 static int reduce(void *data, void (*combine)(void *, void *)) {
   const unsigned size = team_size(), rank = __kmp_region.rank, number = ++__kmp_region.reductions;
   if (size == 1)
     return 1;
-  struct partial *all = __atomic_load_n(&partials, __ATOMIC_RELAXED);
-  if (!all) {
-    lock(&partials_lock);
-    if (!partials)
-      partials = calloc(trax_threads(), sizeof *partials);
-    all = partials;
-    unlock(&partials_lock);
-    if (!all)
-      machine_abort("OpenMP: no memory for a reduction");
-  }
   for (unsigned step = 1; step < size; step *= 2) {
-    struct partial *mine = &all[rank], *other = &all[rank + step];
+    struct partial *mine = &partials[rank], *other = &partials[rank + step];
     if (rank & step) {
       mine->data = data;
       release_fence();

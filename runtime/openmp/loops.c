@@ -80,8 +80,9 @@ static unsigned next_part(struct dispatch *d, unsigned size) {
   if (size == 1)
     return d->part++;
   const unsigned counter = d->number % COUNTERS;
-  while (load_shared(&__kmp_counters[counter].rounds) != d->number / COUNTERS)
-    ;
+  for (; !d->part; d->part = 1)
+    while (load_shared(&__kmp_counters[counter].rounds) != d->number / COUNTERS)
+      ;
   return trax_atomic_inc(&__kmp_counters[counter].next);
 }
 

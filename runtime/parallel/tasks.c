@@ -1,62 +1,76 @@
-/* Tasks in a ring, under one lock. */
+/* Tasks in a ring without a lock. Who adds a task and who wants one draw numbers; the n-th task is for the n-th thread
+   that wants one, which polls the task's place. */
 #include "team.h"
 
 #ifdef __trax__
 
-enum { CAPACITY = 256 };
+enum { PLACES = 1024, ROOM = PLACES / 2 /* for threads that add at the same moment */ };
 
-static struct {
+static struct place {
+  unsigned turn; /* number of the task that may be written here; 1 more if it is here */
   trax_task *function;
   void *context;
-} ring[CAPACITY];
-static unsigned first, last, unfinished; /* unfinished: in the ring, or running */
-static struct ticket_lock ring_lock;
+} places[PLACES];
+static unsigned added, wanted, ended;
+static int running;
 
 void trax_add_task(trax_task *task, void *context) {
-  lock(&ring_lock);
-  const int room = last - first < CAPACITY && unfinished;
-  if (room) {
-    ring[last % CAPACITY].function = task;
-    ring[last % CAPACITY].context = context;
-    last++;
-    unfinished++;
-  }
-  unlock(&ring_lock);
-  if (!room)
+  if (!running || (int)(load_shared(&added) - load_shared(&wanted)) > ROOM) {
     task(context);
+    return;
+  }
+  release_fence();
+  const unsigned number = trax_atomic_inc(&added);
+  struct place *place = &places[number % PLACES];
+  while (load_shared(&place->turn) != number)
+    ;
+  place->function = task;
+  place->context = context;
+  release_fence();
+  store_shared(&place->turn, number + 1);
+}
+
+/* Whether all tasks have ended. One that runs has not ended, and it alone adds others. */
+static int all_ended(void) {
+  const unsigned number = load_shared(&ended);
+  if (number != load_shared(&added))
+    return 0;
+  acquire_fence(); /* `ended` before `added` */
+  const unsigned before = load_shared(&ended);
+  acquire_fence();
+  return before == load_shared(&added);
 }
 
 static void work(void *nothing) {
   (void)nothing;
-  for (unsigned mine = 0; mine || load_shared(&unfinished);) {
-    if (!mine && load_shared(&first) == load_shared(&last))
-      continue;
-    trax_task *task = NULL;
-    void *context = NULL;
-    lock(&ring_lock);
-    unfinished -= mine;
-    mine = first != last;
-    if (mine) {
-      task = ring[first % CAPACITY].function;
-      context = ring[first % CAPACITY].context;
-      first++;
-    }
-    unlock(&ring_lock);
-    if (mine)
-      task(context);
+  for (;;) {
+    const unsigned number = trax_atomic_inc(&wanted);
+    struct place *place = &places[number % PLACES];
+    while (load_shared(&place->turn) != number + 1)
+      if (all_ended())
+        return;
+    acquire_fence();
+    trax_task *task = place->function;
+    void *context = place->context;
+    store_shared(&place->turn, number + PLACES);
+    task(context);
+    release_fence();
+    trax_atomic_inc(&ended);
   }
 }
 
 void trax_run_tasks(trax_task *task, void *context) {
-  if (trax_team_size() > 1 || trax_thread() || load_shared(&unfinished)) { /* within other work: all of it at once */
+  if (running || trax_team_size() > 1 || trax_thread()) { /* within other work */
     task(context);
     return;
   }
-  ring[first % CAPACITY].function = task;
-  ring[first % CAPACITY].context = context;
-  last++;
-  unfinished = 1;
+  for (unsigned i = 0; i < PLACES; i++)
+    places[i].turn = i;
+  added = wanted = ended = 0;
+  running = 1;
+  trax_add_task(task, context);
   trax_parallel(work, NULL);
+  running = 0;
 }
 
 #endif

@@ -62,7 +62,7 @@ KINDS = {
         mutate.of_bytes,
         each(["trax-ld", "-e", "main", "-o", "{o}"], ["--whole-archive", "{x}"], ["-u", "main", "{x}"]),
     ),
-    "checkpoint": (1000, ["run.checkpoint"], mutate.of_bytes, [[*CHIP, "--resume", "{x}", "{d}/program.elf"]]),
+    "checkpoint": (1000, ["run.checkpoint"], mutate.of_checkpoint, [[*CHIP, "--resume", "{x}", "{d}/program.elf"]]),
     "configuration": (300, ["machine.cfg"], mutate.of_text, [["trax-sim", "--config", "{x}", "--print-config"]]),
     "tree": (
         446,

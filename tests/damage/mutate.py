@@ -1,8 +1,11 @@
 """Damage to inputs: to bytes, fields of ELF files, lines of text and members of JSON. Each function takes a
 random.Random and the bytes of a good input, and returns those of a damaged one."""
 import copy
+import ctypes
+import ctypes.util
 import json
 import struct
+import zlib
 
 WORDS = (0, 1, 2, 3, 4, 7, 16, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF, 0xFFFFFFF0, 0x10000, 0x40000000)
 NUMBERS = (
@@ -38,6 +41,41 @@ def of_bytes(rng, data):
             place = min(place, 1024) if rng.random() < 0.5 else place
             data[place & ~3 : (place & ~3) + 4] = struct.pack("<I", rng.choice(WORDS))
     return bytes(data)
+
+
+class Digest(ctypes.Structure):
+    _fields_ = [("low", ctypes.c_uint64), ("high", ctypes.c_uint64)]
+
+
+def digest_of(data):
+    """XXH3's 128 bits."""
+    function = ctypes.CDLL(ctypes.util.find_library("xxhash")).XXH3_128bits
+    function.restype, function.argtypes = Digest, [ctypes.c_char_p, ctypes.c_size_t]
+    digest = function(bytes(data), len(data))
+    return struct.pack("<QQ", digest.low, digest.high)
+
+
+def of_checkpoint(rng, data):
+    """Of its contents, which keep their size, with a right digest; a twelfth of them as of any bytes. The header
+    (emulator/host/checkpoint.c) has the size of what follows in bytes 32 to 39, and the digest at its end."""
+    if rng.randrange(12) == 0:
+        return of_bytes(rng, data)
+    (compressed,) = struct.unpack_from("<Q", data, 32)
+    header, body = bytearray(data[:-compressed]), bytearray(zlib.decompress(data[-compressed:]))
+    for _ in range(rng.choice((1, 1, 2, 3, 8))):
+        length = rng.choice((1, 2, 4, 8))
+        place, other = (rng.randrange(len(body) // length) * length for _ in range(2))
+        old = int.from_bytes(body[place : place + length], "little")
+        flipped = old ^ 1 << rng.randrange(8 * length)
+        new = rng.choice((0, -1, old + 1, old - 1, flipped, rng.getrandbits(8 * length)))
+        body[place : place + length] = rng.choice(
+            ((new & ((1 << 8 * length) - 1)).to_bytes(length, "little"), body[other : other + length])
+        )
+    packed = zlib.compress(bytes(body), 1)
+    struct.pack_into("<Q", header, 32, len(packed))
+    header[-16:] = bytes(16)
+    header[-16:] = digest_of(bytes(header) + packed)
+    return bytes(header) + packed
 
 
 def elf_tables(data):

@@ -42,7 +42,7 @@ static void update(const char *name) {
   FILE *file = fopen(name, "w+");
   if (!file)
     return report("update", name, 0);
-  for (int i = 0; i < 3000; i++)
+  for (int i = 0; i < 1300; i++)
     fprintf(file, "%d,", i);
   fseek(file, 10, SEEK_SET);
   int number = -1;

@@ -26,12 +26,13 @@ CC = "CC={cc}"
 class Program:
     """source: Debian's package. build: commands in the source's folder, or None for CMake. binary: what they make.
     cases: arguments; files: made in the folder of each run before it, by name (bytes), or copied from the source
-    ("name": path). noise: what depends on the time in standard output."""
+    ("name": path). noise: what depends on the time in standard output. chip: options of trax-sim."""
 
-    def __init__(self, name, source, binary, cases, build=None, cmake=(), files=None, noise=rb"(?!)", target="all"):
+    def __init__(self, name, source, binary, cases, build=None, cmake=(), files=None, noise=rb"(?!)", target="all",
+                 chip=()):
         self.name, self.source, self.binary, self.cases = name, source, binary, cases
         self.build, self.cmake = build, cmake
-        self.files, self.noise, self.target = files or {}, noise, target
+        self.files, self.noise, self.target, self.chip = files or {}, noise, target, chip
 
 
 class Case:
@@ -113,6 +114,7 @@ END_SCENE
 """
 DATA = {"data.txt": text(300), "small.txt": b"hello, world\n"}
 
+CHIP = ("--config", "4x32", "--main-on", "0")
 PROGRAMS = [
     Program("bzip2", "bzip2", "bzip2",
             [Case(["-k", "data.txt"]),
@@ -168,6 +170,13 @@ PROGRAMS = [
             "make", "-C", "unix", "all", "ARCH=linux", CC, "CFLAGS=-O2 -DBsd", "LIBS=-L. -ltachyon -lm", "AR=ar",
             "ARFLAGS=r", "STRIP=true", "RANLIB=ranlib"]], files={"scene.dat": SCENE},
             noise=rb"\s*Rendering Progress:.*?complete *\r?|[0-9.]+ seconds"),
+    # --- written for OpenMP ---
+    Program("tachyon-openmp", "tachyon", "compile/linux/tachyon", [
+        Case(["scene.dat", "-format", "PPM", "-o", "out.ppm", "-res", "64", "48"])], [[
+            "make", "-C", "unix", "all", "ARCH=linux", CC, "CFLAGS=-O2 -DBsd -fopenmp",
+            "LIBS=-fopenmp -L. -ltachyon -lm", "AR=ar", "ARFLAGS=r", "STRIP=true", "RANLIB=ranlib"]],
+            files={"scene.dat": SCENE}, noise=rb"\s*Rendering Progress:.*?complete *\r?|[0-9.]+ seconds|.*CPU.*\n",
+            chip=CHIP),
     Program(
         "potrace", "potrace", "src/potrace",
         [Case(["-s", "picture.pbm", "-o", "out.svg"]),
@@ -268,7 +277,8 @@ class Workshop:
         for case in program.cases:
             command = [binary, *case.arguments]
             if kind == "trax":
-                command = [self.build / "bin" / "trax-sim", "--engine", self.engine, "--quiet", "--dir", ".", *command]
+                command = [self.build / "bin" / "trax-sim", "--engine", self.engine, "--quiet", *program.chip,
+                           "--dir", ".", *command]
             done = subprocess.run(command, cwd=place, input=case.stdin, capture_output=True, check=False, timeout=1200,
                                   env={"PATH": os.environ["PATH"], "TZ": "UTC", "LC_ALL": "C"})
             files = {

@@ -8,11 +8,10 @@ Embree's pictures stay as they are.
 """
 
 import pathlib
-import subprocess
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
-from mutation import ROOT, Mutant, compile_as, link_as, main  # noqa: E402
+from mutation import ROOT, Mutant, compile_as, ended, link_as, main  # noqa: E402
 from device_copy import DEVICE, changed_copy  # noqa: E402
 
 COMPILED = "tests/render/CMakeFiles/render-light-test.dir/light_test.c.o"
@@ -78,9 +77,8 @@ MUTANTS = [
 
 def failures(program):
     """Which tests of the program fail."""
-    try:
-        run = subprocess.run([program], capture_output=True, text=True, timeout=SECONDS, check=False)
-    except subprocess.TimeoutExpired:
+    run = ended(SECONDS, program)
+    if run is None:
         return [f"{program.name} does not end"]
     failed = [line.split("] ")[1] for line in run.stdout.splitlines() if line.startswith("[  FAILED  ]")]
     return failed + ([f"{program.name} ends by signal {-run.returncode}"] if run.returncode < 0 else [])

@@ -8,8 +8,8 @@ import subprocess
 import sys
 
 FOLDERS = "cmake docs emulator isa llvm-target raytracer runtime tests .ci .githooks".split()
-FILES = ("CHANGELOG.md CMakeLists.txt CMakePresets.json CONTRIBUTING.md LICENSE README.md VERSION demo.sh setup.sh "
-         "test.sh .clang-format .flake8 .gitignore").split()
+FILES = ("CHANGELOG.md CITATION.cff CMakeLists.txt CMakePresets.json CONTRIBUTING.md LICENSE README.md VERSION demo.sh "
+         "setup.sh test.sh .clang-format .flake8 .gitignore").split()
 
 try:
     listed = subprocess.run(["git", "-C", sys.argv[1], "ls-files", "-z"], capture_output=True, text=True)

@@ -131,7 +131,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("--bin", default=os.path.join(HERE, "..", "..", "build", "bin"),
                         help="the folder of trax-sim and clang")
-    parser.add_argument("--short", action="store_true", help="what takes longest is left out")
+    parser.add_argument("--short", action="store_true",
+                        help="one round of each program, and what takes longest is left out")
     parser.add_argument("--random", type=int, default=10, help="random cases on each machine (default: 10)")
     parser.add_argument("--seed", type=int, default=1, help="of the first (default: 1)")
     options = parser.parse_args()
@@ -143,7 +144,7 @@ def main():
         print(f"{'machine':<27}" + "".join(f"{name:>13}" for name, _ in programs) + f"{'random':>8}")
         for number, (machine, chip, keys) in enumerate(MACHINES):
             cells = []
-            for name, path in short if chip[0] * chip[1] > 1000 else programs:
+            for name, path in short if options.short or chip[0] * chip[1] > 1000 else programs:
                 large, in_assembly = chip[0] * chip[1] > 1000, name in dict(ASSEMBLY)
                 if options.short and (large and name in ("everything", "one address",
                                                          "stores") or in_assembly and number % 3 != 1):

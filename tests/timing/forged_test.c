@@ -214,18 +214,20 @@ static bool is_counter(unsigned name) {
 
 /* Whether its values name elements of other arrays, or are matched with those of others. */
 static bool is_matched(unsigned name) {
-  static const char *const lists[] = {"trax_request.",
-                                      "trax_mshr.",
-                                      "trax_icache_pending.",
-                                      "trax_l2_mshr.",
-                                      "trax_dram_request.",
-                                      "queue->",
-                                      "l2->",
-                                      "dcache->",
-                                      "tm->",
-                                      "trax_waiting.",
-                                      "trax_channel.passed",
-                                      "trax_l2.arriving"};
+  static const char *const lists[] = {
+      "trax_request.",
+      "trax_mshr.",
+      "trax_icache_pending.",
+      "trax_l2_mshr.",
+      "trax_dram_request.",
+      "queue->",
+      "l2->",
+      "dcache->",
+      "tm->",
+      "trax_waiting.",
+      "trax_channel.passed",
+      "trax_l2.arriving",
+  };
   for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
     if (strncmp(names[name], lists[i], strlen(lists[i])) == 0)
       return true;
@@ -303,25 +305,12 @@ static void damage_layout(const struct trax_config *config, const uint32_t *prog
 
 /* What a program may have made, and what is only counted: any value will do. */
 static const char *const free_names[] = {
-    "tags->lines.",
-    "trax_tp.reg",
-    "trax_tp.pc",
-    "trax_tp.address",
-    "trax_tp.local",
-    "trax_tp.run_begin",
-    "trax_tp.run_end",
-    "trax_request.value",
-    "trax_request.number",
-    "trax_request.line",
-    "trax_queue.peak",
-    "trax_queue.made",
-    "trax_queue.last_unsubmitted",
-    "tm->exit_statuses.",
-    "dcache->next_waiter.",
+    "tags->lines.",          "trax_tp.reg",        "trax_tp.pc",           "trax_tp.address",
+    "trax_tp.local",         "trax_tp.run_begin",  "trax_tp.run_end",      "trax_request.value",
+    "trax_request.number",   "trax_request.line",  "trax_queue.peak",      "trax_queue.made",
+    "trax_queue.last_unsubmitted", "tm->exit_statuses.", "dcache->next_waiter.",
     /* rows are only compared, and activations counted modulo 4 */
-    "trax_dram_request.row",
-    "trax_dram_bank.row",
-    "trax_dram_rank.activations",
+    "trax_dram_request.row", "trax_dram_bank.row", "trax_dram_rank.activations",
 };
 
 static bool may_be_anything(const char *name) {

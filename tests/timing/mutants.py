@@ -10,14 +10,13 @@ notices is named.
 
 import os
 import pathlib
-import resource
 import shutil
 import subprocess
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 from mutants_list import MUTANTS  # noqa: E402
-from mutation import ROOT, Mutant, main  # noqa: E402
+from mutation import ROOT, Mutant, failure, main  # noqa: E402
 
 SOURCE = ROOT / "emulator"
 HAND = ["runs", "faults"]
@@ -44,22 +43,11 @@ def build(tree):
     return subprocess.run(["ninja", "-C", tree / "build", "-j2", *TARGETS], capture_output=True, text=True)
 
 
-def limit():
-    """A test that goes on for ever ends by the host's time that it takes itself, however much others leave of it."""
-    resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
-
-
 def first_failure(tree):
     """The number of the first test that fails; None if none does."""
     for i, (command, environment) in enumerate(TESTS):
-        try:
-            status = subprocess.run([tree / "build/tests/bin" / command[0], *command[1:]], cwd=tree,
-                                    env=os.environ | environment,
-                                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=10 * SECONDS,
-                                    preexec_fn=limit).returncode
-        except subprocess.TimeoutExpired:
-            status = "timeout"
-        if status:
+        program = tree / "build/tests/bin" / command[0]
+        if failure(SECONDS, program, *command[1:], cwd=tree, env=os.environ | environment):
             return i
     return None
 

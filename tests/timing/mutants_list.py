@@ -160,7 +160,6 @@ MUTANTS = [
     ("fast/tm/tm.c", "tm->tp[request->tp].begin_reg[request->rd] = request->value", "request->value"),
     ("fast/time/head.h", "tm->heads.address[tp] = tm->tp[tp].loads[load];",
      "tm->heads.address[tp] = tm->tp[tp].loads[0];"),
-    ("fast/time/cycle.c", "tp->loads[0] = tm->heads.address[number] = tp->address", "tp->loads[0] = tp->address"),
     ("fast/time/issue.h", "tm->heads.at[number] < last || tp->ends_slowly", "tm->heads.at[number] < last"),
     ("fast/time/heads.h", "heads->at[__builtin_ctzll(who)] + 1u", "heads->at[__builtin_ctzll(who)]"),
     ("fast/create.c", "machine->calls.before_write = trax_fast_range_written;", "machine->calls.before_write = NULL;"),

@@ -32,8 +32,9 @@ JSON_NAMES = {
 CSV_NAMES = {}
 # What only the new one has: paths of the JSON, and names of columns.
 ADDED = re.compile(
-    r"(tms\.\d+\.)?rays_by_kind\.|"
-    r"configuration\.(dram\.|memory\.model$|memory\.atomic_interval_cycles$|dcache\.fill_cycles$)"
+    r"(tms\.\d+\.)?(tps\.\d+\.)?(rays_by_kind\.|simt\.|dcache\.broadcast$|cause(s|_percent)\.(lockstep|divergence)$)|"
+    r"lockstep$|divergence$|"
+    r"configuration\.(simt\.|dram\.|memory\.model$|memory\.atomic_interval_cycles$|dcache\.fill_cycles$)"
 )
 OF_THE_HOST = {"program", "host_seconds", "instructions_per_host_second"}
 

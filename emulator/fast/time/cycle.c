@@ -130,10 +130,8 @@ static bool classify(struct trax_tm *tm, unsigned number, uint64_t t) {
       step &= TRAX_STEP_FETCH;
     else if (inst->is_nontemporal || inst->is_atomic)
       step |= TRAX_STEP_QUEUE;
-    else {
+    else
       step |= (uint16_t)(TRAX_STEP_BANK | tp->address / 4 % tm->data_banks << TRAX_STEP_BANK_SHIFT);
-      tp->loads[0] = tm->heads.address[number] = tp->address;
-    }
   }
   tm->tp[number].step[0] = step | TRAX_STEP_SLOW;
   trax_fast_set_head(&tm->heads, number, 0);

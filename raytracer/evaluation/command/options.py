@@ -83,8 +83,9 @@ GROUPS = {
     "Results": (
         Option("output", "DIR", "the folder of results (default: out/eval)", "o",
                {"default": "out/eval", "type": path_argument}, files="d"),
-        Option("dry-run", "", "prints the runs that are missing and what they take, by those that are there, and\n"
-               "ends; imports no scene and writes nothing"),
+        Option("dry-run", "",
+               "prints the runs that are missing, and what they take by those that are there, and ends;\n"
+               "imports no scene and writes nothing"),
         Option("report", "", "writes the page, too: report.html in the folder of results"),
     ),
     "Other": (

@@ -9,8 +9,8 @@ from .results import Results, ratio
 from .table import Cell, Table, percent, words
 from .tables import VERDICTS
 
-PROGRAM = "era"
-SWEEPS = {"verdicts", "compare-units", "special-unit"}
+SWEEP = "verdicts"  # whose first program is judged
+SWEEPS = {SWEEP, "compare-units", "special-unit"}
 CHOICES = {
     "floats compared on adders": {"fpu.compare_units": False}, "FPDIV/iSQRT taken for 8 cycles": {
         "special.pipelined": False
@@ -28,10 +28,10 @@ def _as_chosen(run, choice):
     return run
 
 
-def _choices(results):
+def _choices(results, program):
     """(name, results of this choice alone): as the program has it, with another view of the dragon, and as CHOICES
     have it."""
-    runs = [run for run in results.runs if run.program == PROGRAM and run.done]
+    runs = [run for run in results.runs if run.program == program and run.done]
     made = [("as chosen", Results(results.document, [run for run in runs if not run.variant]))]
     own, dragon = made[0][1], results.columns["dragon"]
     for view in [scene for scene, column in results.stands_for.items() if column == "dragon" and scene != dragon]:
@@ -66,18 +66,19 @@ def _width(runs):
 
 
 def table(results, paper):
-    """Returns the table of the program in the style of the paper's time; None if nothing was chosen otherwise."""
-    choices = _choices(results)
+    """Returns the table; None if nothing was chosen otherwise."""
+    program = next((run.program for run in results.of_sweep(SWEEP)), None)
+    choices = _choices(results, program)
     if len(choices) < 2:
         return None
-    judged = [claims(some, paper, [PROGRAM]) for _, some in choices]
+    judged = [claims(some, paper, [program]) for _, some in choices]
     rows = []
     for same in zip(*judged):
-        verdicts = [claim.verdicts[PROGRAM] for claim in same]
+        verdicts = [claim.verdicts[program] for claim in same]
         if any(_is_measured(found) for _, found in verdicts[1:]):
             rows.append([words(same[0].title), Cell(same[0].paper), *(_cell(*verdict) for verdict in verdicts)])
     width = _width([run for _, some in choices[1:] for run in some.runs])
-    note = f"{PROGRAM}; of a choice what was measured."
+    note = f"{program}; of a choice what was measured."
     note += f" Estimated rates are within plus and minus {percent(width, digits=1)}." if width else ""
     columns = [("claim", "t"), ("paper", None), *((name, "t") for name, _ in choices)]
     return Table("verdicts-choices", "How the verdicts depend on free choices", columns, rows, note)

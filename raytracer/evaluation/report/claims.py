@@ -86,7 +86,7 @@ def _area(results, paper, program):
         if (value := deviation(run.get("values.area_units") if run else None, wanted)) is not None
     ]
     found += f"; of the sum of units without wires, which is no fit, {100 * median(units):+.0f} %" if units else ""
-    return FITTED if verdict == AGREES else verdict, found
+    return FITTED if verdict != DIFFERS and found != NOT_MEASURED else verdict, found
 
 
 def _table3(results, paper, program):
@@ -253,7 +253,9 @@ _CLAIMS = [
     ("Table 1: area of the chips",
      "each of the 15 within 10 %; the area is a fit to these figures, so that it agrees by construction",
      "1.9 to 25.3 mm²", _area),
-    ("Table 1: GFLOPS in ray tracing", "each of the 15 chips within 10 %, mean of the scenes", "2.5 to 23.1", _gflops),
+    ("Table 1: GFLOPS in ray tracing",
+     "each of the 15 chips within 10 %, mean of the scenes; it depends on where floats are compared, which the paper "
+     "does not say", "2.5 to 23.1", _gflops),
     ("Table 2: rays per second", "each of the 60 cells within 10 %", "1.41 to 32.5 MRPS", _within),
     ("Table 3: 8 and 16 GB/s", "each of the 12 figures within 10 %", "5.69 to 18.5 MRPS", _table3),
     ("Speed-up from 1x32", "within 10 % of the paper's, for conference, crytek and the fourth scene, on each chip",

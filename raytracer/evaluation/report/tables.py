@@ -57,8 +57,9 @@ def claims_table(results, claims, programs):
             more += [f"{program}: {rest}"] if rest else []
         rows.append(row + [Cell(claim.rule, style="rule")])
         notes += [(claim.title, ". ".join(more))] if more else []
-    machines = [f"{program}: {own}" for program in programs if (own := own_machine(results, program).strip())]
-    return Table("claims", "What the paper says, and what was measured", columns, rows, " ".join(machines), notes)
+    own = [f"{program}: {text.rstrip('. ')}" for program in programs if (text := own_machine(results, program))]
+    notes = [("The chips", ". ".join(own)), *notes] if own else notes
+    return Table("claims", "What the paper says, and what was measured", columns, rows, notes=notes)
 
 
 def own_machine(results, program):

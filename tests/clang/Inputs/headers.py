@@ -67,15 +67,14 @@ HEADERS = {
     "mbrlen mbrtowc wcrtomb mbsrtowcs wcsrtombs WEOF WCHAR_MIN",
     "wctype.h": "iswalnum iswalpha iswblank iswcntrl iswdigit iswgraph iswlower iswprint iswpunct iswspace iswupper "
                 "iswxdigit iswctype "
-    "wctype towlower towupper towctrans wctrans WEOF", "trax.h": "trax_thread", }
+    "wctype towlower towupper towctrans wctrans WEOF", "trax.h": "trax_thread",
+    "trax/parallel.h": "trax_parallel trax_parallel_for trax_parallel_reduce trax_run_tasks trax_barrier_wait",
+    "omp.h": "omp_get_thread_num omp_get_wtime omp_set_lock omp_test_nest_lock", }
 # Names that programs use for themselves after these headers.
 FREE = {header: "time clock difftime gmtime strftime" for header in
         "sys/time.h sys/times.h utime.h unistd.h sys/types.h".split()}
 # What is not here; docs/porting.md says so.
 WITHOUT = {
-    "threads.h": "cnd_broadcast cnd_destroy cnd_init cnd_signal cnd_timedwait cnd_wait mtx_timedlock thrd_detach "
-                 "thrd_join tss_create "
-    "tss_delete tss_get tss_set",
     "wchar.h": "fgetwc fgetws fputwc fputws fwide fwprintf fwscanf getwc getwchar putwc putwchar swprintf swscanf "
                "ungetwc vfwprintf "
     "vfwscanf vswprintf vswscanf vwprintf vwscanf wprintf wscanf", }
@@ -160,7 +159,7 @@ def main():
     for header, names in HEADERS.items():
         variants = [("c", "-std=c17"), ("c", "-std=gnu2x")] + ([] if header in NOT_IN_CXX else [("cpp", "-std=c++17")])
         for ending, standard in variants:
-            path = os.path.join(folder, f"{header[:-2]}.{ending}")
+            path = os.path.join(folder, f"{header[:-2].replace('/', '-')}.{ending}")
             with open(path, "w", encoding="utf-8") as file:
                 file.write(program(header, names.split(), ending == "cpp"))
             command = [*clang, "--driver-mode=g++"] if ending == "cpp" else clang
