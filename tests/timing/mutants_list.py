@@ -158,6 +158,7 @@ MUTANTS = [
     ("fast/time/issue.h", "tp->atomics |= (uint64_t)1 << inst->rd;", "tp->atomics |= (uint64_t)1 << inst->ra;"),
     ("fast/function/burst_steps.h", "(program->timing[index].waits & (uint32_t)tp->atomics)", "0"),
     ("fast/tm/tm.c", "tm->tp[request->tp].begin_reg[request->rd] = request->value", "request->value"),
+    ("fast/time/head.c", "tp->alone && tp->atomics ? 0 : ", ""),
     ("fast/time/head.h", "tm->heads.address[tp] = tm->tp[tp].loads[load];",
      "tm->heads.address[tp] = tm->tp[tp].loads[0];"),
     ("fast/time/issue.h", "tm->heads.at[number] < last || tp->ends_slowly", "tm->heads.at[number] < last"),

@@ -88,6 +88,20 @@ static void effects_of_one_cycle(void **state) {
     }
 }
 
+/* A thread that is alone runs ahead when nobody looks, but not of its own increment: the load of 106 gets 1. */
+static void own_increment_before_load(void **state) {
+  (void)state;
+  const struct trax_config config = bench_far(1, 1);
+  const uint32_t program[] = {U(LUI, 1, 1), I(AINC, 2, 1, 0), I(LW, 3, 1, 0), S(SW, 3, 1, 4), HALT};
+  struct bench bench = bench_begin(&config, program, sizeof program / 4);
+  bench.status = trax_machine_run(bench.machine, NULL, &bench.error);
+  assert_int_equal(bench.status, TRAX_OK);
+  assert_int_equal(bench_cycles(&bench), 212);
+  assert_int_equal(bench_word(&bench, DATA), 1);
+  assert_int_equal(bench_word(&bench, DATA + 4), 1);
+  bench_end(&bench);
+}
+
 static void every_value_once(void **state) {
   (void)state;
   enum { THREADS = 4 * 32, EACH = 7 };
@@ -171,6 +185,7 @@ int main(void) {
       cmocka_unit_test(comparisons_use_the_adder),
       cmocka_unit_test(special_unit_serves_64_in_turn),
       cmocka_unit_test(effects_of_one_cycle),
+      cmocka_unit_test(own_increment_before_load),
       cmocka_unit_test(every_value_once),
       cmocka_unit_test(exit_statuses),
       cmocka_unit_test(the_limit_covers_the_last_store),

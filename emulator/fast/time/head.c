@@ -56,7 +56,8 @@ void trax_fast_refill(struct trax_tm *tm, unsigned number) {
   tp->begin = tp->resume;
   tp->alone = tm->chip->alone;
   memcpy(tp->begin_reg, tp->reg, sizeof tp->begin_reg);
-  const unsigned count = trax_fast_burst(tm->chip, tm, number, tm->chip->burst);
+  /* Loads of a thread that is alone are not recorded: they would be ahead of its own increment. */
+  const unsigned count = tp->alone && tp->atomics ? 0 : trax_fast_burst(tm->chip, tm, number, tm->chip->burst);
   if (count) {
     tm->executes_at_issue &= ~bit;
     tm->uncertain = (tm->uncertain & ~bit) | (all_resident(tm, number, count) ? 0 : bit);
