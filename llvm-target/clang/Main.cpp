@@ -104,10 +104,13 @@ int runTool(llvm::SmallVectorImpl<const char *> &Args) {
 }
 
 /// A single compilation runs within this process when a link follows it, too: the driver starts a second process then,
-/// for which the libraries are loaded and relocated again, and that takes longer than to compile a small file.
+/// for which the libraries are loaded and relocated again, and that takes longer than to compile a small file. Only a
+/// process of its own can be measured, though.
 void compileInProcess(Driver &TheDriver, Compilation &C) {
   const auto IsCompilation = [](const Command &Job) { return StringRef(Job.getCreator().getName()) == "clang"; };
-  if (TheDriver.CC1Main && llvm::count_if(C.getJobs(), IsCompilation) == 1)
+  const bool IsMeasured = TheDriver.CCPrintProcessStats ||
+                          C.getArgs().hasArg(options::OPT_fproc_stat_report, options::OPT_fproc_stat_report_EQ);
+  if (TheDriver.CC1Main && !IsMeasured && llvm::count_if(C.getJobs(), IsCompilation) == 1)
     for (Command &Job : C.getJobs())
       Job.InProcess |= IsCompilation(Job);
 }
