@@ -88,6 +88,8 @@ def test_signals(programs, scratch):
     functions = (f"int f{i}(int a,int b){{int s=0;for(int i=0;i<a;i++){{s+=i*b^{i};if(s&1)s*=3;}}return s;}}\n"
                  for i in range(2000))
     source.write_text("".join(functions) + "int main(void){return 0;}\n")
+    other = scratch / "other.c"
+    other.write_text("int other;\n")
     place = 0
     with ThreadPoolExecutor(4) as pool:  # which mostly wait
         ends = []
@@ -100,9 +102,14 @@ def test_signals(programs, scratch):
                     command = [str(programs / program), *map(str, waits(program, scratch, pipe)[which])]
                     folder = scratch / f"at-{place}"
                     ends.append(pool.submit(interrupted, command, scratch, folder, number, pipe))
-            place += 1
-            command = [str(programs / "clang"), "--target=trax", "-O2", str(source), "-o", "large.elf"]
-            ends.append(pool.submit(interrupted, command, scratch, scratch / f"at-{place}", number, None))
+            clang = [str(programs / "clang"), "--target=trax", "-O2", "-o", "large.elf"]
+            pipe = scratch / f"pipe-{number}.c"
+            os.mkfifo(pipe)
+            # One source is compiled by the driver's process, several by a process each.
+            for sources, waited in (([pipe], pipe), ([source, other], None)):
+                place += 1
+                command = [*clang, *map(str, sources)]
+                ends.append(pool.submit(interrupted, command, scratch, scratch / f"at-{place}", number, waited))
         for end in ends:
             end.result()
 
