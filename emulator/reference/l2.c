@@ -36,7 +36,7 @@ static struct trax_ref_miss *first_arrival(struct trax_ref_l2 *l2, uint64_t t) {
   for (uint32_t i = 0; i < l2->misses; i++) {
     struct trax_ref_miss *miss = &l2->miss[i];
     if (miss->arrival == t &&
-        (!first || miss->channel < first->channel || (miss->channel == first->channel && miss->came < first->came)))
+        (!first || miss->channel < first->channel || (miss->channel == first->channel && miss->begun < first->begun)))
       first = miss;
   }
   return first;
@@ -66,6 +66,7 @@ static void wait_for_line(struct trax_ref_chip *chip, struct trax_ref_request *r
 
 void trax_ref_l2_started(struct trax_ref_chip *chip, struct trax_ref_miss *miss, uint64_t arrival) {
   miss->arrival = arrival;
+  miss->begun = chip->l2.begun++;
   for (uint32_t i = 0; i < chip->tms; i++)
     for (uint32_t place = 0; place < chip->tm[i].places; place++) {
       struct trax_ref_request *request = &chip->tm[i].queue[place];

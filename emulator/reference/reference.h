@@ -124,9 +124,11 @@ struct trax_ref_l2 {
     uint32_t line, channel;
     uint64_t came;    /* as trax_ref_request.came */
     uint64_t arrival; /* UNKNOWN while it waits for its channel or in a queue of the DRAM */
+    uint64_t begun;   /* transfers of lines that had begun before its own */
     bool in_dram;     /* it is or has been in one */
   } * miss;           /* [misses]: the miss registers in use */
   uint32_t misses;
+  uint64_t begun; /* transfers of lines that have begun */
 };
 
 /* Bus time is counted in units: a cycle has units_per_cycle of them, and a byte takes units_per_byte. A cycle may have

@@ -657,6 +657,20 @@ const struct rule *timing_rules(size_t *count) {
        "124 125 249 250 374 375 376 500 501 521 522", "icache_miss=124 wait_memory=388", U(LUI, 1, 1), I(LW, 2, 1, 0),
        R(ADD, 0, 2, 2), I(LW, 2, 1, 64), R(ADD, 0, 2, 2), S(SWNT, 1, 1, 0), I(LW, 2, 1, 128), R(ADD, 0, 2, 2),
        I(LW, 2, 1, 0), R(ADD, 0, 2, 2), HALT);
+  /* A cycle has 500 ticks: A, B and C of 128, one of each TM, are there in 229, and at the TMs in 249. C is transferred
+     before B, since A and C are in one row. The cache's two places hold the program's line, A; C in the first's place;
+     B in A's. D comes to C's place, and B hits in 373. In the order of the requests it would have come to B's. */
+  CASE(
+      "Second-level cache", "lines of one cycle arrive in the order of their transfers", FAR,
+      "memory.model=dram dram.mtps=1000 chip.clock_mhz=1 dram.banks=1 dram.trefi=0 l2.bytes=128 l2.ways=2 l2.banks=4 "
+      "l2.replacement=fifo dcache.bytes=64 chip.tms=3",
+      395, NONE,
+      "121 122 123 124 125 126 127 128 249 250 251 372 373 393 394 / 121 122 123 124 125 126 127 128 249 250 251 / 121 "
+      "122 123 124 125 126 127 128 249 250 251",
+      "icache_miss=363 wait_memory=499", U(RDSR, 2, TRAX_SR_TM), U(LUI, 1, 1), I(SLLI, 3, 2, 6), R(ADD, 1, 1, 3),
+      I(ANDI, 3, 2, 1), I(SLLI, 3, 3, 12), R(ADD, 1, 1, 3), I(LW, 4, 1, 0), R(ADD, 0, 4, 4), B(BNE, 2, 0, 20),
+      I(LW, 4, 1, 0xC0), R(ADD, 0, 4, 4), I(LW, 4, 1, 0x1040), R(ADD, 0, 4, 4), HALT);
+  COUNTS("l2_misses=5 l2_merged=2 l2_hits=1");
   CASE("Memory controller", "one bus", FAR, "", 220, NONE, "104 105 106 107 217 218 219",
        "icache_miss=104 wait_memory=109", U(LUI, 1, 1), I(LW, 2, 1, 0), I(LW, 3, 1, 128), I(LW, 4, 1, 64),
        R(ADD, 0, 4, 4), R(ADD, 0, 3, 3), HALT);
