@@ -167,11 +167,15 @@ def test_control_c(programs, text):
         {text}
         """)
     with subprocess.Popen([sys.executable, "-c", script, programs["loop"]], stdout=subprocess.PIPE,
-                          stderr=subprocess.PIPE, text=True) as process:
-        process.stdout.readline()
+                          stderr=subprocess.PIPE, text=True,
+                          preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)) as process:
+        process.stdout.readline()  # a job in the background of a shell would ignore the signal
         time.sleep(0.5)
         begin = time.monotonic()
         process.send_signal(signal.SIGINT)
-        _, errors = process.communicate(timeout=60)
+        try:
+            _, errors = process.communicate(timeout=60)
+        finally:
+            process.kill()
     assert "KeyboardInterrupt" in errors and process.returncode in (-signal.SIGINT, 130)
     assert time.monotonic() - begin < 30
