@@ -67,8 +67,6 @@ struct trax_reader {
   X(heat)                                                                                                              \
   X(items)                                                                                                             \
   X(ray_kinds)                                                                                                         \
-  X(lockstep)                                                                                                          \
-  X(lockstep_rays)                                                                                                     \
   X(order)                                                                                                             \
   X(series)                                                                                                            \
   X(page_series)                                                                                                       \

@@ -246,6 +246,9 @@ static const trax_option rows[] = {
     TRAX_OPTION_VERSION,
     {"sample", .instead = "for estimates use trax-render --sampled, with --sample-fraction and the like"},
     {"annotate", .instead = "--explore FILE.html has every line of the program with its instructions"},
+    {"lockstep", .instead = "--set simt.width=32 simulates a SIMD machine: simt.efficiency is its lanes in use"},
+    {"lockstep-rays",
+     .instead = "--set simt.width=32 simulates a SIMD machine: simt.efficiency is its lanes in use"},
     {"konata", .instead = "--perfetto FILE shows the cycles of the window, --trace FILE each of its instructions"},
     {"memory-trace-format", .instead = "--memory-trace FILE.csv is CSV, another FILE binary; for DRAMsim3 and Ramulator 2 "
                                        "convert it by memory_trace_for.py (docs/traces.md)"},

@@ -17,8 +17,7 @@ import checking  # noqa: E402
 from checking import check, equal  # noqa: E402
 
 SIM, PROGRAM, DEEP, WRITE_PROGRAMS = (str(pathlib.Path(p).resolve()) for p in sys.argv[1:5])
-FILES = ["explore", "profile", "profile-folded", "heat", "heat-lines", "items", "lockstep", "series", "trace",
-         "perfetto"]
+FILES = ["explore", "profile", "profile-folded", "heat", "heat-lines", "items", "series", "trace", "perfetto"]
 RESULTS = 400  # words
 
 
@@ -245,43 +244,6 @@ def check_series(directory, stats):
                   threads * (int(row["end"]) - int(row["begin"])), "causes in", row["begin"])
 
 
-def check_lockstep(directory):
-    """Warps of the items that the trace shows, stepped instruction by instruction. A queue is the address of its
-    increments."""
-    streams, numbers, queues, items = collections.defaultdict(list), {}, {}, []
-    for line in read(directory, "trace").splitlines()[1:]:
-        match = re.match(r" *\d+ +(\d+) +\S+ +(\w+) ", line)
-        thread = match[1]
-        if match[2] == "arrival":
-            numbers[thread] = int(re.search(r"r\d+=(\w{8})$", line)[1], 16)
-            continue
-        streams[thread].append(int(match[2], 16))
-        if re.search(r"  ainc ", line):
-            queues[thread] = int(re.search(r"\[(\w+)\]", line)[1], 16)
-        if re.search(r"  trap r\d+, items", line):
-            items.append((queues[thread], numbers[thread], streams.pop(thread)))
-    equal(len({queue for queue, _, _ in items}), 2, "queues")
-    equal(sorted(number for _, number, _ in items), sorted(2 * list(range(RESULTS // 2))), "numbers of the items")
-    ordered = [stream for _, _, stream in sorted(items)]
-    for row in rows(directory, "lockstep"):
-        width, slots, longest = int(row["width"]), 0, 0
-        for first in range(0, len(ordered), width):
-            warp = [list(reversed(stream)) for stream in ordered[first:first + width]]
-            longest += max(map(len, warp))
-            while any(warp):
-                lowest = min(stream[-1] for stream in warp if stream)
-                slots += 1
-                for stream in warp:
-                    if stream and stream[-1] == lowest:
-                        stream.pop()
-        executed = sum(map(len, ordered))
-        equal([int(row["warps"]), int(row["instructions"]), int(row["slots"])], [-(-RESULTS // width), executed, slots],
-              "warps of", width)
-        equal([row["utilisation"], row["longest"]],
-              [f"{executed / (width * slots):.6f}", f"{executed / (width * longest):.6f}"], "shares, warps of", width)
-    equal([row["width"] for row in rows(directory, "lockstep")], ["1", "2", "4", "8", "16", "32", "64"])
-
-
 def check_perfetto(directory, begin, end, tms=2):
     """Complete events of a track do not overlap; begins and ends are nested and in the order of time."""
     events = json.loads(read(directory, "perfetto"))["traceEvents"]
@@ -370,7 +332,6 @@ def main():
     check_trace_and_page(here, stats)
     check_heat(here, stats)
     check_items(here, stats)
-    check_lockstep(here)
     check_series(here, stats)
     causes = check_perfetto(here, 0, stats["cycles"])
     equal(dict(causes), {k: v for k, v in stats["causes"].items() if v}, "causes on the time line")
@@ -457,6 +418,7 @@ def main():
         check(not list((directory / "refused").iterdir()), "something is left by", options)
 
     refuse("--konata has been removed; --perfetto FILE", files=["konata"])
+    refuse("--lockstep has been removed; --set simt.width", files=["lockstep"])
     refuse("--perfetto needs --window", files=["perfetto"])
     refuse("--window without --trace or --perfetto", "--window", "1:2")
     refuse("--window: '5' is not of the form BEGIN:END", "--window", "5", files=["trace"])

@@ -116,11 +116,6 @@ CASES = {
                        bad=FILES, twice="b"),
     "ray-kinds": Case(["out.txt"], file_holds("out.txt", r"kind,rays,.*\n(.*\n){8}none,0,(.*\n){2}all,"), "items.elf",
                       bad=FILES, twice="b"),
-    "lockstep-rays": Case(["out.txt"], file_holds("out.txt", r"kind,rays,width,.*\n(other,\d+,1,\d+,(\d+),\2,1.0)?"),
-                          "items.elf", bad=FILES,
-                          twice="b"), "lockstep": Case(["out.txt"],
-                                                       file_holds("out.txt", r"width,.*\n1,\d+,(\d+),\1,1.0"),
-                                                       "items.elf", bad=FILES, twice="b"),
     "series": Case(["out.txt"], file_holds("out.txt", ","), bad=FILES, twice="b"), "series-interval": Case(
         ["100", "--series", "out.txt"], file_holds("out.txt", "(.*\n){4}"),
         bad=NUMBERS + ("0", )), "memory-trace": Case(

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""rays_test.py TRAX_SIM RAYS: --ray-kinds and --lockstep-rays against the run's trace and statistics, from both engines
-and on machines with and without a second-level cache; --ray-cycles against --ray-kinds."""
+"""rays_test.py TRAX_SIM RAYS: --ray-kinds against the run's trace and statistics, from both engines and on machines
+with and without a second-level cache; --ray-cycles against --ray-kinds."""
 import collections
 import csv
 import json
@@ -40,48 +40,30 @@ def counted_kind(code, operand):
     return kinds[0] if len(kinds) == 1 else None
 
 
-class Ray:
-    def __init__(self, kind, generation):
-        self.kind, self.generation, self.stream, self.number = kind, generation, [], None
-
-
 def read_trace(path):
-    """({kind: {what: how many}}, rays), from the lines of the trace alone. A cycle belongs to the instruction that a
-    thread issues in it or waits for."""
+    """{kind: {what: how many}}, from the lines of the trace alone. A cycle belongs to the instruction that a thread
+    issues in it or waits for."""
     counts = collections.defaultdict(collections.Counter)
-    kind, until, number, ray, generations, rays = {}, collections.Counter(), {}, {}, collections.defaultdict(
-        collections.Counter), []
+    kind, until = {}, collections.Counter()
     for line in path.read_text().splitlines()[1:]:
         match = re.match(r" *(\d+) +(\d+) +\S+ +(\w+) ", line)
-        cycle, thread, pc = int(match[1]), match[2], match[3]
-        if pc == "arrival":
-            number[thread] = int(re.search(r"r\d+=(\w{8})$", line)[1], 16)
+        cycle, thread = int(match[1]), match[2]
+        if match[3] == "arrival":
             continue
         before = kind.get(thread, "none")
         counts[before]["thread_cycles"] += cycle - until[thread]
         until[thread] = cycle + 1
         trap = re.search(r"  trap r\d+, (\w+) +(\w{8})", line)
         new = counted_kind(trap[1], int(trap[2], 16)) if trap and trap[1] in ("rays", "kinds") else None
-        if new:
-            if thread in ray:
-                rays.append(ray.pop(thread))
-            ray[thread] = Ray(new, generations[thread][new])
-            generations[thread][new] += 1
         now = kind[thread] = new or before
         counts[now]["thread_cycles"] += 1
         counts[now]["issued"] += 1
         for name, pattern in (("flops", r"  f(add|sub|mul) "), ("dcache.misses", r" miss\b"),
                               ("dcache.hits", r"  lw .* hit\b"), ("fp_mul.operations", r"  fmul ")):
             counts[now][name] += re.search(pattern, line) is not None
-        if thread in ray:
-            ray[thread].stream.append(int(pc, 16))
-            ray[thread].number = number[thread]
         if trap and trap[1] == "items":
             kind[thread] = "none"
-            generations[thread].clear()
-            if thread in ray:
-                rays.append(ray.pop(thread))
-    return counts, rays
+    return counts
 
 
 def check_kinds(directory, stats, counts, line_bytes):
@@ -115,32 +97,6 @@ def check_kinds(directory, stats, counts, line_bytes):
     check(float(diffuse["energy"]) > 0 and float(table["rest"]["energy"]) > 0, "energy of kinds")
 
 
-def check_lockstep(directory, made):
-    table = rows(directory / "lockstep")
-    present = [kind for kind in KINDS if any(ray.kind == kind for ray in made)]
-    equal([(row["kind"], int(row["width"])) for row in table], [(kind, 1 << i) for kind in present for i in range(7)],
-          "rows")
-    for row in table:
-        kind, width = row["kind"], int(row["width"])
-        ordered = sorted((ray for ray in made if ray.kind == kind), key=lambda ray: (ray.generation, ray.number))
-        warps, slots = 0, 0
-        for generation in sorted({ray.generation for ray in ordered}):
-            same = [ray.stream for ray in ordered if ray.generation == generation]
-            for first in range(0, len(same), width):
-                warp = [list(reversed(stream)) for stream in same[first : first + width]]
-                warps += 1
-                while any(warp):
-                    lowest = min(stream[-1] for stream in warp if stream)
-                    slots += 1
-                    for stream in warp:
-                        if stream and stream[-1] == lowest:
-                            stream.pop()
-        executed = sum(len(ray.stream) for ray in ordered)
-        equal([int(row[name]) for name in ("rays", "warps", "instructions", "slots")],
-              [len(ordered), warps, executed, slots], kind, width)
-        equal(row["utilisation"], f"{executed / (width * slots):.6f}", kind, width)
-
-
 def check_cycles(directory, stats, machine):
     """--ray-cycles has the thread-cycles of --ray-kinds, from any number of host threads, and changes nothing."""
     kinds = {row["kind"]: row for row in rows(directory / "kinds")}
@@ -170,15 +126,14 @@ def check_refusals(directory):
 
 
 def main(directory):
-    files = ["--ray-kinds", "kinds", "--lockstep-rays", "lockstep", "--trace", "trace"]
+    files = ["--ray-kinds", "kinds", "--trace", "trace"]
     chip = ["--set", "chip.tms=2", "--set", "chip.tps_per_tm=8"]
     machines = {"plain": (chip, 64), "l2": ([*chip, "--set", "l2.bytes=65536", "--set", "dcache.line_bytes=32"], 32)}
     for name, (machine, line_bytes) in machines.items():
         both = {engine: run(directory / f"{name}-{engine}", engine, *machine,
                             *files) for engine in ("fast", "reference")}
-        for file in ("kinds", "lockstep"):
-            equal((directory / f"{name}-fast" / file).read_text(), (directory / f"{name}-reference" / file).read_text(),
-                  "engines:", file)
+        equal((directory / f"{name}-fast/kinds").read_text(), (directory / f"{name}-reference/kinds").read_text(),
+              "engines")
         stats = both["fast"]
         for engine in ("reference", "functional"):
             other = both.get(engine) or run(directory / f"{name}-{engine}", engine, *machine)
@@ -188,9 +143,8 @@ def main(directory):
                     "other": 9 * ITEMS + 3 * (ITEMS // 5)}
         equal(stats["rays_by_kind"], {kind: expected.get(kind, 0) for kind in KINDS}, "counters")
         equal(stats["rays"], sum(expected.values()), "rays")
-        counts, made = read_trace(directory / f"{name}-fast" / "trace")
+        counts = read_trace(directory / f"{name}-fast/trace")
         check_kinds(directory / f"{name}-fast", stats, counts, line_bytes)
-        check_lockstep(directory / f"{name}-fast", made)
         check_cycles(directory / f"{name}-fast", stats, machine)
         tms = {kind: sum(tm["rays_by_kind"][kind] for tm in stats["tms"]) for kind in KINDS}
         equal(tms, stats["rays_by_kind"], "TMs")

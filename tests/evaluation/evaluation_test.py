@@ -180,14 +180,6 @@ def test_small(evaluation, scratch):
     check(sizes == [(80, 45, "exact"), (96, 54, "exact")], f"sizes of small pictures: {sizes}")
 
 
-def test_lockstep(evaluation, scratch):
-    """What needs every cycle stays exact. Pixels in lockstep: one thread wastes nothing."""
-    evaluation.run(dict(SMALL, series=0, set={}, lockstep=True, chips="1x32"), "lockstep", "--mode", "quick")
-    for one in evaluation.results("lockstep")["runs"]:
-        check(one["mode"] == "exact" and one["values"]["simd_utilisation.1"] == 1, "lockstep")
-        check(1 / 32 <= one["values"]["simd_utilisation.32"] <= one["values"]["simd_bound.32"] < 1, "warps of 32")
-
-
 def test_caches(evaluation, scratch):
     """The program and the order of nodes are those for the caches of each machine."""
     sizes = {"icache.bytes": [1024, 4096], "dcache.bytes": [2048, 16384]}
@@ -226,7 +218,7 @@ def test_rays(evaluation, scratch):
     (scratch / "two.json").write_text('{"name": "two", "render": ["--occlusion", "2"]}')
     sweep = {
         "name": "rays", "scenes": SMALL["scenes"], "chips": ["1x32"],
-        "workloads": ["primary-shadow", "two.json", "glass"], "ray_kinds": True, "lockstep": True, "size": "40x24"
+        "workloads": ["primary-shadow", "two.json", "glass"], "ray_kinds": True, "size": "40x24"
     }
     run = evaluation.run(sweep, "rays", "--jobs", "2")
     check(run.returncode == 0, f"exit status {run.returncode}: {run.stderr}")
@@ -256,7 +248,6 @@ def test_rays(evaluation, scratch):
                 abs(sum(mine[part]
                         for part in ("utilisation", "fetch", "memory", "dcache", "units", "rest")) - 1) < 1e-9 and
                 mine["rest"] >= 0, f"{name} {kind}: {mine}")
-            check(1 / 32 <= mine["lanes.32"] < mine["lanes.4"] < mine["lanes.1"] == 1, f"{name} {kind}: lanes {mine}")
             check(mine["mrps"] > 0 and mine["energy_per_ray"] > 0 and mine["bytes_per_ray"] >= 0,
                   f"{name} {kind}: {mine}")
         check("--mark-rays" in one["command"], one["command"])
@@ -375,7 +366,7 @@ REFUSED = [
      'reference: "b" is neither a variant nor a program of this sweep; "a", "ours", "era" are'),
     ('{"name": "x", "table": 1}', "table: expected an object or a list of objects"),
     ('{"name": "x", "error": 1}', "error: expected true or false"),
-    ('{"name": "x", "mode": "quick", "programs": "ours", "hits": true}', "mode: series, lockstep"),
+    ('{"name": "x", "mode": "quick", "programs": "ours", "hits": true}', "mode: series, ray_kinds"),
     ('{"name": "x", "error": true}', 'programs: error and hits need programs that are "specialised"'),
     ('{"name": "x", "programs": ["ours", "paper"]}', 'programs: "ours" is there twice'),
     ('{"name": "x", "chip": "4x32"}', 'unknown key "chip", did you mean "chips"'),
@@ -399,7 +390,7 @@ REFUSED = [
     ('{"name": "x", "mode": "fast"}', '"fast" is unknown; allowed are "exact", "quick"'),
     ('{"name": "x", "series": -1}', "series: expected"),
     ('{"name": "x", "mode": "quick", "series": 100}',
-     'mode: series, lockstep, ray_kinds, error, hits and programs that are compiled or converted need "exact"'
+     'mode: series, ray_kinds, error, hits and programs that are compiled or converted need "exact"'
      ),
     ('{"name": "x", "ray_kinds": 1}', "ray_kinds: expected true or false"),
     ('{"name": "x", "ray_kinds": true, "programs": ["ours", "era"]}',
@@ -407,7 +398,7 @@ REFUSED = [
     ('{"name": "x", "workloads": ["fog"]}', 'workloads: "fog" is no workload; allowed are "diffuse", "glass"'),
     ('{"name": "x", "workloads": ["../none.json"]}', '"../none.json" is no workload'),
     ('{"name": "x", "workloads": []}', "workloads: expected a list of texts"),
-    ('{"name": "x", "lockstep": 1}', "lockstep: expected true or false"),
+    ('{"name": "x", "lockstep": true}', 'unknown key "lockstep"'),
     ('{"name": "../x"}', "name: expected letters"),
     ('{"chips": "4x32"}', "name: expected letters"),
     ('{"name": "x"}', 'it is no sweep without "scenes" and "chips"'),
@@ -596,7 +587,7 @@ def test_experiments(evaluation, scratch):
     check(run.stdout.count("forest") == 6 * 15, f"rays: every chip with every workload: {run.stdout[-300:]}")
     known = subprocess.run([evaluation.program, "--help"], capture_output=True, text=True).stdout
     check(
-        all(f"  {name} " in known for name in ("table1", "table2", "table3", "fpu-sharing", "staggering", "lockstep")),
+        all(f"  {name} " in known for name in ("table1", "table2", "table3", "fpu-sharing", "staggering", "simd")),
         "--help lists the experiments")
 
 
@@ -871,7 +862,7 @@ def test_slurm(evaluation, scratch):
     same_bytes(scratch, "undisturbed", "slurm")
 
 
-TESTS = (test_sweep, test_again, test_quick, test_small, test_lockstep, test_caches, test_damaged_job, test_rays,
+TESTS = (test_sweep, test_again, test_quick, test_small, test_caches, test_damaged_job, test_rays,
          test_options, test_refusals, test_folders, test_names, test_experiments, test_kill, test_interrupt, test_held,
          test_parallel, test_hosts, test_slurm)
 OF_SWEEP = {"again", "damaged_job", "kill", "parallel", "hosts", "slurm"}  # they need the results of test_sweep

@@ -21,12 +21,12 @@ GOOD = {
     "name": "x", "title": "t", "claim": "c", "x": "icache.banks", "y": "mrps", "y_per": "area_mm2",
     "scenes": [{"name": "y", "meshes": ["generate:forest"],
                 "view": "forest"}], "programs": ["ours"], "chips": ["1x32"], "set": {"icache.banks": [4, 16]},
-    "size": "8x8", "mode": "exact", "series": 100, "lockstep": False, "workloads": ["occlusion"], "ray_kinds": True
+    "size": "8x8", "mode": "exact", "series": 100, "workloads": ["occlusion"], "ray_kinds": True
 }
 VARIANTS = GOOD | {
     "set": [{"name": "a"}, {"name": "b", "program": "ours", "trax-scene --leaf": [1, 4]}, {
         "name": "c", "trax-render --no-shadows": True
-    }], "reference": "a", "lockstep": True, "table": [{"rows": "variant", "columns": "chip", "values": ["mrps"]}],
+    }], "reference": "a", "table": [{"rows": "variant", "columns": "chip", "values": ["mrps"]}],
     "error": False, "hits": False, "workloads": ["primary-shadow"], "scenes": ["forest"]
 }
 PROGRAM = {

@@ -185,7 +185,7 @@ class DocsTest(unittest.TestCase):
                           ["tiny", "as it is", "10.0 (0.0 %)", "5.00 (0.0 %)"],
                           ["tiny", "sorted", "12.5 (+25.0 %)", "6.25 (+25.0 %)"]])
         self.assertEqual(rows[5:8],
-                         [["kind", "MRPS", "32 lanes"], ["primary", "12.5", "12 %"], ["shadow", "25.0", "16 %"]])
+                         [["kind", "MRPS", "fetch"], ["primary", "12.5", "20 %"], ["shadow", "25.0", "20 %"]])
         # The command's text has the host's time besides; the page has the same cells.
         self.assertEqual([row[:4] for row in rows_of(text)[:5]], rows[:5])
         shown = {
@@ -331,11 +331,11 @@ class DocsTest(unittest.TestCase):
         made = example.complete()
         for sweep in made["sweeps"]:
             sweep["file"] = f"/anywhere/lib/trax/evaluation/sweeps/{sweep['name']}.json"
-        self.page.write_text(page_of("table2-bytes-era", "lockstep"))
+        self.page.write_text(page_of("table2-bytes-era", "size"))
         self.assertEqual(self.docs(self.results(made), self.page), (0, ""))
         self.assertEqual([set(sweep) for sweep in json.loads(self.data.read_text())["sweeps"]], [{"name"}] * 2)
         self.assertIn("bandwidth in use", self.page.read_text())
-        self.data.write_text(self.data.read_text().replace('{"name":"lockstep"}', '{"name":"no-such"}'))
+        self.data.write_text(self.data.read_text().replace('{"name":"size"}', '{"name":"no-such"}'))
         status, said = self.docs("--check", self.page)
         self.assertEqual((status, said.count("\n")), (1, 1))
         self.assertIn("no-such.json", said)
@@ -424,7 +424,7 @@ class DocsTest(unittest.TestCase):
         self.assertEqual(self.docs(self.results(made), self.page), (0, ""))
         rows = rows_of(self.page.read_text())
         self.assertEqual(rows[:1] + rows[1:3], [["kind"], ["primary"], ["shadow"]])
-        self.assertEqual(rows[4], ["primary", "12.5", "12 %"])
+        self.assertEqual(rows[4], ["primary", "12.5", "20 %"])
         self.page.write_text(page_of("tracing"))
         self.assertEqual(self.docs(self.results(made), self.page), (0, ""))
         self.assertEqual(

@@ -106,10 +106,9 @@ def complete():
         for n in (1, 2, 4, 8, 16)
     ]
     runs.append(run("era", "conference", "4x32", {"fpu.compare_units": False}, experiments=("compare-units", )))
-    runs.append(run("ours", "dragon", "4x32", experiments=("lockstep", )))
-    runs[-1].update(key="lockstep", size=[160, 90],
-                    values={"simd_utilisation.8": 0.8, "simd_utilisation.32": 0.4, "simd_bound.8": 0.9})
-    sweeps = [{"name": "lockstep", "x": "threads", "y": "values.simd_utilisation.32"},
+    runs.append(run("ours", "dragon", "4x32", experiments=("size", )))
+    runs[-1].update(key="small", size=[160, 90], values={"frames_per_second": 3})
+    sweeps = [{"name": "size", "x": "threads", "y": "values.frames_per_second"},
               {"name": "table2", "title": "Table 2", "x": "threads", "y": "mrps"}, {
                   "name": "fpu-sharing", "title": "TPs that share an FPU", "x": "fpu.tps_per_cluster", "y": "mrps",
                   "claim": "Eight are sufficient.", "file": "sweeps/fpu.json"
@@ -158,14 +157,30 @@ def assertions():
                 made["stats"]["configuration"]["dcache"] = {"bytes": size}
                 made["values"]["bytes_per_ray"] = moved
                 runs.append(made)
-            made = run(program, scene, "4x32", experiments=("lockstep", ))
-            made["values"] = {"simd_utilisation.32": 0.7 - lost, "simd_bound.32": 0.9}
-            runs.append(made)
     for chip in CHIPS:
         runs.append(run("era", "dragon-close", chip, value=1.9 if chip == "1x32" else 6.0))
     runs.append(run("era", "dragon-close", "8x32", {"memory.bandwidth_gbps": 16.0}, value=10.5))
     for index, record in enumerate(runs):
         record["key"] = f"assertion-{index}"
+    return runs
+
+
+def warps(rates, efficiency=0.7):
+    """Runs of the sweep `simd`: rates[workload][width] is a factor to MIMD's rays for each mm2, which are 2. A second
+    program has half as many."""
+    runs = []
+    for workload, by_width in rates.items():
+        for width, factor in {1: 1, **by_width}.items():
+            for scene in SCENES:
+                for program, part in (("ours", 1), ("straight", 0.5)):
+                    made = run(program, scene, "1x32", {"memory.bandwidth_gbps": 2.0}, experiments=("simd", ),
+                               value=6 * factor * part)
+                    if width > 1:
+                        made["set"] |= {"simt.width": width, "fpu.tps_per_cluster": 1}
+                    made.update(workload=workload, key=f"simd-{workload}-{width}-{program}-{scene}", size=[64, 36])
+                    made["values"] = {"area_units": 3, "rays.primary.count": 10, "rays.primary.mrps": 6 * factor * part}
+                    made["stats"]["simt"] = {"efficiency": efficiency * part if width == 32 else 1}
+                    runs.append(made)
     return runs
 
 
@@ -189,14 +204,13 @@ def stranger():
                         f"rays.{kind}.{name}": value for name, value in {
                             "count": 100, "mrps": rate * (2 - place), "bytes_per_ray": 64 *
                             (1 + place), "energy_per_ray": 3.5, "utilisation": 0.5, "fetch": 0.2, "memory": 0.2,
-                            "dcache": 0.05, "units": 0.05, "rest": 0,
-                            **{f"lanes.{width}": (0.9 - 0.2 * place) / width**0.5 for width in (4, 8, 16, 32)}
+                            "dcache": 0.05, "units": 0.05, "rest": 0
                         }.items()
                     }
                 runs.append(made)
     table = [{"rows": ["chip", "variant"], "columns": "scene", "relative": {"variant": "as it is"}}, {
         "id": "by-kind", "title": "Kinds", "rows": "kind", "each": "chip", "mean": "scene",
-        "where": {"variant": "sorted"}, "values": ["kind.mrps", "kind.lanes.32"]
+        "where": {"variant": "sorted"}, "values": ["kind.mrps", "kind.fetch"]
     }]
     made = document(runs, [{
         "name": "tracing", "title": "Beams", "claim": "They are fast.", "x": "threads", "y": "mrps",

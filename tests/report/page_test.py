@@ -197,8 +197,6 @@ class ReportTest(unittest.TestCase):
         self.assertEqual(len(over_time), 2 * len({math.floor(40 * math.log10(10_000 * n)) for n in range(1, 101)}))
         self.assertEqual([title for title in over_time if "issued" in title][-2:],
                          ["to cycle 990,000: issued 49.2 %", "to cycle 1,000,000: issued 49.8 %"])
-        self.assertEqual([title.split(": ")[1] for _, title in page.figures["lockstep"]],
-                         ["80 % of 8 lanes", "40 % of 32 lanes"])
         for identity in ("memory-era", "memory-ours", "error-time", "sweep-3"):
             self.assertTrue(page.figures[identity], identity)
         self.assertEqual(len(page.figures["memory-ours"]), 60)
@@ -216,7 +214,7 @@ class ReportTest(unittest.TestCase):
         self.assertEqual([verdicts[name] for name in verdicts if name.startswith("Threads stagger")],
                          [["'agrees'", "'unknown'"]])
         for name in ("A TM's operations per cycle", "Eight TPs share an FPU",
-                     "One FPDIV/iSQRT unit serves up to 64 TPs", "Lanes in use in lockstep",
+                     "One FPDIV/iSQRT unit serves up to 64 TPs", "Lanes in use on a SIMD machine",
                      "FPDIV/iSQRT are rarely used"):
             self.assertEqual(verdicts[name], ["'unknown'", "'unknown'"], name)
 
@@ -225,7 +223,7 @@ class ReportTest(unittest.TestCase):
         made = example.complete()
         made["runs"] = [
             record for record in made["runs"]
-            if record["set"].keys() <= {"memory.bandwidth_gbps"} and record["key"] != "lockstep"
+            if record["set"].keys() <= {"memory.bandwidth_gbps"} and record["key"] != "small"
         ] + example.assertions()
         rare = {"era": 5, "ours": 1}
         for record in made["runs"]:
@@ -237,7 +235,7 @@ class ReportTest(unittest.TestCase):
         rows = {row[0][0]: row for row in page.tables["claims"]["rows"]}
         for name in ("A TM's operations per cycle", "Eight TPs share an FPU", "FPDIV/iSQRT are rarely used",
                      "One FPDIV/iSQRT unit serves up to 64 TPs", "16 banks for the instructions of 16 TPs",
-                     "A bank of the data cache for each 8 TPs", "Lanes in use in lockstep"):
+                     "A bank of the data cache for each 8 TPs"):
             self.assertEqual([cell[1] for cell in rows[name][2:4]], ["'differs'", "'agrees'"], rows[name])
         self.assertEqual([cell[1] for cell in rows["A larger data cache takes pressure off the memory"][2:4]],
                          ["'agrees'", "'differs'"])
@@ -390,23 +388,39 @@ class ReportTest(unittest.TestCase):
         self.assertIn("forest.png: No such file", self.text)
 
     def test_rays(self):
-        """What MIMD gains: kinds of rays by their coherence, of a program, scene and chip that the report does not
-        know."""
+        """Kinds of rays of a program, scene and chip that the report does not know."""
         page = self.make(example.stranger())
-        gain = page.tables["rays-gain"]
-        place = {cell[0]: index for index, cell in enumerate(gain["head"][0])}
-        self.assertEqual([row[0][0] for row in gain["rows"]], ["shadow", "primary"])
-        for row, share in zip(gain["rows"], (0.9, 0.7)):
-            for width in (4, 8, 16, 32):
-                self.assertAlmostEqual(float(row[place[f"{width} lanes in use"]][1]), share / width**0.5)
-                self.assertAlmostEqual(float(row[place[f"MIMD over {width} lanes"]][1]), width**0.5 / share)
-        self.assertEqual(len(page.figures["rays-lanes"]), 2 * 5)
-        self.assertEqual(len(page.figures["rays-gain-plot"]), 2 * 5)
         self.assertEqual(len(page.figures["rays-stalls"]), 2 * 5)
         self.assertEqual([row[:2] for row in page.tables["sweep-0-by-kind-tiny"]["rows"]],
                          [[("primary", "'primary'"), ("12.5", "12.5")], [("shadow", "'shadow'"), ("25.0", "25.0")]])
         self.assertIn("<b>beam: Beams of a stranger</b>", self.text)
         self.assertEqual(len(page.identities), len(set(page.identities)))
+
+    def judged_warps(self, rates, **more):
+        """The verdicts of `ours` and their findings, by claim, and the page's tables."""
+        made = example.complete()
+        made["runs"] += example.warps(rates, **more)
+        made["programs"].append({"name": "straight"})
+        made["sweeps"].append({"name": "simd"})
+        made["workloads"] = [{"name": name} for name in rates]
+        page = self.make(made)
+        programs = [cell[0] for cell in page.tables["claims"]["head"][0]]
+        return {row[0][0]: row[programs.index("ours")] for row in page.tables["claims"]["rows"]}, page.tables
+
+    def test_simd(self):
+        """MIMD against SIMD: the best program of each machine counts, and each workload of secondary rays decides."""
+        rates = {"primary-shadow": {8: 1.5, 32: 1.2}, "paths": {4: 1.3, 8: 0.8, 32: 0.25}}
+        pure, lanes = "Pure SIMD is not the most efficient architecture", "Lanes in use on a SIMD machine"
+        claims, tables = self.judged_warps(rates)
+        self.assertEqual((claims[pure][1], claims[lanes][1]), ("'agrees'", "'agrees'"))
+        self.assertIn("0.25 to 0.80 times", claims[pure][0])
+        self.assertIn("70 % of the lanes of warps of 32", claims[lanes][0])
+        rows = {(row[0][0], row[1][0]): [cell[0] for cell in row] for row in tables["simd-best"]["rows"]}
+        self.assertEqual(rows["paths", "SIMD 8, own units"][2:6], ["ours", "4.80", "3.00", "1.60"])
+        self.assertIn("0.80", rows["paths", "SIMD 8, own units"][9])
+        self.assertEqual(rows["paths", "MIMD"][5], "2.00")
+        claims, _ = self.judged_warps({**rates, "glass": {16: 1.1}}, efficiency=0.5)
+        self.assertEqual((claims[pure][1], claims[lanes][1]), ("'differs'", "'differs'"))
 
     def test_rays_of_two_programs(self):
         made = example.stranger()
@@ -415,11 +429,9 @@ class ReportTest(unittest.TestCase):
             record.update(program="lamp", key=f"lamp-{place}")
         made["runs"] += others
         page = self.make(made)
-        self.assertEqual([(row[0][0], row[2][0]) for row in page.tables["rays-gain"]["rows"]], [("shadow", "beam"),
-                                                                                                ("shadow", "lamp"),
-                                                                                                ("primary", "beam"),
-                                                                                                ("primary", "lamp")])
-        self.assertEqual(len(page.figures["rays-lanes"]), 4 * 5)
+        self.assertEqual(sorted({(row[1][0], row[2][0]) for row in page.tables["rays-table"]["rows"]}),
+                         [("primary", "beam"), ("primary", "lamp"), ("shadow", "beam"), ("shadow", "lamp")])
+        self.assertEqual(len(page.figures["rays-stalls"]), 4 * 5)
         self.assertIn(">shadow (fog, lamp)<", self.text)
 
     def test_same_bytes(self):

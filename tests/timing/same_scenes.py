@@ -47,7 +47,7 @@ CHIPS = {"1x32": ["--config", "1x32"], "4x32": ["--config", "4x32"], "8x64": ["-
 CACHES = {"": [], " with l2": ["--set", "l2.bytes=262144"]}
 WHOLE = ["--stats", "--series"]
 EXPLAINED = [
-    *WHOLE, "--profile", "--profile-folded", "--heat", "--heat-lines", "--items", "--lockstep", "--post-mortem",
+    *WHOLE, "--profile", "--profile-folded", "--heat", "--heat-lines", "--items", "--post-mortem",
     "--trace", "--perfetto"
 ]
 FIRST = ["--max-cycles", "12000", "--window", "10000:10600"]  # of the explained run
@@ -161,7 +161,7 @@ def differences(name, old, new):
         missing = object()
         wrong = [path for path in paths if one.get(path, missing) != other.get(path, missing)]
         return [f"{path}: {one.get(path, 'nothing')}, {other.get(path, 'nothing')}" for path in wrong]
-    if name in ("series", "items", "lockstep", "heat", "heat-lines"):
+    if name in ("series", "items", "heat", "heat-lines"):
         head, newline, rest = old.partition(b"\n")
         names = [CSV_NAMES.get(word, word) for word in head.decode().split(",")]
         old, new = ",".join(names).encode() + newline + rest, without_added(new, names)

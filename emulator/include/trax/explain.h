@@ -28,9 +28,6 @@ struct trax_explain;
   X(heat_lines, "heat-lines", "FILE", "accesses to global memory by 64 bytes, as CSV")                                 \
   X(items, "items", "FILE", "cost of each item (pixel), as CSV")                                                       \
   X(ray_kinds, "ray-kinds", "FILE", "cost of the rays of each kind, as CSV")                                           \
-  X(lockstep, "lockstep", "FILE", "issue slots that the items would take on a SIMD machine, as CSV")                   \
-  X(lockstep_rays, "lockstep-rays", "FILE",                                                                            \
-    "issue slots that the rays of each kind would take on a SIMD machine, as CSV")                                     \
   X(series, "series", "FILE", "counts of each interval of cycles, as CSV")                                             \
   X(memory_trace, "memory-trace", "FILE", "every transfer from and to off-chip memory; CSV for FILE.csv, else binary") \
   X(trace, "trace", "FILE", "every instruction issued in the window, with values")                                     \

@@ -2,7 +2,7 @@
 is not known."""
 
 from .machines import RULE as RULE_OF_SIMD
-from .machines import judged, tried
+from .machines import judged, lanes_in_use, tried
 from .results import mean, ratio
 
 NOT_MEASURED = "not measured"
@@ -80,13 +80,13 @@ def _dcache_bytes(results, paper, program):
                                             f"32 kB for 16: {100 * (1 - kept):.0f} % fewer bytes a ray on 8x32")
 
 
-def _lockstep(results, paper, program):
-    used, bound = (swept(results, "lockstep", program, "4x32", {}, f"values.simd_{name}.32")
-                   for name in ("utilisation", "bound"))
-    if used is None or bound is None:
+def _lanes(results, paper, program):
+    if not tried(results, program):
         return _NOT_KNOWN
-    return 0.61 <= used <= 0.86, (f"{100 * used:.0f} % of the lanes of warps of 32; at most {100 * bound:.0f} % "
-                                  "whatever the order; this program does not keep its loops in step")
+    used, best = lanes_in_use(results)
+    if used is None:
+        return _NOT_KNOWN
+    return 0.61 <= used <= 0.86, f"{100 * used:.0f} % of the lanes of warps of 32, by the best program: {best}"
 
 
 def _simd(results, paper, program):
@@ -122,8 +122,8 @@ ASSERTIONS = [
      "the appropriate choice", _dcache_banks),
     ("A larger data cache takes pressure off the memory", "fewer bytes a ray on 8x32 with twice the cache", "likely",
      _dcache_bytes),
-    ("Lanes in use in lockstep",
-     "between the figures that the paper quotes for a ray tracer on a GTX 280: warps of 32 on 4x32", "61 to 86 %",
-     _lockstep),
+    ("Lanes in use on a SIMD machine",
+     "between the figures that the paper quotes for a ray tracer on a GTX 280: warps of 32, primary and shadow rays",
+     "61 to 86 %", _lanes),
     ("Pure SIMD is not the most efficient architecture", RULE_OF_SIMD, "described, no figures", _simd),
 ]

@@ -271,30 +271,6 @@ def _over_time(record, identity):
     return Lines(identity, title or "series", "cycle", "share of thread-cycles (%)", series, log_x=True, x_ticks=ticks)
 
 
-def _lockstep(results):
-    """The values simd_utilisation.WIDTH, a line for each run that has them."""
-    found = []
-    for run in results.runs:
-        widths = sorted(
-            int(name.split(".")[1]) for name in run.values
-            if name.startswith("simd_utilisation.") and name.split(".")[1].isdecimal())
-        points = []
-        for width in widths:
-            share = run.get(f"values.simd_utilisation.{width}")
-            points.append((width, None if share is None else 100 * share,
-                           f"{run.name()}: {100 * share:.0f} % of {width} lanes" if share is not None else ""))
-        if points:
-            found.append(((run.scene, run.program, ()), points))
-    styles = _styles(results, [group for group, _ in found], True)
-    series = [
-        Series(_label(*group), colour, points, mark, dashed=group[1] not in results.programs()[:1])
-        for (group, points), (colour, mark) in zip(found, styles)
-    ]
-    ticks = [(width, str(width)) for width in sorted({point[0] for one in series for point in one.points})]
-    return Lines("lockstep", "Lanes in use, if so many threads went in lockstep", "threads in lockstep",
-                 "lanes in use (%)", series, log_x=True, base=2, x_ticks=ticks)
-
-
 def all_figures(results, paper):
     for scene in _paper_scenes(results):
         yield _scaling(results, paper, scene)
@@ -308,8 +284,6 @@ def all_figures(results, paper):
         figure = sweep_figure(results, paper, sweep, f"sweep-{index}")
         if figure and not str(sweep.get("name")).startswith("table"):  # those have figures of their own
             yield figure
-    if any(name.startswith("simd_utilisation.") for run in results.runs for name in run.values):
-        yield _lockstep(results)
     for index, record in enumerate(results.series):
         yield _over_time(record, f"series-{index}")
 

@@ -67,9 +67,8 @@ class Builder:
                 self.add([made], sweep, {})
         self.add([
             self.claims, lambda: tables.described(results, paper), lambda: tables.hardware(results, paper),
-            lambda: rays.gain_table(results), lambda: rays.kinds_table(results), lambda: choices.table(results, paper),
-            lambda: simd.best_table(results), lambda: simd.kinds_table(results),
-            lambda: simd.verdict_table(results)
+            lambda: rays.kinds_table(results), lambda: choices.table(results, paper),
+            lambda: simd.best_table(results), lambda: simd.kinds_table(results)
         ], None, {})
 
     def claims(self):

@@ -99,6 +99,16 @@ def tried(results, program):
     return any(program in papers(some).runs for some in machines(results).values() if papers(some))
 
 
+def lanes_in_use(results):
+    """(share of 32 lanes in use by primary and shadow rays, the program with the most); (None, "") if it is not known.
+    With units that lanes do not share, so that nothing but divergence leaves lanes unused."""
+    wide = [machine for machine in machines(results).get(COHERENT[0], [])
+            if machine.lanes == 32 and machine.own_units and machine.icache == PAPERS_ICACHE]
+    shares = [(share, name) for machine in wide for name in machine.runs
+              if (share := mean(machine.of(name, "simt.efficiency").values())) is not None]
+    return max(shares, default=(None, ""))
+
+
 def judged(results):
     """The paper's claim: (holds, finding); holds is None if it is not known."""
     secondary, coherent = [], []

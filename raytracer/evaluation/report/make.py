@@ -184,8 +184,8 @@ class Page:
             table(tables.table1(results, paper)), *self.of_programs(tables.table2), table(tables.table3(results, paper))
         ]
         if rays.groups(results):
-            yield "rays", "What MIMD gains as rays lose coherence", [
-                el("p", rays.EXPLAINED), self.figures("rays-"), table(rays.gain_table(results)),
+            yield "rays", "Rays by kind", [
+                el("p", rays.EXPLAINED), self.figures("rays-"),
                 el("details", el("summary", "Every kind of ray on every machine"), table(rays.kinds_table(results)))
             ]
         if machines.machines(results):
@@ -228,7 +228,7 @@ class Page:
             parts = [
                 el("h3", str(sweep.get("title") or name or f"sweep {index}")),
                 el("p", str(sweep["claim"])) if sweep.get("claim") else None,
-                self.drawn.get("lockstep" if name == "lockstep" else f"sweep-{index}"),
+                self.drawn.get(f"sweep-{index}"),
                 el("details", el("summary", "As a table"), *(table(one, f"sweep-{index}-") for one in made))
             ]
             yield el("section", *(part for part in parts if part is not None), class_="sweep")

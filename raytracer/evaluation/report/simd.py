@@ -1,6 +1,6 @@
 """The tables and figures of MIMD against SIMD."""
 
-from .machines import PAPERS_ICACHE, PER_AREA, PER_WATT, RULE, judged, machines, mean_times, papers, times
+from .machines import PAPERS_ICACHE, PER_AREA, PER_WATT, machines, mean_times, papers, times
 from .plots import Lines, Series
 from .sweeps import geometric_mean
 from .table import Cell, Table, duration, figure, number, share, words
@@ -49,17 +49,6 @@ def best_table(results):
         "Means of the scenes; over MIMD's: the geometric mean of the scenes, and the least and the greatest of them. "
         "Processor time: of one scene."
     )
-
-
-def verdict_table(results):
-    holds, found = judged(results)
-    verdict = {None: "not known", True: "\u2713 agrees", False: "\u2717 differs"}[holds]
-    row = [
-        "Pure SIMD is not the most efficient architecture for ray tracing (section 5)", "described, no figures",
-        f"{verdict} ({found})", RULE
-    ]
-    return Table("simd-verdict", "MIMD against SIMD: the verdict",
-                 [("claim", "t"), ("paper", "t"), ("verdict", "t"), ("how it is judged", "t")], [list(map(words, row))])
 
 
 def kinds_table(results):

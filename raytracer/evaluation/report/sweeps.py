@@ -41,16 +41,10 @@ class Value:
     def __init__(self, given, compared=AS[0]):
         given = {"name": given} if isinstance(given, str) else given
         self.name, self.per = given["name"], given.get("per")
-        last = self.name.rsplit(".", 1)[-1]
-        lanes = None
-        if self.name.startswith(("kind.lanes.", "values.simd_utilisation.")):
-            lanes = f"{last} lanes"
-        elif self.name.startswith("values.simd_bound."):
-            lanes = f"{last} at most"
         plain = self.name.removeprefix("values.").removeprefix("kind.")
-        known = TITLES.get(self.name) or SHARES.get(self.name) or lanes or plain
+        known = TITLES.get(self.name) or SHARES.get(self.name) or plain
         self.title = given.get("title") or known + (f" / {self.per.removeprefix('values.')}" if self.per else "")
-        self.percent = given.get("percent", bool(lanes) or self.name in SHARES)
+        self.percent = given.get("percent", self.name in SHARES)
         self.digits, self.paper = given.get("digits", 3), given.get("paper", False)
         self.compared = given.get("as", compared)
 

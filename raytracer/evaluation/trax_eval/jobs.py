@@ -72,7 +72,6 @@ def make_job(tools, inputs, point):
         "configuration": tools.configuration(point.chip_file, point.machine()),
         "engine": engine,
         "series": point.series,
-        "lockstep": point.lockstep,
         "ray_kinds": point.ray_kinds,
     }
 
@@ -133,11 +132,8 @@ def command_of(tools, inputs, job, scratch, threads):
         command += ["--dump", f"{COUNTERS}={scratch}/counters.raw"]
     if job["series"]:
         command += ["--series", f"{scratch}/series.csv", "--series-interval", str(job["series"])]
-    if job["lockstep"]:
-        command += ["--lockstep", f"{scratch}/lockstep.csv"]
     if job["ray_kinds"]:
         command += ["--ray-kinds", f"{scratch}/kinds.csv"]
-        command += ["--lockstep-rays", f"{scratch}/lanes.csv"] if job["lockstep"] else []
     return [*command, *rays, str(inputs / NAME)]
 
 
@@ -231,13 +227,8 @@ def keep_results(out, key, job, scratch, statistics, figures, code, host):
     if job.get("counters"):
         words = pathlib.Path(scratch, "counters.raw").read_bytes()
         result["counters"] = dict(zip(job["counters"], struct.unpack(f"<{len(job['counters'])}I", words)))
-    if job["lockstep"]:
-        columns, rows = read_csv(pathlib.Path(scratch, "lockstep.csv"))
-        result["lockstep"] = [dict(zip(columns, map(float, row))) for row in rows]
     if job["ray_kinds"]:
         result["ray_kinds"] = read_kinds(pathlib.Path(scratch, "kinds.csv"))
-        if job["lockstep"]:
-            result["ray_lanes"] = read_kinds(pathlib.Path(scratch, "lanes.csv"))
     if job.get("ray_cycles"):
         result["ray_cycles"] = read_kinds(pathlib.Path(scratch, "rays.csv"))
     write_sealed(out / "runs" / f"{key}.host.json", host)

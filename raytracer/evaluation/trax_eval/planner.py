@@ -185,7 +185,7 @@ class Planner:
                 machine = self.tools.configuration(point.chip_file, point.machine())
                 return "-" + hash_value([
                     point.scene, point.program.file, machine, point.size, point.mode, point.series,
-                    point.lockstep, point.ray_kinds, point.workload,
+                    point.ray_kinds, point.workload,
                     [pair for pair in point.settings if option_of(pair[0])], point.error, point.hits, point.ray_cycles
                 ]), None
             job = make_job(self.tools, inputs, point)

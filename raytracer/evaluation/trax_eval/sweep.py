@@ -23,7 +23,7 @@ WORD = r"[A-Za-z][\w.:-]*"  # of a key whose values are words
 QUICK_PIXELS, QUICK_WIDTH, QUICK_SIDE = 640 * 360, 80, 2 / 3
 MOST_RUNS = 100000  # of one sweep: all combinations of a few long lists take all memory
 KEYS = ("name", "title", "claim", "x", "y", "y_per", "scenes", "programs", "chips", "set", "size", "mode", "series",
-        "lockstep", "workloads", "ray_kinds", "ray_cycles", "reference", "error", "hits", "table", "all")
+        "workloads", "ray_kinds", "ray_cycles", "reference", "error", "hits", "table", "all")
 # Keys of `set` may be options of these programs: "trax-scene --leaf". What trax-eval says itself is not for sweeps,
 # programs and workloads, nor is what writes files, which the programs' tables tell (Tools.given).
 TAKEN = {
@@ -67,8 +67,7 @@ class Point:
     size: str
     mode: str
     series: int  # cycles of an interval of the time series; 0: none
-    lockstep: bool  # what the pixels would take on a SIMD machine
-    ray_kinds: bool = False  # what the rays of each kind took, and with lockstep would take on one
+    ray_kinds: bool = False  # what the rays of each kind took
     workload: str = PAPER
     config: str = ""  # the chip for trax-sim, if its name is not
     variant: str = ""
@@ -272,7 +271,7 @@ def mode_of(reader, mode, needs_exact):
     chosen = mode or reader.strings("mode", "exact", MODES)[0]
     if needs_exact and chosen != "exact" and "mode" in reader.value and not mode:
         reader.fail(
-            "mode", "series, lockstep, ray_kinds, error, hits and programs that are compiled or converted "
+            "mode", "series, ray_kinds, error, hits and programs that are compiled or converted "
             'need "exact"')
     return "exact" if needs_exact else chosen
 
@@ -294,8 +293,7 @@ def read_sweep(path, *, size=None, mode=None, programs=None, chips=None, only_sc
     if type(series) is not int or not 0 <= series <= 10**9:
         reader.fail("series",
                     f"expected the cycles of an interval, 1 to 1000000000, or 0 for no series, is {canonical(series)}")
-    lockstep, ray_kinds, ray_cycles, error, hits = map(reader.flag,
-                                                       ("lockstep", "ray_kinds", "ray_cycles", "error", "hits"))
+    ray_kinds, ray_cycles, error, hits = map(reader.flag, ("ray_kinds", "ray_cycles", "error", "hits"))
     workloads = reader.workloads()
     rays = ray_kinds or ray_cycles or list(workloads) != [PAPER]
     chosen_programs, variants = reader.programs(rays), reader.variants()
@@ -310,7 +308,7 @@ def read_sweep(path, *, size=None, mode=None, programs=None, chips=None, only_sc
                     if not program or program.name in programs]
     used = used_programs(chosen_programs, variants)
     check_programs(reader, used, rays, error or hits)
-    needs_exact = bool(series or lockstep or ray_kinds or error or hits) or not all(program.plain for program in used)
+    needs_exact = bool(series or ray_kinds or error or hits) or not all(program.plain for program in used)
     chosen_mode = mode_of(reader, mode, needs_exact)
     if mode == "quick" and not size and not ray_kinds and not ray_cycles:
         chosen_size, chosen_mode = quick_size(chosen_size, chosen_mode)
@@ -324,7 +322,7 @@ def read_sweep(path, *, size=None, mode=None, programs=None, chips=None, only_sc
     if runs > MOST_RUNS:
         reader.fail(None, f"it asks for {runs} runs; at most {MOST_RUNS} are allowed")
     points = [
-        Point(scene, program, chip, settings, size or chosen_size, chosen_mode, series, lockstep, ray_kinds, workload,
+        Point(scene, program, chip, settings, size or chosen_size, chosen_mode, series, ray_kinds, workload,
               chips[chip], variant, error, hits, ray_cycles)
         for workload, scene, (program, some) in itertools.product(workloads, scenes, groups.items())
         for chip, (variant, _, settings) in itertools.product(chips, some)

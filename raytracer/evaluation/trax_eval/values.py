@@ -78,9 +78,6 @@ def values_of(result, areas):
     if sampled and sampled["cycles_low"]:
         values["mrps_low"] = statistics["mrps"] * statistics["cycles"] / sampled["cycles_high"]
         values["mrps_high"] = statistics["mrps"] * statistics["cycles"] / sampled["cycles_low"]
-    for row in result.get("lockstep", []):
-        values[f"simd_utilisation.{row['width']:.0f}"] = row["utilisation"]
-        values[f"simd_bound.{row['width']:.0f}"] = row["longest"]
     for kind in ("counters", "error", "hits", "code"):
         values |= {f"{kind}.{name}": value for name, value in result.get(kind, {}).items()}
     values["scene_bytes"] = sum(buffer["bytes"] for buffer in result["job"]["inputs"]["buffers"]
@@ -117,7 +114,6 @@ def values_of_rays(result, statistics):
     (shares of the kind's thread-cycles), and lanes.WIDTH. Of a sampled run also half the width of a figure's interval,
     NAME_half."""
     rows = rows_of_rays(result, statistics)
-    lanes = {(row["kind"], int(row["width"])): row["utilisation"] for row in result.get("ray_lanes", [])}
     live = statistics["thread_cycles"] - statistics["causes"]["halted"]
     values = {}
     for row in rows:
@@ -131,7 +127,6 @@ def values_of_rays(result, statistics):
             mine["mrps"] = row["mrps"]
         if row["rays"] and "energy_per_ray" in row:
             mine |= {"bytes_per_ray": row["bytes_per_ray"], "energy_per_ray": 1e9 * row["energy_per_ray"]}
-        mine |= {f"lanes.{width}": share for (kind, width), share in lanes.items() if kind == row["kind"]}
         values |= {f"rays.{row['kind']}.{name}": value for name, value in mine.items()}
     return values | halves_of_rays(result, values)
 
