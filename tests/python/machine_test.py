@@ -45,9 +45,11 @@ def test_figures_are_those_of_trax_sim(programs, tmp_path, engine):
     assert without_host(run.statistics) == expected
     assert run.output == "1 \n" and run.exit_status == 0
     assert run["dcache.hits"] == expected["dcache"]["hits"] == run.figures()["dcache.hits"]
+    assert "tms" in run.statistics and "tms" not in run.figures()
 
 
 def test_picture_is_that_of_trax_render(manifest, tmp_path):
+    assert trax.Machine(manifest).config["chip.tms"] == trax.Config("4x32")["chip.tms"]  # the manifest's
     run = trax.Machine(manifest, "1x32").run()
     assert run.picture.size == (48, 27) and run["rays"] > 48 * 27
     subprocess.run([trax.tool("trax-sim"), "--quiet", "--config", "1x32", "--dump", f"image={tmp_path}/image",
@@ -115,10 +117,11 @@ def test_errors_have_places(programs, manifest):
         trax.prepare("no-such.ply", folder="nowhere")
 
 
-def test_a_machine_runs_once(programs):
+def test_a_machine_runs_once(programs, tmp_path):
     machine, _ = triple(programs)
     with pytest.raises(trax.TraxError, match="once"):
-        machine.run()
+        machine.run(profile=tmp_path / "profile")
+    assert not (tmp_path / "profile").exists()
 
 
 def test_fault_and_limit_have_figures(programs):
