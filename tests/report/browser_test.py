@@ -64,7 +64,7 @@ class BrowserTest(PageTests, unittest.TestCase):
                 if name == "complete":
                     self.assertEqual([figure["id"] for figure in figures if "Nothing was measured" in figure["text"]],
                                      [])
-                    self.assertEqual(len(figures), 4 + 8 + 2 + 1 + 2 + 1 + 1 + 8)
+                    self.assertEqual(len(figures), 4 + 8 + 2 + 1 + 2 + 1 + 8)
                 self.is_quiet()
 
     def test_nothing_is_hidden_from_view(self):
