@@ -44,9 +44,10 @@ class Figures:
     @functools.lru_cache(maxsize=None)
     def row(self, name):
         head, _, last = name.partition(".")
-        if head in ("cause_percent", "instructions_by_operation"):
-            head = {"cause_percent": f"causes.{last}"}.get(head, "instructions_by_operation.<op>")
-            return self.rows.get(name.replace(last, "<cause>"), ("instructions",))[0], self.rows.get(head, ("", ""))[1]
+        if head == "cause_percent":
+            return self.rows.get("cause_percent.<cause>", ("",))[0], self.rows.get(f"causes.{last}", ("", ""))[1]
+        if head == "instructions_by_operation":
+            return self.rows.get("instructions_by_operation.<op>", ("",))[0], last
         return self.rows.get(name, ("", ""))
 
     def unit(self, name):
