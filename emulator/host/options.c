@@ -258,11 +258,12 @@ static const trax_option rows[] = {
 
 static const trax_command command = {
     .name = "trax-sim",
-    .synopsis = "[OPTION...] PROGRAM [ARGUMENT...]\n[OPTION...] MANIFEST.json",
+    .synopsis = "[OPTION...] PROGRAM [ARGUMENT...]\n[OPTION...] MANIFEST.json\ncompare [OPTION...] A B",
     .description = "Runs an executable for the TRaX ray-tracing accelerator, cycle by cycle. The program's\n"
                    "output is standard output, and its exit status is that of trax-sim. Words after\n"
                    "PROGRAM are for its main, or options if main has no parameters. A manifest\n"
-                   "names program, buffers and machine (docs/manifest.md); options are added to it.",
+                   "names program, buffers and machine (docs/manifest.md); options are added to it.\n"
+                   "trax-sim compare shows what differs between two runs (trax-sim compare --help).",
     .rows = rows,
     .notes = "Exit status: the program's; 1 for an error of use or a fault of the program, 134 if it aborts,\n"
              "124 if --max-cycles or --watchdog ends it, 130 if it is interrupted. Without --stats and --report "

@@ -9,6 +9,7 @@ import shutil
 import sys
 import time
 
+from compare import main as comparison
 from fetch import main as fetch
 from report import docs, make
 from report.paper import Paper
@@ -194,6 +195,8 @@ def run_one_job(arguments, tools):
 
 
 def dispatch(arguments, tools, data):
+    if arguments[:1] == ["compare"]:
+        return comparison.main(arguments[1:], tools, data)
     if arguments[:1] == ["fetch-scenes"]:
         return fetch.main(arguments[1:], tools)
     if "-h" in arguments or "--help" in arguments:
@@ -219,16 +222,17 @@ def dispatch(arguments, tools, data):
 
 def main(arguments, folder, data):
     catch_interrupts()
+    program = "trax-sim" if arguments[:1] == ["compare"] else "trax-eval"  # which starts this one for it
     try:
         return dispatch(arguments, Tools(folder), data)
     except Problem as problem:
-        complain("trax-eval", problem)
+        complain(program, problem)
         return 1
     except Interrupted as interrupted:
-        end_by_signal(*interrupted.args)
+        end_by_signal(*interrupted.args, *(["trax-sim: interrupted"] if program == "trax-sim" else []))
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1
     except OSError as error:  # of a folder or file that cannot be used, as of -o on a full disk
-        complain("trax-eval", f"{f'{error.filename}: ' if error.filename else ''}{error.strerror}")
+        complain(program, f"{f'{error.filename}: ' if error.filename else ''}{error.strerror}")
         return 1

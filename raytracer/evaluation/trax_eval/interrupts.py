@@ -46,9 +46,9 @@ def catch_interrupts():
             signal.signal(number, interrupt)
 
 
-def end_by_signal(number):
+def end_by_signal(number, said="trax-eval: interrupted; the same command goes on"):
     """Ends the process by the signal, as every program of the project (docs/architecture.md, "Signals")."""
-    print("trax-eval: interrupted; the same command goes on", file=sys.stderr)
+    print(said, file=sys.stderr)
     sys.stdout.flush()
     signal.signal(number, signal.SIG_DFL)
     os.kill(os.getpid(), number)

@@ -1,0 +1,124 @@
+"""trax-sim compare: what differs between two runs (docs/compare.md)."""
+
+import argparse
+import json
+import math
+import os
+import pathlib
+import sys
+
+from trax_eval.outputs import IsInput, write_output
+from trax_eval.util import Problem, check_files
+
+from .difference import compare
+from .figures import Figures
+from .page import page
+from .runs import Run, runs_of
+from .text import print_comparison, print_folders
+
+HELP = """\
+usage: trax-sim compare [OPTION...] A B
+
+Compares two runs: configuration, cycles by cause, function, line and kind of ray, units, caches, energy, pictures.
+What contributes most to the difference of cycles comes first. A and B are files of --stats, pages of --explore, or
+folders with them, whose runs of equal names are compared. Files beside NAME.json are read, too: NAME.html (--explore),
+NAME.folded (--profile-folded), NAME.csv (--ray-kinds) and NAME.png.
+
+  --json               print the comparison as JSON
+  --html FILE          write it as a page for a browser
+  --picture FILE       write where the pictures differ, as a PNG
+  --cost-picture FILE  write where the pixels' thread-cycles differ: orange where B takes more, blue where it takes less
+  --all                print all rows of all tables
+  --help               print this, and end
+
+Exit status: 0, also if the runs differ; 1 for an error. docs/compare.md explains the tables.
+"""
+
+
+class Parser(argparse.ArgumentParser):
+    def error(self, message):
+        raise Problem(f"compare: {message} (trax-sim compare --help lists the options)")
+
+
+def parse(arguments):
+    parser = Parser(prog="trax-sim compare", add_help=False, allow_abbrev=False)
+    parser.add_argument("a")
+    parser.add_argument("b")
+    for name in ("html", "picture", "cost-picture"):
+        parser.add_argument(f"--{name}")
+    for name in ("json", "all"):
+        parser.add_argument(f"--{name}", action="store_true")
+    options = parser.parse_intermixed_args(arguments)
+    outputs = [path for path in (options.html, options.picture, options.cost_picture) if path is not None]
+    for path in (options.a, options.b):
+        if not os.path.exists(path):
+            raise Problem(f"{path}: {os.strerror(2)}")
+    check_files([options.a, options.b], outputs)
+    return options
+
+
+def pair(a, b):
+    """The runs of two folders that belong together: those of equal names, or the only ones."""
+    if len(a) == len(b) == 1:
+        return [(*a, *a.values(), *b.values())], [], []
+    return ([(name, a[name], b[name]) for name in a if name in b], [name for name in a if name not in b],
+            [name for name in b if name not in a])
+
+
+def compare_folders(options, figures):
+    both, *only = pair(runs_of(options.a), runs_of(options.b))
+    if not both:
+        raise Problem(f"{options.a} and {options.b} have no runs of equal names: {', '.join(only[0])} and "
+                      f"{', '.join(only[1])}")
+    made = {name: compare(a, b, figures) for name, a, b in both}
+    made = dict(sorted(made.items(), key=lambda one: -abs(one[1][0]["cycles"]["relative"] or 0)))
+    ratios = [one["cycles"]["b"] / one["cycles"]["a"] if one["cycles"]["a"] else 0 for one, _ in made.values()]
+    return {
+        "a": options.a, "b": options.b, "runs": {name: one for name, (one, _) in made.items()},
+        "only_a": only[0], "only_b": only[1],
+        "ratio": math.exp(math.fsum(map(math.log, ratios)) / len(ratios)) if all(each > 0 for each in ratios) else None
+    }, {name: pictures for name, (_, pictures) in made.items()}
+
+
+def write(path, data):
+    try:
+        write_output(path, data, foreign=True)
+    except IsInput as error:
+        raise Problem(str(error)) from error
+    except OSError as error:
+        raise Problem(f"{path}: {error.strerror}") from error
+
+
+def main(arguments, tools, data):
+    if "--help" in arguments or "-h" in arguments:
+        print(HELP, end="")
+        return 0
+    options = parse(arguments)
+    figures = Figures(tools)
+    if pathlib.Path(options.a).is_dir() != pathlib.Path(options.b).is_dir():
+        raise Problem(f"{options.a} and {options.b}: one is a folder, and the other is none")
+    folders = pathlib.Path(options.a).is_dir()
+    if folders:
+        result, pictures = compare_folders(options, figures)
+        if options.picture or options.cost_picture:
+            raise Problem("--picture and --cost-picture are for two runs, not for folders")
+    else:
+        result, pictures = compare(Run(options.a), Run(options.b), figures)
+    for path, name in ((options.picture, "pixels"), (options.cost_picture, "cost")):
+        if path is not None and name not in pictures:
+            reason = result["missing"].get("picture" if name == "pixels" else "costs", "they do not differ")
+            raise Problem(f"{path}: no picture of differences: {reason}")
+    if options.html is not None:
+        write(options.html, page(result if folders else {"runs": {"": result}}, pictures if folders else {"": pictures},
+                                 data))
+    for path, name in ((options.picture, "pixels"), (options.cost_picture, "cost")):
+        if path is not None:
+            write(path, pictures[name])
+    if options.json:
+        json.dump(result, sys.stdout, indent=1, allow_nan=False)
+        print()
+    elif folders:
+        print_folders(result)
+    else:
+        print_comparison(result, options.all)
+    return 0

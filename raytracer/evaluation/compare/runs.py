@@ -1,0 +1,208 @@
+"""A run as its files have it: the statistics of --stats, the page of --explore, and what is beside the statistics."""
+
+import base64
+import csv
+import json
+import pathlib
+import re
+import zlib
+
+from trax_eval.util import FILE_LIMIT, STRICT, Problem, read_bytes, read_json
+
+from .png import read_png
+
+HOST = ("host_seconds", "instructions_per_host_second")  # figures of the host, which no comparison is about
+HOW = {
+    "profile": "--explore FILE.html, or --profile-folded FILE.folded",
+    "kinds": "--explore FILE.html, or --ray-kinds FILE.csv",
+    "picture": "--explore FILE.html, or a PNG",
+    "costs": "--explore FILE.html",
+}
+
+
+def is_number(value):
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def is_statistics(value):
+    return isinstance(value, dict) and "trax_sim" in value and "causes" in value
+
+
+def check_statistics(path, stats):
+    """Checks the members that every comparison needs."""
+    def need(holds, what):
+        if not holds:
+            raise Problem(f"{path}: is no statistics file (trax-sim --stats): {what}")
+
+    need(isinstance(stats, dict), "it is no object")
+    for name in ("cycles", "threads", "thread_cycles"):
+        need(is_number(stats.get(name)) and stats[name] >= 0, f'"{name}" is no number of at least 0')
+    need(stats["threads"] > 0, '"threads" is 0')
+    for name in ("causes", "configuration"):
+        need(isinstance(stats.get(name), dict), f'"{name}" is no object')
+    for cause, cycles in stats["causes"].items():
+        need(is_number(cycles), f'"causes.{cause}" is no number')
+    sampled = stats.get("sampled")
+    need(sampled is None or isinstance(sampled, dict) and is_number(sampled.get("cycles_low")) and
+         is_number(sampled.get("cycles_high")), '"sampled" has no interval of cycles')
+
+
+class Run:
+    """profile: {"functions": {name: {cause: thread-cycles}}, "lines": the same}; kinds: {name: row of --ray-kinds};
+    picture: (width, height, bytes of R, G, B); costs: {cause: thread-cycles of each pixel}. None: not known."""
+    def __init__(self, path):
+        self.path, self.notes = pathlib.Path(path), []
+        self.profile = self.kinds = self.picture = self.costs = None
+        if self.path.suffix.lower() in (".html", ".htm"):
+            self.stats = self.take_page(self.path)
+            check_statistics(path, self.stats)
+        else:
+            if not read_bytes(self.path).lstrip().startswith(b"{"):
+                raise Problem(f"{path}: is neither a file of --stats nor, as NAME.html, a page of --explore")
+            self.stats = read_json(self.path)
+            check_statistics(path, self.stats)
+            self.take_neighbours()
+
+    def take_neighbours(self):
+        """Reads the files beside the statistics that have their name with another ending."""
+        def beside(ending):
+            path = self.path.with_suffix(ending)
+            return path if path.is_file() else None
+
+        page = beside(".html")
+        if page:
+            other = self.take_page(page)
+            if {name: value for name, value in self.stats.items() if name not in HOST} != other:
+                self.profile = self.kinds = self.picture = self.costs = None
+                self.notes.append(f"{page}: is the page of another run, and not used")
+        if self.profile is None and beside(".folded"):
+            self.profile = self.of_this_run(beside(".folded"), read_folded(read_bytes(beside(".folded")).decode(
+                errors="replace"), beside(".folded")))
+        if self.kinds is None and beside(".csv"):
+            self.kinds = read_kinds(read_bytes(beside(".csv")).decode(errors="replace"))
+            if self.kinds and sum(row["thread_cycles"] for row in self.kinds.values()) != self.stats["thread_cycles"]:
+                self.notes.append(f"{beside('.csv')}: has the rays of another run, and is not used")
+                self.kinds = None
+        if self.picture is None and beside(".png"):
+            self.picture = read_png(beside(".png"))
+
+    def of_this_run(self, path, profile):
+        found = sum(sum(causes.values()) for causes in profile["functions"].values())
+        if found == self.stats["thread_cycles"]:
+            return profile
+        self.notes.append(f"{path}: has {found} thread-cycles, and the run {self.stats['thread_cycles']}: is not used")
+        return None
+
+    def take_page(self, path):
+        """Reads a page of --explore, and returns its statistics."""
+        text = read_bytes(path).decode(errors="replace")
+        try:
+            page = json.loads(unpack(text, "data"), **STRICT)
+            names = page["names"]
+            causes = list(page["stats"]["causes"])
+            self.profile = {"functions": {}, "lines": {}}
+            for instruction in page["instructions"][:-1]:
+                function, line = instruction[4][0] if instruction[4] else (0, 0)
+                places = {"functions": names[function] or "(no function)", "lines": short_line(names[line])}
+                for table, name in places.items():
+                    for cause, cycles in zip(causes, instruction[5]):
+                        add(self.profile[table], name, cause, cycles)
+            self.kinds = read_kinds(page["ray_kinds"])
+            if "picture" in page:
+                self.take_picture(page["picture"], unpack(text, "pixels"))
+            return page["stats"]
+        except (ValueError, TypeError, KeyError, IndexError, AttributeError, zlib.error) as error:
+            raise Problem(f"{path}: is no page of --explore ({type(error).__name__}: {error})") from error
+
+    def take_picture(self, picture, packed):
+        width, height, at = picture["width"], picture["height"], 0
+        costs, channels = {}, {}
+        for group, name, *_ in picture["columns"][:-1]:
+            values, at = numbers(packed, at, width * height)
+            if group == "causes":
+                costs[name] = values
+            elif group == "picture":
+                before, channel = 0, bytearray(width * height)
+                for place, value in enumerate(values):
+                    before = channel[place] = (before + value) & 255
+                channels[name] = channel
+        pixels = bytearray(3 * width * height)
+        for place, name in enumerate(("red", "green", "blue")):
+            pixels[place::3] = channels[name]
+        self.picture, self.costs = (width, height, bytes(pixels)), costs
+
+
+def unpack(text, name):
+    found = re.search(rf'<script type="application/octet-stream" id="{name}">([A-Za-z0-9+/=]*)</script>', text)
+    if not found:
+        raise ValueError(f"no part {name}")
+    unpacker = zlib.decompressobj()
+    data = unpacker.decompress(base64.b64decode(found[1]), FILE_LIMIT)
+    if not unpacker.eof:
+        raise ValueError(f"the part {name} ends early, or has more than {FILE_LIMIT} bytes")
+    return data
+
+
+def numbers(packed, at, count):
+    """LEB128 numbers from a place on, and the place behind them."""
+    values = []
+    for _ in range(count):
+        value = shift = 0
+        while packed[at] >= 128:
+            value |= (packed[at] & 127) << shift
+            shift, at = shift + 7, at + 1
+        values.append(value | packed[at] << shift)
+        at += 1
+    return values, at
+
+
+def add(table, name, cause, cycles):
+    if cycles:
+        row = table.setdefault(name, {})
+        row[cause] = row.get(cause, 0) + cycles
+
+
+def short_line(name):
+    """FILE:LINE without the folder, which differs between builds."""
+    return name.rpartition("/")[2] or "(no line)"
+
+
+def read_folded(text, path):
+    """--profile-folded: function;...;file:line;cause thread-cycles."""
+    profile = {"functions": {}, "lines": {}}
+    for number, line in enumerate(text.splitlines(), 1):
+        stack, _, cycles = line.rpartition(" ")
+        *frames, cause = stack.split(";")
+        if not cycles.isdecimal() or not frames:
+            raise Problem(f'{path}:{number}: is not of the form "FUNCTION;...;CAUSE CYCLES"')
+        place = frames.pop() if re.fullmatch(r".+:\d+", frames[-1]) and len(frames) > 1 else "(no line)"
+        add(profile["functions"], frames[-1], cause, int(cycles))
+        add(profile["lines"], place, cause, int(cycles))
+    return profile
+
+
+def read_kinds(text):
+    """--ray-kinds: a row of each kind, without the two that are sums and remainders. None: another table."""
+    rows = list(csv.DictReader(text.splitlines()))
+    if not rows or not {"kind", "rays", "thread_cycles"} <= rows[0].keys():
+        return None
+    try:
+        return {row["kind"]: {name: float(value) if "." in value or "e" in value else int(value)
+                              for name, value in row.items() if name not in ("kind", "part")}
+                for row in rows if row["kind"] not in ("rest", "all")}
+    except (ValueError, TypeError):
+        return None
+
+
+def runs_of(folder):
+    """The runs of a folder by name: its statistics, and pages of --explore that have none beside them."""
+    found = {}
+    for path in sorted(pathlib.Path(folder).iterdir()):
+        if path.suffix == ".json" and is_statistics(read_json(path, strict=False)):
+            found[path.stem] = path
+    for path in sorted(pathlib.Path(folder).glob("*.html")):
+        if path.stem not in found and b'id="pixels"' in read_bytes(path):
+            found[path.stem] = path
+    if not found:
+        raise Problem(f"{folder}: has no run, neither statistics (--stats NAME.json) nor a page (--explore NAME.html)")
+    return {name: Run(path) for name, path in found.items()}
