@@ -2,12 +2,14 @@
 with `ray_kinds` or `ray_cycles` have."""
 
 from .charts import STYLES
+from .machines import SWEEPS
 from .plots import Bars, Lines, Series
 from .results import mean
 from .sweeps import by_kind
 from .table import Table, figure, number, percent, share, words
 
 LINES = [*STYLES, (0, "dot")]  # styles of kinds
+COMPARED = {*SWEEPS, "simd-programs"}
 # Of a kind's thread-cycles, as page.css has the causes of all threads.
 SHARES = [(10, "issued", "utilisation"), (11, "instruction fetch", "fetch"),
           (12, "data-cache banks and hits", "dcache"), (13, "off-chip memory", "memory"), (14, "shared units", "units"),
@@ -38,9 +40,10 @@ class Group:
 
 
 def groups(results):
-    """Returns all kinds on all machines. A missing scene makes the mean of its group missing."""
+    """Returns all kinds on all machines but those of the comparison with SIMD, which has its own tables. A missing
+    scene makes the mean of its group missing."""
     found = {}
-    for run in by_kind(results.runs):
+    for run in by_kind([run for run in results.runs if not COMPARED & set(run.experiments)]):
         place = run.workload, run.kind, run.config, tuple(sorted(run.set.items())), run.size, run.program
         found.setdefault(place, Group(*place)).runs.append(run)
     for group in found.values():
@@ -62,7 +65,7 @@ def chosen(found):
 
 
 def on_one_chip(results, paper):
-    """The groups of the lines of figures, on the paper's chip that has the most of them."""
+    """The groups of the lines of figures, on the paper's chip that has the most of them, of several on 4x32."""
     found, by_chip = groups(results), {}
     lines = chosen(found)
     for group in found:
@@ -71,7 +74,8 @@ def on_one_chip(results, paper):
             best = by_chip.setdefault(group.chip, {}).get(line)
             if best is None or group.size > best.size:
                 by_chip[group.chip][line] = group
-    return list(max(by_chip.values(), key=len, default={}).values())
+    most = max(by_chip.items(), key=lambda chip: (len(chip[1]), chip[0] == "4x32"), default=("", {}))
+    return list(most[1].values())
 
 
 def kinds_table(results):
