@@ -5,9 +5,10 @@
 
 A case follows from the seed, the kind and its number. Each run has 4 GiB of memory and a minute of processor time. It
 must end with status 0, or 1 and a message; a program for the TPs may have its own status. A refusal leaves the former
-output as it was. Without damage every command works. Two kinds compare runs instead:
+output as it was. Without damage every command works. Three kinds are others:
 
     settings     the fast engine and the reference, on random machines: the same output and statistics
+    calls        host calls by chance, of a program that was given a folder: nothing outside is read or written
     environment  a run with other variables, or closed standard streams: the usual output, or a refusal
 
 Exit status: 0 if all cases do, 1 otherwise; what failed is kept in the folder of --keep."""
@@ -22,6 +23,7 @@ import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import calls  # noqa: E402
 import compare  # noqa: E402
 import inputs  # noqa: E402
 from kinds import KINDS, OWN_STATUS, SAME_NAME  # noqa: E402
@@ -110,6 +112,8 @@ def main():
                 def one(number, kind=kind):
                     if kind == "settings":
                         return compare.settings(binaries, good, number, options.seed, keys)
+                    if kind == "calls":
+                        return calls.calls(binaries, good, number, options.seed)
                     if kind == "environment":
                         return compare.environment(binaries, good, number, options.seed)
                     whole = undamaged[-number - 1] if number < 0 else None

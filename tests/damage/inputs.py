@@ -6,6 +6,7 @@ import subprocess
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import calls  # noqa: E402
 from png_files import png_of  # noqa: E402
 
 PROGRAM = r"""
@@ -191,6 +192,7 @@ def make(binaries, folder):
 
     for name, text in (
         ("program.c", PROGRAM),
+        ("calls.c", calls.PROGRAM),
         ("object.cpp", OBJECT),
         ("text.s", ASSEMBLER),
         ("mesh.obj", OBJ),
@@ -200,6 +202,7 @@ def make(binaries, folder):
     ):
         (folder / name).write_text(text)
     run("clang", "--target=trax", "-O1", "-g", "program.c", "-o", "program.elf")
+    run("clang", "--target=trax", "-mstack=global", "-O2", "calls.c", "-o", "calls.elf")
     run("clang", "--target=trax", "-O1", "-g", "-c", "object.cpp", "-o", "object.o")
     run("clang", "--target=trax", "-O1", "-emit-llvm", "-c", "program.c", "-o", "program.bc")
     objects = [(b"object.o/", (folder / "object.o").read_bytes())]

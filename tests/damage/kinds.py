@@ -102,6 +102,7 @@ KINDS = {
     "profile": (66, ["program.prof"], mutate.of_text, [[*CLANG, "-O2", "-fprofile-sample-use={x}", "{d}/program.c"]]),
     "sweep": (224, ["sweep.json"], mutate.of_json, [["trax-eval", "{x}", "--dry-run", "-o", "{o}.d"]]),
     "settings": (2000, [], None, []),
+    "calls": (160, [], None, []),
     "environment": (300, [], None, []),
 }
 OWN_STATUS = {"image-run", "image-explain", "checkpoint"}  # the status may be that of the program on the TPs

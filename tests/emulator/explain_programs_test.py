@@ -401,12 +401,13 @@ class Odd(Programs):
         self.compile(
             "start",
             """__asm__(".globl _start\\n.type _start, @function\\n_start:\\n"
-                       "add r0, r0, r0\\ntrap r0, exit\\n.size _start, 8\\n");
+                       "add r0, r0, r0\\ntrap r0, exit\\n.size _start, 8\\n.word main\\n");
             int main(void) { return 0; }""",
             "-nostartfiles",
         )
         elf = Elf((self.folder / "start").read_bytes())
         self.assertEqual(elf.number(elf.symbol("_start") + 8), 8)
+        elf.symbol("main")  # the word keeps it
         for size in 8, 12, 0x7FFFFFFF, 0xF0000000, 0xFFFFFFFF:
             elf.put(elf.symbol("_start") + 8, size)
             (self.folder / "odd").write_bytes(elf.bytes)
