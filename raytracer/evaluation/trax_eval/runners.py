@@ -121,7 +121,7 @@ def run_locally(out, tools, keys, options, progress):
 
 
 def run_all(out, tools, labels, options):
-    """Runs what is missing of the jobs; labels: key -> name for people. Returns how many failed."""
+    """Runs the missing jobs; labels: key -> name for people. Returns how many failed."""
     keys = [key for key in labels if not is_done(out, key)]
     if keys:
         for key in keys:
