@@ -37,8 +37,7 @@ test_packages=(
   libcmocka-dev libmpfr-dev gdb gdb-multiarch
   flake8                                                                  # the style of Python
   python3-cffi python3-numpy python3-pandas python3-pytest python3-pip    # the package for Python
-  parallel 'chromium|chromium-browser'                                    # runs handed to GNU parallel; the evaluation's page in a browser
-  slurmctld slurmd slurm-client                                           # the same by Slurm; its services do nothing without a configuration
+  'chromium|chromium-browser'                                             # the evaluation's page in a browser
   clangd-19 clang-tidy-19 meson                                           # recipes of docs/compiler.md
   csmith libcsmith-dev gcc-multilib libc6-dev-i386                        # random programs, and a host of 32 bits
   qemu-user lld-19 gcc-12-source libclang-rt-19-dev                        # longer checks: code quality, gcc's torture, fuzzers

@@ -109,7 +109,7 @@ static LoadSDNode *loadInPieces(SDValue Value) {
   return Load->getAlign().value() < std::min<uint64_t>(VT.getStoreSize(), 4) ? Load : nullptr;
 }
 
-/// The xor of each piece of one load with that of the other, lowest first; empty if these are no such loads.
+/// The xor of each piece of one load with that of the other, lowest first; empty if the operands are not such loads.
 static SmallVector<SDValue, 8> xorOfPieces(SDValue A, SDValue B, SelectionDAG &DAG, unsigned &Bytes) {
   LoadSDNode *Loads[] = {loadInPieces(A), loadInPieces(B)};
   SmallVector<SDValue, 8> Pieces;

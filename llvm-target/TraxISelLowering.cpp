@@ -63,7 +63,7 @@ TraxTargetLowering::TraxTargetLowering(const TargetMachine &TM, const TraxSubtar
   setOperationAction({ISD::GlobalAddress, ISD::GlobalTLSAddress, ISD::BlockAddress, ISD::JumpTable, ISD::ConstantPool},
                      MVT::i32, Custom);
 
-  // Floats. What is missing is expanded to integer operations, or a function of the library.
+  // Floats. Missing operations are expanded to integer operations, or to calls of the library.
   setOperationAction({ISD::FMINNUM, ISD::FMAXNUM}, MVT::f32, Legal);
   setOperationAction({ISD::FMINIMUM, ISD::FMAXIMUM, ISD::FCOPYSIGN, ISD::FMA,       ISD::FMAD, ISD::FREM,
                       ISD::FSQRT,    ISD::FSIN,     ISD::FCOS,      ISD::FSINCOS,   ISD::FTAN, ISD::FPOW,

@@ -1,7 +1,7 @@
 //===- TraxLowerFloats.cpp - Strict and canonical floats as plain ones ---===//
 //
 // The machine rounds to nearest and has no flags, so a constrained operation computes what the plain one does, and
-// instruction selection needs to know the plain ones only. What it cannot expand is written out.
+// instruction selection needs to know the plain ones only. This pass writes out those that LLVM cannot expand.
 //
 //===----------------------------------------------------------------------===//
 #include "Trax.h"

@@ -1,4 +1,4 @@
-//===- TraxTargetMachine.h - What the target is made of ------------------===//
+//===- TraxTargetMachine.h - The parts of the target ------------------===//
 #ifndef TRAX_TRAXTARGETMACHINE_H
 #define TRAX_TRAXTARGETMACHINE_H
 

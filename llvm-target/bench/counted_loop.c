@@ -1,4 +1,4 @@
-/* The counters' own test: a loop of which everybody can say how many instructions it is. A repetition executes
+/* Tests the counters: a loop whose instructions were counted by hand. A repetition executes
    3 * ITERATIONS more than one with ITERATIONS = 0. */
 #include "bench.h"
 

@@ -73,7 +73,7 @@ class OutsideRiscv(Riscv):
         objects = [self.work / "outside-riscv.o"]
         run([*self.compiler, "-O2", "-c", BENCH / "outside/riscv.c", "-o", objects[0]])
         small = ("posix", "stdio", "stdlib")
-        for part in ("builtins", "math", "string", *small):
+        for part in ("builtins", "heap", "math", "string", *small):
             for source in sorted((ROOT / "runtime" / part).glob("*.c")):
                 objects.append(self.work / f"outside-{part}-{source.stem}.o")
                 run([*self.compiler, "-std=c17", "-O2", *(["-Os"] if part in small else []), "-ffreestanding",

@@ -27,7 +27,7 @@ namespace {
 
 /// A file that this process has opened for writing.
 struct Written {
-  // Own: it was created under a name that nobody had; Direct: a device; Removed: an earlier file that LLVM wants gone,
+  // Own: it was created under a new name; Direct: a device; Removed: an earlier file that LLVM wants gone,
   // so that what is appended replaces it.
   enum State { Own, Direct, Collected, Dropped, Removed };
   std::atomic<State> Now;

@@ -11,7 +11,7 @@
      output    the image: headers, contents, symbol table; relocate applies the relocations in it
      map       the optional reports
 
-   A pass reports what is wrong by ld_error and goes on as far as it can, so that one run shows all errors; it returns
+   A pass reports faults by ld_error and continues as far as it can, so that one run shows all errors; it returns
    whether the link is still free of them. Memory belongs to the context and is freed with it. */
 #ifndef TRAX_LD_H
 #define TRAX_LD_H
@@ -210,7 +210,8 @@ struct ld_symbol {
   bool referenced;    /* by an object that was taken, or by the command line */
   bool reported;      /* as undefined */
   bool in_archive;    /* of an undefined symbol: a member that was not taken defines it */
-  ld_object *object;  /* the definer (LD_LAZY: who would be), NULL for the linker; the first referrer if undefined */
+  ld_object *object;  /* the definer (LD_LAZY: the member that would define it), NULL for the linker; the first referrer
+                         if undefined */
   ld_section *section;
   uint32_t value, size;
 };
@@ -252,7 +253,7 @@ bool ld_load_inputs(ld_context *ctx);
 
 /* --- symbols.c --- */
 
-ld_symbol *ld_symbol_find(const ld_context *ctx, const char *name); /* NULL if nobody mentioned it */
+ld_symbol *ld_symbol_find(const ld_context *ctx, const char *name); /* NULL if no object mentions it */
 void ld_symbols_add_lazy(ld_context *ctx, ld_object *object);       /* what object's extraction would define */
 bool ld_symbols_add(ld_context *ctx, ld_object *object);            /* fills object->symbols */
 void ld_start_symbols(ld_context *ctx); /* what the command line wraps, defines and refers to */
@@ -355,7 +356,7 @@ bool ld_check_stack(ld_context *ctx);
 
 /* --- undefined.c --- */
 
-/* Reports symbols that live code needs and nobody defines. */
+/* Reports undefined symbols that live code needs. */
 bool ld_check_undefined(ld_context *ctx);
 
 /* --- relocate.c --- */

@@ -16,7 +16,7 @@ static uint32_t piece_size(const ld_section *section, size_t index) {
   return end - section->pieces[index].offset;
 }
 
-/* Whether the contents are what the flags promise; if not they are linked as they are. */
+/* Whether the contents agree with the flags. If not, they are linked unmerged. */
 static bool can_merge(const ld_section *section) {
   uint32_t width = section->entry_size;
   if (section->discarded || !(section->flags & SHF_MERGE) || (section->flags & SHF_WRITE) || !section->data ||

@@ -177,7 +177,7 @@ uint32_t ld_object_symbol_section(const ld_object *object, size_t index, bool *r
 
 /* --- sections --- */
 
-/* Sections that speak to the linker, or that nobody reads in an executable for this machine. */
+/* Sections for the linker, and sections without a use in an executable for this machine. */
 static bool is_dropped(const ld_context *ctx, const char *name, uint32_t type, uint32_t flags) {
   switch (type) {
   case SHT_NULL:

@@ -90,11 +90,11 @@ static bool check_range(const place *place, int64_t value, int64_t low, int64_t 
   return false;
 }
 
-/* A distance in instructions, signed in so many bits. */
+/* A distance in instructions, as a signed number of `bits` bits. */
 static void store_distance(const place *place, uint32_t distance, unsigned bits) {
   ld_context *ctx = place->ctx;
   int64_t limit = (int64_t)4 << (bits - 1), value = (int32_t)distance;
-  if (place->reloc->symbol->kind == LD_UNDEFINED) /* a call of a weak function that there is not does nothing */
+  if (place->reloc->symbol->kind == LD_UNDEFINED) /* a call of an undefined weak function does nothing */
     value = 4;
   if (value % 4 != 0)
     ld_error(ctx, "%s: relocation %s to '%s': the distance %lld is not a multiple of 4%s",

@@ -1,4 +1,4 @@
-/* Symbols that live code needs and nobody defines: where they are needed, and what may have been meant. */
+/* Undefined symbols that live code needs: the places that need them, and names that may have been meant. */
 #include "ld.h"
 
 #include <ctype.h>

@@ -19,7 +19,7 @@ char *numbered(const char *path, unsigned number) {
   return name;
 }
 
-/* The sources in the folder of --source, and in the folder of its headers. What they include elsewhere is found
+/* The sources in the folder of --source, and in the folder of its headers. Headers elsewhere are found
    when they are compiled. */
 static void add_sources(trax_files *files, const char *source) {
   static const char *const folders[] = {"%s/%s", "%s/trax/%s"};

@@ -80,7 +80,7 @@ trax_status trax_normalise(struct trax_scene *scene, struct trax_view *view, int
   return TRAX_OK;
 }
 
-/* The margin by which boxes are widened on each side, so that rounding never makes a ray miss the box of a triangle
+/* The margin added to each side of a box, so that rounding never makes a ray miss the box of a triangle
    that it hits. In units of 2^-24 and of D, the greatest distance along an axis between a ray's origin and the scene:
    - a ray's triangle test sees every vertex displaced across the ray by 6 (the shear's factor, from a reciprocal of
    error 5)

@@ -168,7 +168,7 @@ static const trax_option rows[] = {
     {"fast-math", .instead = "-ffast-math in a file flags.txt of --source DIR, or trax-eval's experiment "
                              "lib/trax/evaluation/experiments/triangles/fast-math.json"},
     {"stack", .argument = "N",
-     .instead = "trax-eval has short stacks as an experiment, lib/trax/evaluation/experiments/stack"},
+     .instead = "a stack has an entry for each level of the tree; shorter ones take more cycles"},
     TRAX_OPTION_GROUP("Sampled simulation"),
     {"sampled", FIELD(sampled),
      .meaning = "simulates only some parts of the picture and estimates the rest, with an interval; the\n"

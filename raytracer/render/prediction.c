@@ -16,7 +16,7 @@
 #define RAY_NODES 2
 
 enum {
-  CHUNK = 1 << 20, /* steps that are collected before the model goes on */
+  CHUNK = 1 << 20, /* steps that are collected before the model continues */
   SLOT_BYTES = 12, /* of a slot's atomic increment and pixel */
   TRIANGLE_BYTES = sizeof(struct trax_triangle),
   PAUSE = 2 /* a step without an access that takes as long */

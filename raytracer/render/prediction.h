@@ -12,7 +12,7 @@
 
 struct trax_prediction {
   uint32_t blocks;
-  double *cycles;       /* [blocks + 1]: the time when so many blocks have been handed out, and the end */
+  double *cycles;       /* [blocks + 1]: cycles[n]: when n blocks have been handed out; the last one: the end */
   uint32_t *handed_out; /* [blocks + 1][queues]: the slots of each queue (device/slots.h) by then */
 };
 

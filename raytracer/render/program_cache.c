@@ -66,7 +66,7 @@ static bool make_seal(struct seal *seal, const uint8_t *program, size_t size, co
 
 static void mark_used(const char *path, bool transient) {
   const struct timespec never[2] = {{.tv_nsec = UTIME_OMIT}, {.tv_sec = 0}};
-  utimensat(AT_FDCWD, path, transient ? never : NULL, 0); /* of somebody else's cache it may fail */
+  utimensat(AT_FDCWD, path, transient ? never : NULL, 0); /* it may fail in another user's cache */
 }
 
 enum cache_entry cache_find(const char *path, const char *key, bool transient) {

@@ -15,7 +15,7 @@
    triangle is smaller than this. */
 #define TRAX_LEAST_SIZE 0x1p-32
 
-/* Whether there are such triangles. scene and eye as trax_normalise left them. */
+/* Whether there are such triangles. scene and eye are those that trax_normalise wrote. */
 bool trax_needs_exact(const struct trax_scene *scene, const float eye[3]);
 
 /* In units of the distance between a triangle and the start of its shadow rays (device/shade.h). A light within

@@ -28,7 +28,7 @@ struct trax_frame_options {
   bool smooth;            /* shading by the scene's normals, if it has them */
   bool floats;            /* linear floats as well as pixels */
   bool one_sided;         /* back faces, clockwise as a ray sees them, are not there; those of glass are */
-  uint32_t paths;         /* path tracing over so many surfaces, up to TRAX_RENDER_MAX_DEPTH; 0: none */
+  uint32_t paths;         /* most surfaces of a path, up to TRAX_RENDER_MAX_DEPTH; 0: no path tracing */
   uint32_t seed;          /* of the paths, and of occlusion rays */
   uint32_t occlusion;     /* rays for ambient occlusion, up to TRAX_RENDER_MAX_OCCLUSION; 0: none */
   double occlusion_reach; /* their length, as a part of the diagonal of the scene's box; 0: TRAX_DEFAULT_REACH */
@@ -115,7 +115,7 @@ struct trax_specialise_options {
 trax_status trax_program_specialise(struct trax_program *program, const struct trax_frame *frame,
                                     const struct trax_specialise_options *options, char note[256], trax_error *error);
 
-/* Whether a file in a folder of sources is a source, by its name. */
+/* Whether the file of this name is a source. */
 bool trax_is_source_name(const char *name);
 
 /* $XDG_CACHE_HOME/trax/programs, or .cache/trax/programs in the home directory; false if there is neither. */
@@ -190,7 +190,7 @@ struct trax_render_run {
   bool layers;                         /* the picture gets layers (layers.h) */
   bool exactly; /* of Embree: hits without error (exact.h), of the rays that the device program has */
   bool holes;   /* of hits (hits.h): rays go on through holes and, if they are, missing back faces */
-  struct trax_access_log *accesses; /* of the twin, which then has one thread: told what it reads; NULL: nobody is */
+  struct trax_access_log *accesses; /* records the reads of the twin, which then has one thread; or NULL */
 };
 
 /* twin.c: the device program on `threads` host threads (0: as many as the host has). One run at a time in a process:

@@ -199,7 +199,7 @@ static struct double3 choose_light(const struct room *room, const struct spot *e
   return light;
 }
 
-/* Whether products of coordinates are floats. Other scenes are scaled later, when the view is known. */
+/* Whether products of coordinates are finite floats. Other scenes are scaled later, when the view is known. */
 static bool is_ordinary(const struct trax_scene *scene) {
   const struct trax_scene_header *header = scene->header;
   const double size = fmax(greatest(from(header->bounds_min)), greatest(from(header->bounds_max)));

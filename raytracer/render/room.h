@@ -1,4 +1,4 @@
-/* Finds a view inside a scene that is a closed room, of which only walls are visible from outside. */
+/* Finds a view inside a closed room, whose walls hide everything from outside. */
 #ifndef TRAX_RENDER_ROOM_H
 #define TRAX_RENDER_ROOM_H
 

@@ -24,7 +24,7 @@ struct scene_numbering {
   uint32_t *triangles; /* of a subtree to be rebuilt, or of a leaf: room for all */
 };
 
-/* The least height of a tree over so many triangles. */
+/* The least height of a tree over `triangles` triangles. */
 unsigned scene_least_height(uint32_t triangles, unsigned max_leaf);
 /* Computes `below` and `height` of all nodes. False if the builder left triangles out. */
 bool scene_measure_built(const struct scene_numbering *numbering, struct built_node *node);

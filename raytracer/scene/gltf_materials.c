@@ -165,7 +165,7 @@ static trax_status set_emission(struct gltf *gltf, const json_t *material, struc
 
 static trax_status copy_material(struct gltf *gltf, const json_t *material, struct trax_material *surface,
                                  struct gltf_uvs *uvs) {
-  /* Of the older model of specular and glossy surfaces the diffuse part is read. */
+  /* The older model of specular and glossy surfaces: only its diffuse part is read. */
   const json_t *glossy = gltf_extension(material, "KHR_materials_pbrSpecularGlossiness");
   const json_t *model = glossy ? glossy : json_object_get(material, "pbrMetallicRoughness");
   double colour[4] = {1, 1, 1, 1};

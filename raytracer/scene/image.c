@@ -58,7 +58,7 @@ static void jpeg_warned(j_common_ptr jpeg, int level) {
   (void)jpeg, (void)level;
 }
 
-/* Limits the scans: a progressive image can have many scans of a few bytes, each of which goes over all pixels. */
+/* Limits the scans: a progressive image can have many scans of a few bytes, and each visits all pixels. */
 static void count_scans(j_common_ptr jpeg) {
   if (((j_decompress_ptr)jpeg)->input_scan_number > max_scans) {
     struct jpeg_failure *failure = (struct jpeg_failure *)(void *)jpeg->err;

@@ -67,7 +67,7 @@ char *scene_referred_path(const char *referrer, const char *name);
 /* Reads such a file. Devices and pipes, which may never end, are refused. */
 trax_status scene_load_referred(struct scene_bytes *bytes, const char *path, struct scene_limits limits);
 
-/* The most memory that a mesh from files of so many bytes may take. Readers refuse files that ask for more. */
+/* The limit of memory of a mesh whose files have `bytes` bytes. Readers refuse files that ask for more. */
 static inline uint64_t scene_memory_for(uint64_t bytes) {
   return ((uint64_t)1 << 30) + 1024 * bytes;
 }
@@ -157,7 +157,7 @@ trax_status scene_generate_forest(struct trax_mesh *mesh, uint64_t seed, trax_er
 
 /* --- normals.c --- */
 
-/* crease_cosine: of the angle by which faces around a corner may differ and still be one surface. */
+/* crease_cosine: the cosine of the largest angle between neighbouring faces of one smooth surface. */
 trax_status scene_smooth_normals(struct trax_triangle_normals *normals, const struct trax_triangle *triangles,
                                  uint32_t count, double crease_cosine, trax_error *error);
 

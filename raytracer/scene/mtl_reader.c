@@ -1,7 +1,7 @@
 /* Material libraries of OBJ files (Wavefront, "Advanced Visualizer Manual", appendix B2; Bourke's notes on MTL).
 
    Read: newmtl, Kd, Ks, Ke, Ns, Ni, d, Tr, illum, map_Kd and map_d with the option -clamp. Everything else is skipped.
-   How a material of that format becomes one of ours is at the end of this file. */
+   The end of this file converts them to materials of the scene file. */
 #include "text.h"
 
 #include <math.h>
@@ -178,8 +178,8 @@ static float greatest(const float colour[3]) {
   return fmaxf(fmaxf(colour[0], colour[1]), colour[2]);
 }
 
-/* Of a Phong exponent the roughness whose highlight is as wide (Walter, Marschner, Li, Torrance, "Microfacet models for
-   refraction through rough surfaces", 2007, section 5.2). */
+/* Converts a Phong exponent to the roughness with an equally wide highlight (Walter, Marschner, Li, Torrance,
+   "Microfacet models for refraction through rough surfaces", 2007, section 5.2). */
 static float roughness_of(float exponent) {
   return sqrtf(2 / (fmaxf(exponent, 0) + 2));
 }

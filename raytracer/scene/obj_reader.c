@@ -83,7 +83,7 @@ static trax_status read_vertex(struct obj_reader *reader, char *rest) {
   return TRAX_OK;
 }
 
-/* vt, of which two numbers are used, or vn. */
+/* Reads vt, whose third number is ignored, or vn. */
 static trax_status read_attribute(struct obj_reader *reader, char *rest, struct value_list *list, int needed,
                                   const char *what) {
   if (!scene_grow(&list->values, sizeof *list->values, list->count, &list->capacity))

@@ -25,7 +25,7 @@ struct cover {
   const struct scene_parts *parts;
   const uint32_t *copies; /* the triangle's numbers in the file, ascending */
   uint32_t count;
-  double slack[3]; /* by which boxes may be too small: more than the rounding errors here, less than those of any ray */
+  double slack[3]; /* tolerance of boxes: more than the rounding errors here, less than those of any ray */
   unsigned steps;  /* of recursion */
 };
 

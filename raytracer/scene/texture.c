@@ -70,7 +70,7 @@ enum { CHANNELS = 7 };
 
 /* The shares of the image's texels in those of a row. */
 struct shares {
-  uint32_t *firsts; /* of each texel, and behind the last one, into the following */
+  uint32_t *firsts; /* index of each texel into the following, with an end behind the last one */
   struct share {
     uint32_t source;
     float weight;

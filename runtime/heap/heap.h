@@ -1,4 +1,4 @@
-/* What the two halves of the heap share. The heap is an array of pages, and a table beside it describes each of them. A
+/* Shared by the two halves of the heap. The heap is an array of pages, and a table beside it describes each of them. A
    page has blocks of one size and belongs to one thread (malloc.c), or it is part of a run of pages (runs.c). */
 #ifndef TRAX_RUNTIME_HEAP_H
 #define TRAX_RUNTIME_HEAP_H
@@ -50,7 +50,7 @@ INLINE unsigned digits_of(unsigned n) {
   return (bits - 0x3F800000u) >> 22;
 }
 
-/* Divides the heap if nobody has; it has no pages if there is no memory. */
+/* Divides the heap on the first call. The layout has no pages if there is no memory. */
 const struct layout *__trax_heap_prepare(void);
 /* Blocks of whole pages, aligned to a page or more. */
 void *__trax_run_allocate(size_t size, size_t alignment);

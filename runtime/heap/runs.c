@@ -54,7 +54,7 @@ static void insert_run(struct page *first, unsigned pages) {
   *list = first;
 }
 
-/* A free run of at least so many pages: some of its own list may be shorter, all of higher lists are long enough. */
+/* Finds a free run of at least `pages` pages. Runs of the first list may be shorter, those of higher lists are not. */
 static struct page *find_run(unsigned pages) {
   unsigned list = digits_of(pages), looked_at = 0;
   for (struct page *run = lists[list]; run && looked_at < LOOKED_AT; run = run->next, looked_at++)
@@ -66,7 +66,7 @@ static struct page *find_run(unsigned pages) {
   return NULL;
 }
 
-/* Takes untouched memory, so that a free run of so many pages ends there. A thread that draws a page at the same time
+/* Takes untouched memory, so that a free run of `pages` pages ends there. A thread that draws a page at the same time
    sees the new top, or its page is seen here. */
 static int grow(unsigned pages) {
   const unsigned last = top ? layout.table[top - 1].free_pages : 0, more = last < pages ? pages - last : 0;

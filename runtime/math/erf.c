@@ -24,7 +24,7 @@ static struct scaled great_erfc(struct scaled x) {
   struct scaled p = normalised((uint64_t)trax_signed_polynomial(erfc_coefficients, LENGTH(erfc_coefficients), t), 1);
   /* The square of 53 bits is exact: e^(-x^2) would magnify an error of it by x^2. */
   uint64_t low = x.significand * x.significand, high = trax_mul_high64(x.significand, x.significand);
-  int whole = 2 * x.exponent + 2; /* so many bits of the upper word are before the point: from 2 to 10 */
+  int whole = 2 * x.exponent + 2; /* bits of the upper word before the point, 2 to 10 */
   uint64_t fraction = high << whole | low >> (64 - whole);
   return trax_times(trax_times(p, q), trax_exp_fixed((uint32_t)(high >> (64 - whole)), fraction, 1));
 }

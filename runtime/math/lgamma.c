@@ -91,7 +91,7 @@ static struct number lgamma_positive(struct scaled x) {
   return sum(near_two(difference(x, two)), logarithm(product));
 }
 
-/* ln(pi / (x |sin pi x|)), of which *odd tells whether sin pi x is negative, for x not an integer. */
+/* ln(pi / (x |sin pi x|)) for x not an integer. *odd: sin pi x is negative. */
 static struct number reflected(struct scaled x, int *odd) {
   uint64_t fraction = x.exponent < 0 ? scaled_fraction(x) : x.significand << 1 << x.exponent;
   *odd = x.exponent >= 0 && (x.significand >> (63 - x.exponent) & 1);

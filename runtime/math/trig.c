@@ -100,7 +100,7 @@ static struct scaled cosine(struct scaled r) {
 
 #define TINY 0x3E40000000000000u /* 2^-27: x^2 is lost in rounding */
 
-/* The sine of a reduced angle, so many quarter turns ahead. */
+/* The sine of a reduced angle plus `quadrant` quarter turns. */
 static double quarter(struct reduced a, uint32_t quadrant, uint32_t sign) {
   sign ^= quadrant >> 1 & 1;
   if (quadrant & 1)

@@ -1,4 +1,4 @@
-/* What the parts of the OpenMP runtime share. The names and arguments of the entries are those of LLVM's kmp interface,
+/* Shared by the parts of the OpenMP runtime. The names and arguments of the entries are those of LLVM's kmp interface,
    as clang 19 calls them; entries that are not here are undefined at link. */
 #ifndef TRAX_RUNTIME_KMP_H
 #define TRAX_RUNTIME_KMP_H
@@ -17,7 +17,7 @@ struct dispatch {
   unsigned long long start, length; /* of this round's parts */
 };
 
-/* What a thread knows of the region in which it is. A region in a region has one thread. */
+/* A thread's view of its region. A nested region has one thread. */
 struct region {
   unsigned size, rank, level;
   unsigned reductions; /* number of the latest */

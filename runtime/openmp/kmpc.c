@@ -15,7 +15,7 @@ _Thread_local struct region __kmp_region;
 unsigned __kmp_threads;
 static _Thread_local unsigned wanted; /* by num_threads, for the next region */
 
-/* For all threads, who do not see the local memory of the one that sets it. */
+/* In global memory: other threads cannot read the local memory of the one that sets it. */
 static struct {
   microtask *task;
   void *argument[ARGUMENTS];

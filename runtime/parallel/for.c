@@ -1,4 +1,4 @@
-/* Loops. What all threads read is not on the stack, which may be in the caller's local memory. */
+/* Loops. Data for all threads are not on the stack, which may be in the caller's local memory. */
 #include "team.h"
 
 #ifdef __trax__

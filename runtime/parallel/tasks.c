@@ -1,5 +1,5 @@
-/* Tasks in a ring without a lock. Who adds a task and who wants one draw numbers; the n-th task is for the n-th thread
-   that wants one, which polls the task's place. */
+/* Tasks in a ring without a lock. A thread that adds or wants a task draws a number; the n-th task is for the n-th
+   thread that wants one, which polls the task's place. */
 #include "team.h"
 
 #ifdef __trax__

@@ -15,7 +15,7 @@ void mtx_destroy(mtx_t *mutex) {
   (void)mutex;
 }
 
-/* Whether a recursive mutex is the thread's own already, which then has it once more. */
+/* Locks a recursive mutex once more if the thread has it already. Returns whether it has. */
 static int has(mtx_t *mutex) {
   if (!(mutex->kind & mtx_recursive) || load_shared(&mutex->owner) != trax_thread() + 1)
     return 0;

@@ -18,7 +18,7 @@
   .type _start, @function
 _start:
   .cfi_startproc
-  .cfi_undefined r1 // nobody called: debuggers stop here
+  .cfi_undefined r1 // there is no caller: debuggers stop here
 #ifdef TRAX_GLOBAL_STACK
   lui r12, %hi(__trax_stack_top)
   lw r2, %lo(__trax_stack_top)(r12)

@@ -19,7 +19,7 @@
 struct rounded {
   int power;        /* of the first digit, after rounding */
   int count;        /* digits to print, from the first */
-  int incremented;  /* the digit that rounding raises, 9s behind it becoming 0; -1: all were 9, a 1 stands before them;
+  int incremented;  /* the digit that rounding increments, after which 9s become 0; -1: all are 9, a 1 precedes them;
                        or count */
   int last_nonzero; /* the last digit that is not 0, after rounding; -1 if there is none */
 };

@@ -94,7 +94,7 @@ int trax_stream_fill(FILE *stream) {
   do
     got = host_call(TRAX_HOST_READ, (unsigned)stream->descriptor, (uintptr_t)(stream->buffer + STREAM_BACK),
                     stream->capacity - STREAM_BACK);
-  while (got == -EINTR); /* the run was interrupted, and goes on from a checkpoint */
+  while (got == -EINTR); /* the run was interrupted, and continues from a checkpoint */
   if (got < 0)
     return fail(stream, -got);
   stream->at = STREAM_BACK;

@@ -12,7 +12,7 @@ void __trax_end_program(void);
 extern void (*const __fini_array_start[])(void);
 extern void (*const __fini_array_end[])(void);
 
-/* Identifies the image, of which there is one, in calls of __cxa_atexit. */
+/* Identifies the only image in calls of __cxa_atexit. */
 void *__dso_handle;
 
 struct block {

@@ -1,11 +1,8 @@
 #!/usr/bin/env python3
-"""trax-eval: sweeps are expanded and refused as documented, a killed command loses nothing, every runner gives the same
+"""trax-eval: sweeps are expanded and refused as documented, a killed command loses nothing, single jobs give the same
 bytes.
 
-    tests/evaluation/evaluation_test.py --bin build/bin [--only NAME] [--kills N]
-
---only slurm needs Slurm's commands and a controller that answers: tests/evaluation/slurm.sh starts one. Exit status 77:
-there is none."""
+    tests/evaluation/evaluation_test.py --bin build/bin [--only NAME] [--kills N]"""
 
 import argparse
 import importlib
@@ -312,7 +309,8 @@ def test_options(evaluation, scratch):
     # What trax-render tells of a picture, of a changed program, too; and seeds of samples, which an exact run has no
     # use for.
     sweep = dict(SMALL, name="measured", series=0, chips="1x32", error=True, hits=True,
-                 set=[{"name": "9 bits", "special.precision_bits": 9}, {"name": "changed", "program": "order/fixed"}])
+                 set=[{"name": "9 bits", "special.precision_bits": 9},
+                      {"name": "changed", "program": "triangles/moller-trumbore"}])
     run = evaluation.run(sweep, "measured", "--jobs", "2")
     check(run.returncode == 0, f"error and hits: {run.stderr}")
     found = {one["variant"]: one["values"] for one in evaluation.results("measured")["runs"]}
@@ -422,13 +420,13 @@ REFUSED_WORDS = (
     (["table2", "--program", "x"], "--program x: allowed"),
     (["table2", "--jobs", "0"], "--jobs 0"),
     (["--nonsense"], "--nonsense"),
-    (["table2", "--hosts", "a"], "--hosts is for"),
+    (["table2", "--hosts", "a"], "--hosts is no longer there; GNU parallel"),
     (["table2", "--scene", "x"], "--scene x: the sweep has conference; crytek-sponza"),
     (["era-choices", "--variant", "x"], "--variant x: the sweep has as chosen; "),
     (["table2", "--chip", ""], "--chip: the value is empty"),
     (["table2", "--program", "none.json"], '"none.json" is no program'),
     (["new-sweep"], "copy "),
-    (["table2", "--runner", "pbs"], "invalid choice"),
+    (["table2", "--runner=slurm"], "--runner is no longer there; GNU parallel, Slurm"),
     (["no.json"], "no.json: No such"),
 )
 
@@ -779,93 +777,41 @@ def test_held(evaluation, scratch):
         check(interrupted(tools.run_tool, ["sleep", "20"]), "interrupted just before it waits")
 
 
-# --- runners
+# --- single jobs
 
 
-def test_parallel(evaluation, scratch):
-    if not shutil.which("parallel"):
-        check(False, "GNU parallel is not installed")
-        return
-    run = evaluation.run(SMALL, "parallel", "--runner", "parallel", "--jobs", "2")
-    check(run.returncode == 0, f"GNU parallel: {run.stderr}")
-    same_bytes(scratch, "undisturbed", "parallel")
+def test_jobs(evaluation, scratch):
+    """Another scheduler, xargs, runs the jobs that --prepare prints; the same command takes what they have made."""
+    prepared = evaluation.run(SMALL, "jobs", "--prepare")
+    keys = prepared.stdout.split()
+    check(prepared.returncode == 0 and len(set(keys)) == RUNS and not (scratch / "jobs/results.json").exists(),
+          f"--prepare: {prepared.returncode}: {prepared.stdout}{prepared.stderr}")
+    subprocess.run(["xargs", "-n", "1", "-P", "2", evaluation.program, "job", scratch / "jobs"], input=prepared.stdout,
+                   text=True, check=True, timeout=300)
+    check(evaluation.run(SMALL, "jobs", "--prepare").stdout == "", "--prepare prints runs that are there")
+    made = {path: path.stat().st_ino for path in (scratch / "jobs/runs").glob("*.json")}
+    run = evaluation.run(SMALL, "jobs")
+    check(run.returncode == 0 and all(path.stat().st_ino == inode for path, inode in made.items()),
+          f"the jobs' results: {run.stderr}")
+    same_bytes(scratch, "undisturbed", "jobs")
 
 
-SSH = """#!%s -S
-import os, select, signal, subprocess, sys
-
-host, words = sys.argv[1], sys.argv[3 if sys.argv[2] == "--" else 2:]
-if host.endswith(".invalid"):
-    sys.exit("ssh: Could not resolve hostname " + host)
-connection, mine = os.pipe()
-server = os.fork()
-if server:
-    os.close(connection)
-    sys.exit(os.waitstatus_to_exitcode(os.waitpid(server, 0)[1]))
-
-def end(pid):
-    for child in open(f"/proc/{pid}/task/{pid}/children").read().split():
-        end(int(child))
-    os.kill(pid, signal.SIGKILL)
-
-os.close(mine)
-os.setsid()
-environment = {"HOME": "/", "PATH": "/usr/local/bin:/usr/bin:/bin", "SHELL": "/bin/sh"}
-shell = subprocess.Popen(["/bin/sh", "-c", " ".join(words)], cwd="/", env=environment)
-while shell.poll() is None:
-    if select.select([connection], [], [], 0.02)[0]:
-        end(shell.pid)
-os._exit(shell.wait() & 255)
-""" % sys.executable
-
-
-def test_hosts(evaluation, scratch):
-    """GNU parallel over hosts, which a command in the place of ssh is: a shell in another folder, without this
-    environment, that ends when ssh does."""
-    ssh = scratch / "ssh"
-    ssh.write_text(SSH)
-    ssh.chmod(0o755)
-    hosts = ",".join(f"1/{ssh} {name}" for name in ("first", "second"))
-    run = evaluation.run(SMALL, "hosts", "--runner", "parallel", "--hosts", hosts)
-    check(run.returncode == 0, f"GNU parallel over hosts: {run.stderr}")
-    same_bytes(scratch, "undisturbed", "hosts")
-    with open(scratch / "hosts/parallel.log") as log:
-        used = {line.split("\t")[1] for line in log.readlines()[1:]}
-    check({name.split()[-1] for name in used} == {"first", "second"}, f"runs were on {used}")
-    # A host that does not answer is an error that names it; an interrupt ends what runs on the others.
-    run = evaluation.run(dict(SMALL, chips="1x32"), "no-host", "--runner", "parallel", "--hosts",
-                         hosts.replace("first", "nowhere.invalid").split(",")[0])
-    check(run.returncode == 1 and "nowhere.invalid" in run.stderr and "Traceback" not in run.stderr,
-          f"a host that is not there: {run.returncode}: {run.stderr}")
-    process = subprocess.Popen(
-        evaluation.command(dict(SMALL, size="1280x720"), "hosts-interrupted", "--runner", "parallel", "--hosts", hosts),
-        stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-    deadline = time.monotonic() + 60
-    while not simulators(scratch / "hosts-interrupted") and time.monotonic() < deadline:
-        time.sleep(0.01)
-    process.send_signal(signal.SIGINT)
-    errors = process.communicate(timeout=60)[1]
-    check(process.returncode == -signal.SIGINT and "Traceback" not in errors,
-          f"interrupted: {process.returncode}: {errors}")
-    wait_for_simulators(scratch / "hosts-interrupted")
-
-
-def test_slurm(evaluation, scratch):
-    if not shutil.which("sbatch") or subprocess.run(["sinfo"], capture_output=True).returncode != 0:
-        print(
-            "Slurm is not installed, or no controller answers: tests/evaluation/slurm.sh starts one (see "
-            "docs/testing.md)"
-        )
-        sys.exit(77)
-    run = evaluation.run(SMALL, "slurm", "--runner", "slurm")
-    check(run.returncode == 0, f"Slurm: {run.stderr}")
-    same_bytes(scratch, "undisturbed", "slurm")
+def test_reason(evaluation, scratch):
+    """What is printed of a failed run names the reason."""
+    runners = importlib.import_module("trax_eval.runners")
+    progress = runners.Progress(1, {"a": "run a"}, False)
+    with unittest.mock.patch.object(sys, "stderr") as errors:
+        progress.finished(
+            "a", "trax-sim: fault: abort\n  message     this program renders boxes only\n  at          0x000014c0")
+    said = "".join(call.args[0] for call in errors.write.call_args_list)
+    wanted = "run a: FAILED: trax-sim: fault: abort: this program renders boxes only (1 of 1)"
+    check(wanted in said, f"it says {said!r}")
 
 
 TESTS = (test_sweep, test_again, test_quick, test_small, test_caches, test_damaged_job, test_rays,
          test_options, test_refusals, test_folders, test_names, test_experiments, test_kill, test_interrupt, test_held,
-         test_parallel, test_hosts, test_slurm)
-OF_SWEEP = {"again", "damaged_job", "kill", "parallel", "hosts", "slurm"}  # they need the results of test_sweep
+         test_jobs, test_reason)
+OF_SWEEP = {"again", "damaged_job", "kill", "jobs"}  # they need the results of test_sweep
 
 
 def tests(options, scratch):
@@ -877,8 +823,6 @@ def tests(options, scratch):
     if options.only in OF_SWEEP:
         evaluation.run(SMALL, "undisturbed", "--jobs", "2")
     listed = {test.__name__.removeprefix("test_"): test for test in TESTS}
-    if options.only != "slurm":
-        del listed["slurm"]
     more = {"kill": (options.kills,)}
     return {name: lambda name=name, test=test: test(evaluation, scratch, *more.get(name, ()))
             for name, test in listed.items()}

@@ -95,7 +95,7 @@ refuse '--error has been removed; --layers' --error x.json
 refuse '--layers needs -o FILE.exr' --layers -o x.png
 refuse '--layers needs a program that records' --layers -o x.exr --stats x.json
 refuse '--report has been removed; run twice' --report -o x.png
-refuse '--stack has been removed; .*experiments/stack' --stack 4 -o x.png
+refuse '--stack has been removed; .*each level of the tree' --stack 4 -o x.png
 
 # The program's source from elsewhere: the same program, wherever it lies; another one if it is changed.
 for copy in one two; do

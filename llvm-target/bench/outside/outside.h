@@ -12,6 +12,8 @@
 extern uintptr_t __trax_heap, __trax_heap_end;
 static inline void outside_begin(void) {
   static char memory[24 << 20];
+  static _Alignas(64) char thread[4096]; /* for the library's variables of threads, which are zero at first */
+  __asm__ volatile("mv tp, %0" : : "r"(thread));
   __trax_heap = (uintptr_t)memory;
   __trax_heap_end = (uintptr_t)(memory + sizeof memory);
 }

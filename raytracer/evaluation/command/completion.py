@@ -47,7 +47,7 @@ def files(kind):
 
 
 def value_of(option, data):
-    """A row of `case`: what is offered behind the option."""
+    """A row of `case`: the words that complete the option's value."""
     values = (*option.words, *(stems(data, option.folder) if option.folder else ()))
     offered = " ".join(
         [*([words(values, option.mark)] if values else []), *([files(option.files)] if option.files else [])])

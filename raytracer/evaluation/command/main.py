@@ -81,8 +81,6 @@ def parse(arguments):
         raise Problem(f"--size {options.size}: expected WIDTHxHEIGHT, each 1 to 16384")
     if not 1 <= options.jobs <= 4096:
         raise Problem(f"--jobs {options.jobs}: expected a number from 1 to 4096")
-    if options.hosts and options.runner != "parallel":
-        raise Problem("--hosts is for --runner parallel")
     return options
 
 
@@ -158,6 +156,9 @@ def evaluate(options, tools, data, command):
     for sweep, keys in plans:
         write_plan(out, sweep, keys, tools)
     forget_damaged(out, labels)
+    if options.prepare:
+        print("".join(f"{key}\n" for key in labels if not is_intact(out, key)), end="")
+        return 1 if without else 0
     failed = runners.run_all(out, tools, labels, options)
     results = collect(out, tools, Areas(data / "paper"), command, time.monotonic() - begin)
     if not options.quiet:
@@ -174,20 +175,12 @@ def evaluate(options, tools, data, command):
 
 
 def run_one_job(arguments, tools):
-    """trax-eval job OUT KEY, and with --list FILE the one whose place Slurm says: what the runners start."""
+    """trax-eval job OUT KEY: one of the jobs that --prepare prints, for other schedulers."""
     parser = Parser(prog="trax-eval job", add_help=False)
     parser.add_argument("out", type=pathlib.Path)
-    parser.add_argument("key", nargs="?")
-    parser.add_argument("--list", type=pathlib.Path)
+    parser.add_argument("key")
     parser.add_argument("--threads", type=int, default=1)
     options = parser.parse_intermixed_args(arguments)
-    if options.list:
-        task, keys = os.environ.get("SLURM_ARRAY_TASK_ID", ""), options.list.read_text(errors="replace").split()
-        if not task.isdecimal() or int(task) >= len(keys):
-            raise Problem(f'job: {options.list} has no task "{task}" (SLURM_ARRAY_TASK_ID)')
-        options.key = keys[int(task)]
-    if not options.key:
-        raise Problem("job: no key was given")
     error = runners.try_job(options.out.resolve(), tools, options.key, options.threads)
     if error:
         raise Problem(error)
@@ -217,6 +210,11 @@ def dispatch(arguments, tools, data):
     if arguments[:1] == ["new-sweep"]:
         raise Problem(
             f"new-sweep is no longer there; copy {data / 'example.json'}, and change it ({data / 'README.md'})")
+    gone = next((word.split("=")[0] for word in arguments
+                 if word.split("=")[0] in ("--runner", "--hosts", "--slurm-options")), None)
+    if gone:
+        raise Problem(f"{gone} is no longer there; GNU parallel, Slurm and others run what --prepare prints "
+                      f'({data / "README.md"}, "Other hosts")')
     return evaluate(parse(arguments), tools, data, shlex.join(["trax-eval", *arguments]))
 
 

@@ -5,7 +5,6 @@ import dataclasses
 import os
 import pathlib
 
-from trax_eval import runners
 from trax_eval.sweep import CHIPS, MODES
 from trax_eval.util import Problem
 
@@ -72,13 +71,11 @@ GROUPS = {
             how={"dest": "mode", "action": "store_const", "const": "quick"}),
     ),
     "Where it runs": (
-        Option("runner", "WHICH", "local (default): this host; parallel: GNU parallel; slurm: an array of Slurm's",
-               **choice(runners.RUNNERS, default="local")),
-        Option("jobs", "N", "runs at the same time on this host (default: its processors)",
+        Option("jobs", "N", "runs at the same time (default: the host's processors)",
                how={"type": int, "default": len(os.sched_getaffinity(0))}),
-        Option("hosts", "LIST",
-               "--runner parallel: hosts as for its --sshlogin; they see the folders at the same place"),
-        Option("slurm-options", "T", "--runner slurm: more options for sbatch", how={"default": ""}),
+        Option("prepare", "",
+               "prepares the runs that are missing, prints their keys, and ends: GNU parallel, Slurm or another\n"
+               "scheduler calls `trax-eval job DIR KEY` for each, and the same command takes the results"),
     ),
     "Results": (
         Option("output", "DIR", "the folder of results (default: out/eval)", "o",

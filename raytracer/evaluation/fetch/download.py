@@ -24,7 +24,7 @@ NETWORK = (OSError, http.client.HTTPException)
 
 
 class Unfinished(Exception):
-    """The connection ended early; what has arrived is kept."""
+    """The connection ended early. The received part is kept."""
 
 
 class Partial:
@@ -106,7 +106,7 @@ def file_name(url):
 
 
 def by_http(url, partial, folder, show):
-    """The whole file of the address, in the folder. An earlier try that was interrupted goes on."""
+    """The whole file of the address, in the folder. An interrupted download is continued."""
     for attempt in range(1, TRIES + 1):
         try:
             receive(url, partial, show)

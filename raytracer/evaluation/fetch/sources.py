@@ -32,7 +32,7 @@ class Source:
         return {"npm": f"npm {self.place}", "tree": f"trax ({self.place})"}.get(self.kind, self.place)
 
     def file_name(self):
-        """The name of what is downloaded."""
+        """The name of the downloaded file."""
         return archive_name(self.place) if self.kind == "npm" else file_name(self.place)
 
 

@@ -72,7 +72,7 @@ class Builder:
         ], None, {})
 
     def claims(self):
-        """The claims table of the programs that are no sweep's variants, without claims of which nothing is known."""
+        """The claims table of the programs that are no sweep's variants, without claims that have no figures."""
         programs = [
             name for name in self.results.programs()
             if any(run.program == name and not run.variant for run in self.results.runs)

@@ -61,7 +61,7 @@ class Machine:
 
 
 def machines(results):
-    """By workload, the machines of the sweeps; those of which no program was measured on all scenes are left out."""
+    """By workload, the machines of the sweeps; a machine without a program measured on all scenes is left out."""
     runs = {run.index: run for sweep in SWEEPS for run in results.of_sweep(sweep)}
     scenes = {run.scene for run in runs.values()}
     found = {}

@@ -160,7 +160,7 @@ class Run:
         return rays * clock / high, rays * clock / low
 
     def is_estimate(self):
-        """Returns whether the run's interval has two ends. A quick run of which all is simulated is exact."""
+        """Returns whether the run's interval has two ends. A quick run that simulates everything is exact."""
         interval = self.interval()
         return interval is not None and interval[0] != interval[1]
 
@@ -265,7 +265,7 @@ class Results:
         return list(self.named("scenes"))
 
     def published(self, paper, scene, chip):
-        """The paper's rate for what a scene stands for, or None."""
+        """The paper's rate for the scene that this one stands for, or None."""
         return paper.mrps(self.stands_for.get(scene), chip)
 
     def machine(self, program):

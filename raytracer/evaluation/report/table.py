@@ -81,7 +81,7 @@ class Table:
         self.note, self.notes = note, notes
 
     def measured(self):
-        """Returns the table without rows of which nothing was measured."""
+        """Returns the table without rows that have no measured figure."""
         def is_there(cell):
             return cell.value is not None and cell.style != "paper"
 

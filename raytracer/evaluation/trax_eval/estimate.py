@@ -1,4 +1,4 @@
-"""What the missing runs of a command will take, by what its finished runs took."""
+"""Estimates the time of a command's missing runs from that of its finished ones."""
 
 from .finished import is_intact
 from .util import Problem, read_sealed

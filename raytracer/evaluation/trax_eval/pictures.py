@@ -23,7 +23,7 @@ def png(picture, pixels):
 
 
 def rows_of(data):
-    """Size and rows of what png wrote."""
+    """Size and rows of a picture that png() wrote."""
     width, height = struct.unpack(">II", data[16:24])
     place, packed = len(SIGNATURE), b""
     while place < len(data):

@@ -207,8 +207,7 @@ struct trax_build_options {
   unsigned max_leaf;       /* triangles in a leaf, 1 to TRAX_SCENE_MAX_LEAF; 0: default */
   unsigned max_depth;      /* inner nodes on a path, at most TRAX_SCENE_MAX_DEPTH; 0: default */
   unsigned cache_lines;    /* of the direct-mapped data cache that nodes are ordered for; 0: default; 1: depth first */
-  float splits;            /* room for so many times the triangles, to split large ones: they then stand in several
-                              leaves; 0 or 1: none */
+  float splits;            /* large triangles are split until leaves have `splits` times as many; 0 or 1: none */
   bool choose_splits;      /* the default instead, if many triangles' boxes are much larger than they; never of lamps */
   unsigned passes;         /* over the tree that was built, to improve it: at most TRAX_SCENE_MAX_PASSES */
   float traversal_cost;    /* of a node, relative to a triangle's; 0: default */

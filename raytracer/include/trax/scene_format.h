@@ -107,7 +107,7 @@ struct trax_triangle {
   uint32_t material;         /* index into the materials */
 };
 
-/* Of a triangle's size, so that the distance from a triangle to its normals is the same for all. */
+/* As large as a triangle, so that the distance from a triangle to its normals is constant. */
 struct trax_triangle_normals {
   float corner[3][3]; /* of length 1, on the side of v0, v1, v2 counterclockwise */
   uint32_t reserved;  /* zero */

@@ -36,7 +36,7 @@ typedef void trax_task(void *context);
 void trax_run_tasks(trax_task *first, void *context);
 void trax_add_task(trax_task *task, void *context);
 
-/* Waits until so many threads have come, and sees what they wrote before. It can be used again. */
+/* Waits until all threads of the barrier have arrived. Their earlier writes are visible then. It can be used again. */
 struct trax_barrier {
   unsigned count, arrived, released;
 };
