@@ -9,7 +9,6 @@ import shutil
 import sys
 import time
 
-from fetch import main as fetch
 from report import docs, make
 from report.paper import Paper
 from report.results import Results
@@ -195,6 +194,7 @@ def run_one_job(arguments, tools):
 
 def dispatch(arguments, tools, data):
     if arguments[:1] == ["fetch-scenes"]:
+        from fetch import main as fetch  # the network's modules would be a third of every start
         return fetch.main(arguments[1:], tools)
     if "-h" in arguments or "--help" in arguments:
         print(help_text(data), end="")
