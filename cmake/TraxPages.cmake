@@ -1,6 +1,9 @@
 # A command's man page and its completion in bash, which the command itself prints from its table of options
 # (emulator/base/option_pages.c).
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
+# The interpreter itself: a script in its place, such as pyenv's, takes longer than most that it starts.
+execute_process(COMMAND ${Python3_EXECUTABLE} -c "import sys; print(sys.executable)" OUTPUT_VARIABLE Python3_EXECUTABLE
+                OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
 set(TRAX_HELP_TO_MAN ${CMAKE_CURRENT_LIST_DIR}/help_to_man.py)
 set(TRAX_HELP_TO_COMPLETION ${CMAKE_CURRENT_LIST_DIR}/help_to_completion.py)
 

@@ -4,6 +4,7 @@
     // RUN: %run_c %s %t
     // RUN: %run_c %s %t --levels -O2,-Os --cflags "-ffast-math" --simflags "--config 1x32" --status 3
     // RUN: %run_c %s %t --clang-only        (compile and link at every level, run nothing)
+    // RUN: %run_c %s %t --slow              (of a program that takes seconds to compile: -O2)
 
 Standard output must equal NAME.expected beside the program, byte for byte. Without that file it must equal the one in
 the folder of --expected, which the build made on the host (c/CMakeLists.txt). The exit status must be the one given
@@ -71,10 +72,10 @@ def check_level(options, level, expected):
     return None if expected is None else check_output(expected, output)
 
 
-def default_levels(source):
+def default_levels(source, slow):
     if os.environ.get("TRAX_LEVELS") == "all":
         return ALL_LEVELS
-    return "-O0,-O2" if zlib.crc32(os.path.basename(source).encode()) % 2 else "-O2"
+    return "-O0,-O2" if not slow and zlib.crc32(os.path.basename(source).encode()) % 2 else "-O2"
 
 
 def main():
@@ -91,6 +92,7 @@ def main():
     parser.add_argument("--status", type=int, default=0)
     parser.add_argument("--fault", action="append", default=[])
     parser.add_argument("--clang-only", action="store_true")
+    parser.add_argument("--slow", action="store_true", help="by default at -O2 alone")
     # Values such as -O2 or --config begin with a dash: join them to their option first.
     arguments = sys.argv[1:]
     takes_value = {"--levels", "--cflags", "--simflags", "--fault"}
@@ -112,7 +114,7 @@ def main():
         return 1
 
     failed = False
-    for level in (options.levels or default_levels(options.source)).split(","):
+    for level in (options.levels or default_levels(options.source, options.slow)).split(","):
         problem = check_level(options, level, expected)
         if problem:
             print(f"{options.source} at {level}:\n{problem}", file=sys.stderr)

@@ -74,11 +74,11 @@ class Trax:
     def link(self, objects, output):
         run([*self.compiler, *objects, "-o", output])
 
-    def execute(self, program):
+    def execute(self, program, *words):
         """Run a program; return what it printed and how many instructions it took."""
         statistics = program.with_suffix(".json")
         printed, _ = run([self.build / "bin/trax-sim", "--engine", "functional", "--quiet", "--stats", statistics,
-                          program])
+                          program, *words])
         return printed, json.loads(statistics.read_text())["instructions"]
 
 
@@ -137,28 +137,29 @@ class Riscv:
                 if self.library == added:
                     raise
 
-    def execute(self, program):
+    def execute(self, program, *words):
         qemu = ["qemu-riscv32", "-cpu", "rv32,zfinx=true,zbb=true,f=false,d=false"]
         if takes_plugins():
-            printed, counted = run([*qemu, "-plugin", self.counter, program])
+            printed, counted = run([*qemu, "-plugin", self.counter, program, *words])
         else:
             qemu[-1] += ",zfa=false"  # which needs f in the releases without plugins
-            printed, counted = run_logged([*qemu, "-d", "in_asm,exec,nochain", program], self.counter)
+            printed, counted = run_logged([*qemu, "-d", "in_asm,exec,nochain", program, *words],
+                                          self.counter)
         return printed, int(counted.split()[1])
 
 
 class Host:
     """The host's own results, which the others must have."""
 
-    def __init__(self, work, name, flags=()):
+    def __init__(self, work, name):
         self.work, self.name = work, name
-        self.compiler = ["clang-19", "-ffp-contract=off", "-I", BENCH / "twin", *flags]
+        self.compiler = ["clang-19", "-DHOST", "-ffp-contract=off", "-I", BENCH / "twin"]
 
     def link(self, objects, output):
         run([*self.compiler, *objects, "-lm", "-o", output])
 
-    def execute(self, program):
-        return run([program])[0], None
+    def execute(self, program, *words):
+        return run([program, *words])[0], None
 
 
 @functools.lru_cache(maxsize=None)
@@ -173,14 +174,21 @@ def compiled(machine, source, flags, level="-O3"):
 DRIVER = threading.Lock()  # kernels share it
 
 
-def build_and_run(machine, source, repetitions, flags=(), level="-O3"):
-    """Compile and link a kernel and its driver; return (checksum, measure, executed instructions)."""
-    kernel = compiled(machine, source, tuple(flags), level)
+@functools.lru_cache(maxsize=None)
+def linked(machine, source, flags, level):
+    """The program of a kernel and its driver."""
+    kernel = compiled(machine, source, flags, level)
     with DRIVER:
-        driver = compiled(machine, BENCH / "driver.c", (f"-DREPETITIONS={repetitions}",))
-    program = machine.work / f"{machine.name}{level}-{source.stem}-{repetitions}.elf"
+        driver = compiled(machine, BENCH / "driver.c", ())
+    program = machine.work / f"{Path(kernel).stem}.elf"
     machine.link([driver, kernel], program)
-    printed, count = machine.execute(program)
+    return program
+
+
+def build_and_run(machine, source, *words, flags=(), level="-O3"):
+    """Run a kernel with these arguments of its driver; return (checksum, measure, executed instructions)."""
+    program = linked(machine, source, flags, level)
+    printed, count = machine.execute(program, *words)
     try:
         checksum, measure = (int(word, 16) for word in printed.split())
     except ValueError as error:
@@ -190,14 +198,15 @@ def build_and_run(machine, source, repetitions, flags=(), level="-O3"):
 
 def measure_kernel(machine, source, level="-O3"):
     """Return a kernel's result and how many instructions a repetition executes."""
-    _, _, once = build_and_run(machine, source, 1, level=level)
-    checksum, measure, twice = build_and_run(machine, source, 2, level=level)
+    _, _, once = build_and_run(machine, source, "1", level=level)
+    checksum, measure, twice = build_and_run(machine, source, "2", level=level)
     return (checksum, measure), twice - once
 
 
 def check_counter(machine):
     """A counter must count a loop of three instructions, and nothing else, right."""
-    counts = [build_and_run(machine, BENCH / "counted_loop.c", 1, [f"-DITERATIONS={n}"])[2] for n in (100000, 200000)]
+    counts = [build_and_run(machine, BENCH / "counted_loop.c", "1", flags=(f"-DITERATIONS={n}",))[2]
+              for n in (100000, 200000)]
     if counts[1] - counts[0] != 300000:
         raise Failure(f"the counter of {machine.name} finds {counts[1] - counts[0]} instructions in a loop of 300000")
 

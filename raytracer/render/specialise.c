@@ -342,6 +342,14 @@ static bool fits_cache(const char *program, uint32_t icache_bytes) {
   return trax_program_measure(&size, program, &ignored) == TRAX_OK && size.code_bytes <= icache_bytes;
 }
 
+/* Whether the compiler has said of a function's frame that it would be too large with the parameters in memory, too:
+   that frees 31 registers at most, so 124 bytes of the frame. */
+static bool is_far_too_large(const trax_error *error) {
+  const char *said = strstr(error->message, "stack frame size");
+  unsigned size, limit;
+  return said && sscanf(said, "stack frame size (%u) exceeds limit (%u)", &size, &limit) == 2 && size > limit + 128;
+}
+
 /* Compiles in the first of the ways whose stack suffices. A program larger than the instruction cache is compiled for
    less code, unless it traces paths and is larger in any case. */
 static trax_status build(const struct recipe *recipe, const struct trax_frame *frame, uint32_t icache_bytes,
@@ -359,6 +367,8 @@ static trax_status build(const struct recipe *recipe, const struct trax_frame *f
   for (size_t i = paths ? 0 : 2; i < count && status == TRAX_ERROR; i++) {
     struct places way = ways[i];
     status = compile(recipe, &way, error);
+    if (status == TRAX_ERROR && !way.params_in_memory && is_far_too_large(error))
+      i++;
     if (status != TRAX_OK || paths || fits_cache(recipe->work->program, icache_bytes))
       continue;
     way.small = true;

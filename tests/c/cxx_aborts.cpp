@@ -8,10 +8,15 @@
 // RUN: %run_c %s %t --levels -O2 --status 134 --fault "vector[] index out of bounds" \
 // RUN:   --cflags "-DINDEX -mstack=global -D_LIBCPP_HARDENING_MODE=_LIBCPP_HARDENING_MODE_FAST"
 // What ends a C++ program says so.
+#if defined(TERMINATE)
 #include <exception>
-#include <new>
+#elif defined(EMPTY)
 #include <optional>
+#elif defined(INDEX)
 #include <vector>
+#else
+#include <new>
+#endif
 
 struct Base {
   Base() { call(); }

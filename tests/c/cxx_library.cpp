@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O2 --cflags "-mstack=global -std=c++20"
+// RUN: %run_c %s %t --slow --cflags "-mstack=global -std=c++20"
 // libc++'s headers, a little of each that a program for the TP may want: what clang++ prints for the host.
 #include <algorithm>
 #include <any>

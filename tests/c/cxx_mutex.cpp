@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O2 --cflags "-mstack=global -std=c++20" --simflags "--config 1x32"
+// RUN: %run_c %s %t --slow --cflags "-mstack=global -std=c++20" --simflags "--config 1x32"
 // RUN: not %clangxx -DSTART -c %s -o %t.o 2>&1 | FileCheck %s --check-prefix=START
 // START: error: {{.*}}the machine's threads are all there from the start: none can be started
 // libc++'s mutexes, condition variables, call_once and shared pointers between threads. (Expected output by hand.)

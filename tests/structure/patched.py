@@ -1,9 +1,10 @@
 """Patches that are kept as tests: extensions that change as few files as docs/extending.md says.
 
-  patched.py SOURCE SCRATCH [COMPILER-LAUNCHER]
+  patched.py SOURCE SCRATCH ISA-GENERATOR [COMPILER-LAUNCHER]
 
-Makes a copy of the sources in SCRATCH, applies all patches to it, and builds what their tests need. Each patch also
-applies without the others. Some of the fast engine's structures receive another field, for state_test.py."""
+Makes a copy of the sources in SCRATCH, applies all patches to it, and builds what their tests need, with the generator
+of the ISA's tables that the build has made: no patch changes it. Each patch also applies without the others. Some of
+the fast engine's structures receive another field, for state_test.py."""
 
 import glob
 import json
@@ -59,7 +60,7 @@ def add_fields(scratch):
         file.write(" ".join(name for _, name in chosen) + "\n")
 
 
-def build(source, scratch, launcher):
+def build(source, scratch, generator, launcher):
     shutil.rmtree(scratch, ignore_errors=True)
     os.makedirs(scratch)
     for name in PARTS:
@@ -77,7 +78,8 @@ def build(source, scratch, launcher):
     add_fields(scratch)
     launchers = [f"-DCMAKE_{language}_COMPILER_LAUNCHER={launcher}" for language in ("C", "CXX")]
     run("cmake", "-S", scratch, "-B", f"{scratch}/build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=None",
-        "-DCMAKE_C_FLAGS=-O1", "-DCMAKE_CXX_FLAGS=-O1", "-DTRAX_FAST_VARIANTS=OFF", *launchers)
+        "-DCMAKE_C_FLAGS=-O1", "-DCMAKE_CXX_FLAGS=-O1", "-DTRAX_FAST_VARIANTS=OFF", "-DTRAX_TRANSLATE=OFF",
+        f"-DTRAX_ISA_GEN={generator}", *launchers)
     run("ninja", "-C", f"{scratch}/build", "-j2", *TARGETS)
     run(f"{scratch}/build/tests/bin/emulator-programs", scratch)
 
@@ -127,4 +129,4 @@ class Patched:
 
 
 if __name__ == "__main__":
-    build(os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2]), sys.argv[3] if len(sys.argv) > 3 else "")
+    build(*map(os.path.abspath, sys.argv[1:4]), "".join(sys.argv[4:5]))

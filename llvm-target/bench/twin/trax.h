@@ -10,13 +10,17 @@ struct trax_buffer {
   unsigned size; /* bytes */
 };
 
-/* Two roundings instead of the TP's one; with EXACT_RSQRT the TP's result. */
-static inline float trax_rsqrt(float x) {
-#ifdef EXACT_RSQRT
-  return x >= 0 ? (float)(1.0 / __builtin_sqrt((double)x)) : __builtin_nanf("");
-#else
-  return 1.0f / __builtin_sqrtf(x);
+#ifdef HOST
+extern int exact_rsqrt; /* of the driver */
 #endif
+
+/* Two roundings instead of the TP's one; with exact_rsqrt the TP's result. */
+static inline float trax_rsqrt(float x) {
+#ifdef HOST
+  if (exact_rsqrt)
+    return x >= 0 ? (float)(1.0 / __builtin_sqrt((double)x)) : __builtin_nanf("");
+#endif
+  return 1.0f / __builtin_sqrtf(x);
 }
 
 static inline unsigned trax_atomic_inc(unsigned *p) {

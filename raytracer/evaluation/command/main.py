@@ -10,7 +10,6 @@ import sys
 import time
 
 from compare import main as comparison
-from fetch import main as fetch
 from report import docs, make
 from report.paper import Paper
 from report.results import Results
@@ -191,6 +190,7 @@ def dispatch(arguments, tools, data):
     if arguments[:1] == ["compare"]:
         return comparison.main(arguments[1:], tools, data)
     if arguments[:1] == ["fetch-scenes"]:
+        from fetch import main as fetch  # the network's modules would be a third of every start
         return fetch.main(arguments[1:], tools)
     if "-h" in arguments or "--help" in arguments:
         print(help_text(data), end="")

@@ -121,16 +121,19 @@ class Compiler:
         return done.returncode, done.stderr.decode(errors="replace")
 
     def accepted(self, lines, name, *options, whole=False):
-        """Without the lines that have errors, or all calls of their builtins, until there are none."""
+        """Without the lines that have errors, or all calls of their builtins, until there are none. The code generator
+        stops at the first error, and has then taken the lines before it."""
+        rest = lines
         while True:
-            status, words = self.run(lines, name, *options)
+            status, words = self.run(rest, name, *options)
             wrong = {int(number) for number in re.findall(r"^call:(\d+):\d+: (?:fatal )?error: ", words,
-                                                          re.MULTILINE)} & lines.keys()
+                                                          re.MULTILINE)} & rest.keys()
             if status != 1 or not wrong:
                 return lines
-            names = {builtin(lines[number]) for number in wrong} if whole else ()
+            names = {builtin(rest[number]) for number in wrong} if whole else ()
             lines = {number: line for number,
                      line in lines.items() if number not in wrong and not any(name in line for name in names)}
+            rest = {number: line for number, line in lines.items() if number > max(wrong)} if whole else lines
 
     def crashes(self, lines, name, *options):
         """The lines that end the compiler otherwise than an error at a place does, with its words."""

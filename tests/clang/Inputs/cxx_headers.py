@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Compile libc++'s headers, but for those that are not available: all in one file, in the order of their names and in
-the opposite one. With TRAX_LEVELS=all in the environment, each alone, too. Exit status 0 if all compile.
+"""Compile libc++'s headers, but for those that are not available: all in one file, in the order of their names. With
+TRAX_LEVELS=all in the environment, in the opposite one and each alone, too. Exit status 0 if all compile.
 
     cxx_headers.py CLANG++ --target=trax
 """
@@ -32,7 +32,9 @@ def main():
     names = [name for name in sorted(os.listdir(folder)) if "." not in name and not name.startswith("_")]
     names = [name for name in names if os.path.isfile(os.path.join(folder, name))]
     names = [name for name in names if not is_missing(name, directories)]
-    groups = [names, names[::-1]] + ([[name] for name in names] if os.environ.get("TRAX_LEVELS") == "all" else [])
+    groups = [names]
+    if os.environ.get("TRAX_LEVELS") == "all":
+        groups += [names[::-1], *([name] for name in names)]
     failed = 0
     for group in groups:
         done = compile_headers(group, "-fsyntax-only")

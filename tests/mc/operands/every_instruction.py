@@ -1,15 +1,9 @@
-#!/usr/bin/env python3
 """Every operand of every instruction is refused when it is wrong, with the message of its kind at its place: the cases
-and the messages follow from the description.
-
-  every_instruction.py DESCRIPTION MC    from llvm-tblgen --dump-json isa/Isa.td; the assembler
-"""
+and the messages follow from the description."""
 
 import collections
-import json
 import re
 import subprocess
-import sys
 
 FEW, MANY = "too few operands for instruction", "invalid operand for instruction"
 NO_BASE = "expected a register"
@@ -85,9 +79,8 @@ def cases_of(description, instruction, aliases):
     yield more, len(more) - 1, MANY
 
 
-def main():
-    with open(sys.argv[1], encoding="utf-8") as file:
-        description = json.load(file)
+def different(description, assembler):
+    """Whether a wrong statement is not refused as it should be."""
     aliases = {description[name]["AsmString"] for name in description["!instanceof"]["InstAlias"]}
     statements, expected = [], []
     names = description["!instanceof"]["TraxInst"]
@@ -95,22 +88,18 @@ def main():
         for statement, column, message in cases_of(description, description[name], aliases):
             statements.append(statement)
             expected.append(f"<stdin>:{len(statements)}:{column}: error: {message}")
-    result = subprocess.run([sys.argv[2]], input="\n".join(statements) + "\n", stdout=subprocess.PIPE,
+    result = subprocess.run([assembler], input="\n".join(statements) + "\n", stdout=subprocess.PIPE,
                             stderr=subprocess.PIPE, text=True, check=False)
     errors = collections.defaultdict(list)
     for line in result.stderr.splitlines():
         if ": error: " in line:
             errors[line.split(":")[1]].append(line)
-    different = 0
+    wrong = 0
     for line, statement in enumerate(statements, 1):
         wanted = expected[line - 1]
         got = errors[str(line)]
         if got != [wanted]:
-            different += 1
+            wrong += 1
             print(f"{statement}\n  expected {wanted}\n  got      {'; '.join(got) or 'nothing'}")
-    print(f"{len(statements)} wrong statements of {len(names)} instructions, {different} not refused as they should be")
-    return different != 0 or result.returncode == 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+    print(f"{len(statements)} wrong statements of {len(names)} instructions, {wrong} not refused as they should be")
+    return wrong != 0 or result.returncode == 0

@@ -2,13 +2,17 @@
 """Every kind of operand that the description's instructions have is tested with wrong operands: a file KIND-invalid.s
 beside this one, with a comment line for each mistake that the kind can have, followed by cases. Prints what is missing.
 
-  kinds.py DESCRIPTION    from llvm-tblgen --dump-json isa/Isa.td
+  kinds.py DESCRIPTION MC    from llvm-tblgen --dump-json isa/Isa.td; the assembler
+
+Then it does what every_instruction.py says.
 """
 
 import json
 import os
 import re
 import sys
+
+import every_instruction
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 
@@ -64,11 +68,8 @@ def tested(path):
     return headings
 
 
-def main():
-    with open(sys.argv[1], encoding="utf-8") as file:
-        description = json.load(file)
+def missing_cases(description, kinds):
     missing = []
-    kinds = kinds_of(description)
     for name, kind in sorted(kinds.items()):
         path = os.path.join(HERE, f"{name}-invalid.s")
         if not os.path.exists(path):
@@ -80,8 +81,18 @@ def main():
         with open(path, encoding="ascii") as file:
             if f"error: {message_of(description, kind)}\n" not in file.read():
                 missing.append(f"{name}-invalid.s: no case has the kind's own message")
+    return missing
+
+
+def main():
+    with open(sys.argv[1], encoding="utf-8") as file:
+        description = json.load(file)
+    kinds = kinds_of(description)
+    missing = missing_cases(description, kinds)
     print("\n".join(missing) or f"{len(kinds)} kinds of operands are tested: {', '.join(sorted(kinds))}")
-    return bool(missing)
+    kinds["uimm9"] = kinds.pop("uimm5")
+    print("with a new kind:", "; ".join(missing_cases(description, kinds)))
+    return bool(missing) or every_instruction.different(description, sys.argv[2])
 
 
 if __name__ == "__main__":
