@@ -64,6 +64,26 @@ static void put_option(FILE *out, const trax_option *row) {
   put_text(out, row->meaning);
 }
 
+/* Each command, and below it what it does. */
+static void put_examples(FILE *out, const char *examples) {
+  fputs(".SH EXAMPLES\n", out);
+  for (const char *line = examples; *line;) {
+    const size_t length = strcspn(line, "\n"), command = strcspn(line, "#");
+    const size_t end = command < length ? command : length;
+    fputs(".TP\n\\fB", out);
+    size_t shown = end;
+    while (shown > 0 && line[shown - 1] == ' ')
+      shown--;
+    put_roff(out, line, shown);
+    fputs("\\fR\n", out);
+    if (end < length) {
+      put_roff(out, line + end + 2, length - end - 2);
+      fputc('\n', out);
+    }
+    line += length + (line[length] == '\n');
+  }
+}
+
 void trax_command_man(const trax_command *command, FILE *out) {
   fputs(".TH ", out);
   for (const char *letter = command->name; *letter; letter++)
@@ -92,9 +112,15 @@ void trax_command_man(const trax_command *command, FILE *out) {
     } else if (is_listed(row)) {
       put_option(out, row);
     }
+  if (command->examples)
+    put_examples(out, command->examples);
   if (command->notes) {
     fputs(".SH NOTES\n", out);
     put_text(out, command->notes);
+  }
+  if (command->see_also) {
+    fputs(".SH SEE ALSO\n", out);
+    put_text(out, command->see_also);
   }
 }
 
@@ -115,31 +141,55 @@ static void put_pattern(FILE *out, const trax_option *row) {
   fprintf(out, "--%s", row->name);
 }
 
-void trax_command_completion(const trax_command *command, FILE *out) {
-  char function[64];
-  snprintf(function, sizeof function, "_%s", command->name);
+/* The function that completes a program's words. */
+static const char *function_of(const char *program, char function[64]) {
+  snprintf(function, 64, "_%s", program);
   for (char *letter = function; *letter; letter++)
     *letter = *letter == '-' ? '_' : *letter;
-  fprintf(out, "# Completes the options of %s in bash.\n%s() {\n", command->name, function);
+  return function;
+}
+
+/* Words, and files if the value may be one. Behind KEY of KEY=VALUE there is no blank. */
+static void put_words(FILE *out, const trax_option *row) {
+  const bool is_key = strncmp(row->argument, "KEY=", 4) == 0;
+  fprintf(out, "COMPREPLY=($(compgen %s-W '", is_key ? "-S = " : "");
+  for (size_t i = 0; row->choices && row->choices[i]; i++)
+    fprintf(out, "%s%s", i ? " " : "", row->choices[i]);
+  if (row->words)
+    row->words(out);
+  fputs("' -- \"$word\")", out);
+  if (takes_file(row))
+    fputs(" $(compgen -f -- \"$word\")", out);
+  fputs("); ", out);
+  if (is_key)
+    fputs("compopt -o nospace 2> /dev/null; ", out);
+}
+
+void trax_command_completion(const trax_command *command, FILE *out) {
+  char function[64];
+  fprintf(out, "# Completes the options of %s in bash.\n%s() {\n", command->name, function_of(command->name, function));
   fputs("  local word=${COMP_WORDS[COMP_CWORD]} option=${COMP_WORDS[COMP_CWORD - 1]}\n"
         "  if [[ $word == = ]]; then\n    word=\n"
         "  elif [[ $option == = ]]; then\n    option=${COMP_WORDS[COMP_CWORD - 2]}\n  fi\n"
-        "  COMPREPLY=()\n  case $option in\n",
+        "  COMPREPLY=()\n",
         out);
+  if (command->part)
+    fprintf(out,
+            "  if [[ ${COMP_WORDS[1]} == %s ]] && ((COMP_CWORD > 1)); then\n"
+            "    declare -F %s > /dev/null || source \"${BASH_SOURCE[0]%%/*}/%s\"\n    %s\n    return\n  fi\n",
+            command->part, function_of(command->part_of, function), command->part_of,
+            function_of(command->part_of, function));
+  fputs("  case $option in\n", out);
   for (const trax_option *row = command->rows; row->name; row++) {
     if (!is_listed(row) || !row->argument || strncmp(row->argument, "[=", 2) == 0)
       continue;
     fputs("    ", out);
     put_pattern(out, row);
     fputs(") ", out);
-    if (row->choices) {
-      fputs("COMPREPLY=($(compgen -W '", out);
-      for (size_t i = 0; row->choices[i]; i++)
-        fprintf(out, "%s%s", i ? " " : "", row->choices[i]);
-      fputs("' -- \"$word\")); ", out);
-    } else if (takes_file(row)) {
+    if (row->choices || row->words)
+      put_words(out, row);
+    else if (takes_file(row))
       fputs("COMPREPLY=($(compgen -f -- \"$word\")); ", out);
-    }
     fputs("return ;;\n", out);
   }
   fputs("  esac\n  if [[ $word == -* ]]; then\n    COMPREPLY=($(compgen -W '", out);
@@ -149,6 +199,9 @@ void trax_command_completion(const trax_command *command, FILE *out) {
       fprintf(out, "%s--%s", first ? "" : " ", row->name);
       first = false;
     }
-  fputs("' -- \"$word\"))\n  else\n    COMPREPLY=($(compgen -f -- \"$word\"))\n  fi\n}\n", out);
-  fprintf(out, "complete -o filenames -F %s %s\n", function, command->name);
+  fputs("' -- \"$word\"))\n  else\n    COMPREPLY=($(compgen -f -- \"$word\")", out);
+  if (command->part)
+    fprintf(out, " $(compgen -W '%s' -- \"$word\")", command->part);
+  fputs(")\n  fi\n}\n", out);
+  fprintf(out, "complete -o filenames -F %s %s\n", function_of(command->name, function), command->name);
 }

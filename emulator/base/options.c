@@ -105,10 +105,14 @@ trax_status trax_option_number(const trax_option *option, const char *text, uint
   return TRAX_OK;
 }
 
+static const char *choice_name(const void *choices, size_t i) {
+  return ((const char *const *)choices)[i];
+}
+
 static trax_status set_choice(const trax_option *option, const char *value, unsigned *choice, trax_error *error) {
   char names[300] = "";
-  size_t used = 0;
-  for (unsigned i = 0; option->choices[i]; i++) {
+  size_t used = 0, count = 0;
+  for (unsigned i = 0; option->choices[i]; i++, count++) {
     if (strcmp(option->choices[i], value) == 0) {
       *choice = i;
       return TRAX_OK;
@@ -117,7 +121,9 @@ static trax_status set_choice(const trax_option *option, const char *value, unsi
     if (used < sizeof names)
       used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", separator, option->choices[i]);
   }
-  return trax_option_refuse(option, value, error, "is none of %s", names);
+  const char *nearest = trax_nearest_name(value, count, choice_name, option->choices);
+  return trax_option_refuse(option, value, error, "is none of %s%s%s%s", names, nearest ? "; did you mean " : "",
+                            nearest ? nearest : "", nearest ? "?" : "");
 }
 
 static trax_status set_value(const trax_option *option, void *target, const char *value, trax_error *error) {
@@ -315,6 +321,10 @@ void trax_command_help(const trax_command *command, FILE *out) {
                                row->name, between, row->argument ? row->argument : "");
     fprintf(out, "%*s", length < (int)command->column ? (int)command->column - length : 2, "");
     print_lines(out, row->meaning, command->column);
+  }
+  if (command->examples) {
+    fputs("\nExamples:\n  ", out);
+    print_lines(out, command->examples, 2);
   }
   if (command->notes) {
     fputs("\n", out);

@@ -45,6 +45,10 @@ void trax_engine_names(bool (*can)(const struct trax_engine *engine), char *name
                                             : "");
 }
 
+const char *trax_engine_name(unsigned number) {
+  return number < MAIN_ENGINES ? engines[number]->name : NULL;
+}
+
 trax_status trax_engine_find(const char *name, const struct trax_engine **engine, trax_error *error) {
   char names[128];
   *engine = engines[0];

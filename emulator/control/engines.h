@@ -16,5 +16,7 @@ trax_status trax_engine_check(const struct trax_engine *engine, const struct tra
 /* Lists the names of the engines for which can() is true, as in "fast, reference, functional or simt", without variants
    of the fast engine. */
 void trax_engine_names(bool (*can)(const struct trax_engine *engine), char *names, size_t size);
+/* The name of one of these, by its number; NULL: there are fewer. */
+const char *trax_engine_name(unsigned number);
 
 #endif

@@ -115,6 +115,16 @@ static const char *key_name(const void *context, size_t i) {
   return trax_config_keys[i].name;
 }
 
+void trax_config_list_keys(FILE *out) {
+  for (size_t i = 0; i < trax_config_key_count; ++i)
+    fprintf(out, "%s ", trax_config_keys[i].name);
+}
+
+void trax_config_list_presets(FILE *out) {
+  for (size_t i = 0; i < PRESETS; ++i)
+    fprintf(out, "%s ", presets[i].name);
+}
+
 const struct trax_config_key *trax_config_find(const char *name, trax_error *error) {
   for (size_t i = 0; i < trax_config_key_count; ++i)
     if (strcmp(trax_config_keys[i].name, name) == 0)

@@ -1,6 +1,7 @@
 #define _GNU_SOURCE /* memrchr */
 /* trax-sim: configure, load, run, report. */
 #include <errno.h>
+#include <inttypes.h>
 #include <limits.h>
 #include <signal.h>
 #include <stdio.h>
@@ -238,6 +239,20 @@ static void note(const char *text) {
   trax_message("trax-sim", TRAX_MESSAGE_NOTE, "%s", text);
 }
 
+/* What a run took and wrote, in a line on a terminal. */
+static void print_summary(const trax_machine *machine, const struct trax_options *options) {
+  const struct trax_stats *stats = &machine->stats;
+  if (options->quiet || !isatty(STDERR_FILENO))
+    return;
+  if (options->engine->is_timed)
+    fprintf(stderr, "trax-sim: %" PRIu64 " cycles, %.4g ms", stats->cycles,
+            (double)stats->cycles / machine->config.chip.clock_mhz / 1e3);
+  else
+    fprintf(stderr, "trax-sim: %" PRIu64 " instructions", stats->instructions);
+  trax_options_print_outputs(options, stderr);
+  fputc('\n', stderr);
+}
+
 static int simulate(const trax_config *config, const struct trax_options *options) {
   trax_error error, write_error;
   catch_signals();
@@ -290,15 +305,22 @@ static int simulate(const trax_config *config, const struct trax_options *option
     result = complain(&error);
     break;
   }
+  bool written = true;
   if (status == TRAX_ERROR || !machine->has_run)
     trax_explain_discard(explain);
-  else if (end_explanation(&picture, machine, explain, &write_error) != TRAX_OK)
+  else
+    written = end_explanation(&picture, machine, explain, &write_error) == TRAX_OK;
+  if (!written)
     result = complain(&write_error);
   if (status != TRAX_ERROR && machine->has_run && options->post_mortem &&
-      write_post_mortem(post_mortem, options->post_mortem, &write_error) != TRAX_OK)
+      write_post_mortem(post_mortem, options->post_mortem, &write_error) != TRAX_OK) {
+    written = false;
     result = complain(&write_error);
+  }
   if (status != TRAX_ERROR && machine->has_run && write_outputs(machine, options, status, &write_error) != TRAX_OK)
     result = complain(&write_error);
+  else if (status == TRAX_OK && written)
+    print_summary(machine, options);
   trax_post_mortem_destroy(post_mortem);
   trax_machine_destroy(machine);
   return result == EXIT_SUCCESS && reader_gone ? EXIT_SIGNAL + SIGPIPE : result;
@@ -311,8 +333,8 @@ static int flush_standard_output(int result) {
   return reader_gone ? EXIT_SIGNAL + SIGPIPE : complain(&error);
 }
 
-/* trax-sim compare: the comparison is in Python, a part of trax-eval, which is beside this program. Returns if that cannot
-   be started. */
+/* trax-sim compare: the comparison is in Python, a part of trax-eval, which is beside this program. Returns if that
+   cannot be started. */
 static int compare(char **arguments) {
   char path[PATH_MAX + sizeof "trax-eval"];
   const ssize_t length = readlink("/proc/self/exe", path, PATH_MAX);

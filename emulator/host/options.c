@@ -159,6 +159,15 @@ static trax_status parse_gdb(void *target, const trax_option *option, const char
   return trax_option_number(option, value, 0, UINT16_MAX, &options->gdb_port, error);
 }
 
+/* --- what the completion offers --- */
+
+static const char *const main_on_words[] = {"0", "all", NULL};
+
+static void put_engines(FILE *out) {
+  for (unsigned i = 0; trax_engine_name(i); i++)
+    fprintf(out, "%s ", trax_engine_name(i));
+}
+
 /* --- the table --- */
 
 #define FIELD(member) TRAX_OPTION_FIELD(struct trax_options, member)
@@ -170,9 +179,10 @@ static trax_status parse_gdb(void *target, const trax_option *option, const char
 /* clang-format off */
 static const trax_option rows[] = {
     TRAX_OPTION_GROUP("Machine"),
-    {"config", .argument = "PRESET|FILE", ONCE(config),
+    {"config", .argument = "PRESET|FILE", ONCE(config), .words = trax_config_list_presets,
      .meaning = "machine: a chip of the paper (4x32) or a file; default one TP"},
-    {"set", .argument = "KEY=VALUE", .parse = parse_set, .meaning = "change one value of the machine (--help-config)"},
+    {"set", .argument = "KEY=VALUE", .parse = parse_set, .words = trax_config_list_keys,
+     .meaning = "change one value of the machine (--help-config)"},
     {"print-config", FIELD(print_config), .meaning = "print the machine as a file for --config, and end"},
     {"help-config", .kind = TRAX_OPTION_SHOW, .show = trax_config_describe, .meaning = "describe every key of the configuration, and end"},
     TRAX_OPTION_GROUP("Buffers"),
@@ -187,10 +197,10 @@ static const trax_option rows[] = {
     TRAX_OPTION_GROUP("Program"),
     {"dir", .argument = "FOLDER[::NAME]", .parse = parse_dir,
      .meaning = "let the program read and write files in FOLDER, which it sees as NAME"},
-    {"main-on", .argument = "THREADS", .parse = parse_main_on,
+    {"main-on", .argument = "THREADS", .parse = parse_main_on, .choices = main_on_words,
      .meaning = "threads that call main: 0, the first alone, or all (default)"},
     TRAX_OPTION_GROUP("Run"),
-    {"engine", .argument = "NAME", .parse = parse_engine,
+    {"engine", .argument = "NAME", .parse = parse_engine, .words = put_engines,
      .meaning = "fast (default), reference (the same, slower), functional (no time) or simt\n"
                 "(warps; the default if simt.width is more than 1)"},
     {"host-threads", .argument = "N", NUMBER(host_threads, 1, TRAX_MAX_TMS),
@@ -241,7 +251,7 @@ static const trax_option rows[] = {
     {"resume", .argument = "FILE", ONCE(checkpoint.resume), .file = TRAX_OPTION_INPUT,
      .meaning = "continue the run of a checkpoint; the other options must be the same"},
     TRAX_OPTION_GROUP("Other"),
-    {"quiet", FIELD(quiet), .meaning = "no progress line"},
+    {"quiet", FIELD(quiet), .meaning = "neither progress line nor the line at the end"},
     TRAX_OPTION_HELP(0),
     TRAX_OPTION_VERSION,
     {"sample", .instead = "for estimates use trax-render --sampled, with --sample-fraction and the like"},
@@ -268,7 +278,16 @@ static const trax_command command = {
     .notes = "Exit status: the program's; 1 for an error of use or a fault of the program, 134 if it aborts,\n"
              "124 if --max-cycles or --watchdog ends it, 130 if it is interrupted. Without --stats and --report "
              "nothing but\n"
-             "the program's output is printed; faults, errors and which sources a page contains go to standard error.",
+             "the program's output is printed; faults, errors and which sources a page contains go to standard error.\n"
+             "On a terminal a line at the end says what the run took and wrote.",
+    .examples = "trax-sim hello                                    # one TP runs a program\n"
+                "trax-sim hello --config 4x32 --explore run.html   # a page that explains a run on 128 TPs\n"
+                "trax-sim hello --set dcache.bytes=32768 --stats b.json\n"
+                "trax-sim compare a.json b.json                    # what differs between two runs\n"
+                "trax-sim hello --gdb 1234                         # waits for gdb-multiarch",
+    .see_also = "trax-clang(1), trax-render(1), trax-eval(1), gdb-multiarch(1); docs/trax-sim.md, docs/explaining.md",
+    .part = "compare",
+    .part_of = "trax-eval",
     .column = 27};
 
 /* --- rules about several options --- */
@@ -433,6 +452,23 @@ trax_parsed trax_options_parse(struct trax_options *options, int count, char **a
            check_explain(options, error) == TRAX_OK && check_files(options, error) == TRAX_OK)
     return TRAX_PARSED_RUN;
   return TRAX_PARSED_WRONG;
+}
+
+static void print_output(const char *path, bool *any, FILE *out) {
+  if (path && strcmp(path, "-") != 0) {
+    fprintf(out, "%s%s", *any ? ", " : "; wrote ", path);
+    *any = true;
+  }
+}
+
+void trax_options_print_outputs(const struct trax_options *options, FILE *out) {
+  bool any = false;
+  for (const trax_option *row = rows; row->name; row++)
+    if (row->file == TRAX_OPTION_OUTPUT && row->offset != offsetof(struct trax_options, checkpoint.write))
+      print_output(*(const char *const *)((const char *)options + row->offset), &any, out);
+  for (size_t i = 0; i < options->assignment_count; ++i)
+    if (options->assignments[i].kind == TRAX_ASSIGN_DUMP)
+      print_output(options->assignments[i].value, &any, out);
 }
 
 void trax_options_free(struct trax_options *options) {

@@ -50,6 +50,8 @@ trax_status trax_options_choose_engine(struct trax_options *options, const struc
                                        trax_error *error);
 /* Checks that all outputs can be written. */
 trax_status trax_options_check_outputs(const struct trax_options *options, trax_error *error);
+/* Prints "; wrote a, b" for the files that a run with these options writes when it finishes. */
+void trax_options_print_outputs(const struct trax_options *options, FILE *out);
 void trax_options_free(struct trax_options *options);
 
 #endif

@@ -146,6 +146,25 @@ static void print_callers(const trax_machine *machine, const struct trax_fault *
   }
 }
 
+/* What to try, for the kinds of which the report does not say it in its other lines. */
+static void print_advice(const trax_machine *machine, const struct trax_fault *fault, FILE *out) {
+  static const char debugger[] =
+      "--gdb 0 and a breakpoint before it show where the value comes from (docs/debugging.md)";
+  static const char *const advice[TRAX_FAULT_COUNT] = {
+      [TRAX_FAULT_NULL_PAGE] = debugger,
+      [TRAX_FAULT_UNMAPPED] = debugger,
+      [TRAX_FAULT_MISALIGNED] = "memcpy, or a structure with __attribute__((packed)), for data at any address",
+      [TRAX_FAULT_READ_ONLY] = "copy what is constant before it is changed",
+      [TRAX_FAULT_NOT_GLOBAL] = "count in a global variable, or compile with -mstack=global",
+      [TRAX_FAULT_EXECUTE] = debugger,
+      [TRAX_FAULT_MISALIGNED_PC] = debugger};
+  size_t from = 0;
+  if (fault->kind == TRAX_FAULT_ILLEGAL && trax_lacks_unit(trax_decode(fault->word).op, &machine->config))
+    fprintf(out, "  %-*sa machine that has the unit: --help-config lists its keys\n", TRAX_LABEL, "try");
+  else if (advice[fault->kind] && !(advice[fault->kind] == debugger && trax_loaded_unbound(machine, &from)))
+    fprintf(out, "  %-*s%s\n", TRAX_LABEL, "try", advice[fault->kind]);
+}
+
 void trax_machine_print_fault(const trax_machine *machine, FILE *out) {
   const struct trax_fault *fault = trax_machine_fault(machine);
   if (fault->kind == TRAX_FAULT_NONE)
@@ -157,6 +176,7 @@ void trax_machine_print_fault(const trax_machine *machine, FILE *out) {
   print_instruction(machine, fault, out);
   trax_print_place(loaded, "in", fault->pc, out);
   print_callers(machine, fault, out);
+  print_advice(machine, fault, out);
   fprintf(out, "  %-*s%u (TM %u, TP %u), cycle %" PRIu64 "\n", TRAX_LABEL, "thread", fault->thread, fault->tm,
           fault->tp, fault->cycle);
   for (unsigned i = 0; i < TRAX_NUM_REGISTERS; ++i) {

@@ -373,6 +373,7 @@ void trax_stats_print(const trax_machine *machine, FILE *out) {
           machine->config.chip.clock_mhz, trax_memory_gbps(&machine->config));
   print_ending(machine, out);
   print_sampling(&machine->stats.sampling, out);
+  trax_hints_print(&machine->stats, &machine->config, out);
   print_group(machine, out, "Run", TRAX_GROUP_RUN, false);
   print_group(machine, out, "Thread-cycles by cause", TRAX_GROUP_CAUSE, false);
   fprintf(out, "  %-30s%20.0f %6.2f %%  %s\n", "sum", (double)machine->stats.threads * (double)machine->stats.cycles,

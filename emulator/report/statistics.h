@@ -45,6 +45,9 @@ bool trax_stats_identity(const struct trax_stats *stats);
 /* Prints the members of the JSON that are not figures, one row each. */
 void trax_stats_describe_members(FILE *out);
 
+/* Prints what the figures say for sure about what limits the run; nothing if they say nothing. */
+void trax_hints_print(const struct trax_stats *S, const struct trax_config *C, FILE *out);
+
 /* How the run ended: "finished", "fault", "interrupted", "limit", "stuck", "error". */
 const char *trax_ending_name(const struct trax_machine *machine);
 

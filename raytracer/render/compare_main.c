@@ -52,6 +52,9 @@ static const trax_command command = {.name = "trax-compare",
                                          "and B, of 255 and, of two pictures of floats,\n"
                                          "of their values. Exit status 0: they agree; 1: they do not, or an error.",
                                      .rows = rows,
+                                     .examples = "trax-compare before.png after.png   # the same in every bit?\n"
+                                                 "trax-compare ours.png embree.png --within 2 --at-least 99.9",
+                                     .see_also = "trax-render(1), trax-sim(1)",
                                      .column = 22};
 
 static int fail(const char *message) {

@@ -22,9 +22,13 @@ trax_status options_check(const struct options *options, trax_error *error) {
   if (options->prepare && options->progress_png)
     return trax_fail(error, "--prepare renders nothing, so there is nothing to show");
   if (!options_rendered(options) &&
-      !(options->hits || options->ray_trace || options->id_picture || options->write_view))
+      !(options->hits || options->ray_trace || options->id_picture || options->write_view)) {
+    for (size_t i = 0; i < options->mesh_count; i++) /* a missing mesh is the greater mistake */
+      if (trax_mesh_check(options->meshes[i], error) != TRAX_OK)
+        return TRAX_ERROR;
     return trax_fail(error,
                      "no picture given: -o PICTURE.png, or another output (--explore, --stats, --cost-picture, ...)");
+  }
   if (options->frames > 1 && !options->output)
     return trax_fail(error, "--frames needs -o PICTURE.png: each picture has its number in the name");
   if (options->hits && (options->frames > 1 || options->sampled))

@@ -21,6 +21,14 @@ _Static_assert(TRAX_RENDER_MAX_SIDE == 16384 && TRAX_RENDER_MAX_SAMPLES == 4096 
                "");
 _Static_assert(TRAX_TEXTURE_MAX_LOG2 == 12 && TRAX_SCENE_MAX_DEPTH == 62 && TRAX_MAX_QUEUES == 64, "");
 
+/* --- what the completion offers --- */
+
+static void put_costs(FILE *out) {
+  fputs("cycles instructions ", out);
+  for (unsigned i = 0; trax_stats_cause(i); i++)
+    fprintf(out, "%s ", trax_stats_cause(i));
+}
+
 /* clang-format off */
 static const trax_option rows[] = {
     TRAX_OPTION_GROUP("Picture"),
@@ -44,7 +52,7 @@ static const trax_option rows[] = {
     {"progress-png", .argument = "FILE.png", OUTPUT(progress_png, "png"),
      .meaning = "writes the picture again and again as it arrives; missing pixels are squares"},
     TRAX_OPTION_GROUP("View"),
-    {"view", .argument = "FILE|NAME", FIELD(view),
+    {"view", .argument = "FILE|NAME", FIELD(view), .words = put_view_names,
      .meaning = "eye, direction, field of view and light: a file, or one that comes with trax;\n"
                 "file:NAME is a camera of a glTF file, file: its first one; without it the view with\n"
                 "the mesh's name, the inside of a closed room, or all of the scene is shown"},
@@ -61,7 +69,7 @@ static const trax_option rows[] = {
                 "scene, and raises it by E degrees"},
     {"write-view", .argument = "FILE", OUTPUT(write_view, NULL), .meaning = "writes the view as a file"},
     TRAX_OPTION_GROUP("Meshes"),
-    {"material", .argument = "[NAME=]KIND", PARSED(trax_take_material, import),
+    {"material", .argument = "[NAME=]KIND", PARSED(trax_take_material, import), .words = trax_put_material_kinds,
      .meaning = "of the meshes: lambert, mirror[:R,G,B], glass[:IOR], ggx:ROUGHNESS[:R,G,B] or\n"
                 "emit:R,G,B, for the material NAME or for all (repeatable)"},
     {"diffuse", .argument = "[NAME=]R,G,B", PARSED(trax_take_diffuse, import),
@@ -71,13 +79,13 @@ static const trax_option rows[] = {
      .meaning = "at most N texels a side, a power of two up to 4096"},
     {"unpack-limit", .argument = "SIZE", PARSED(trax_take_unpack_limit, import.unpack_limit),
      .meaning = "most bytes of a packed file or a pipe, unpacked; K, M and G are powers of 1024 (default 1G)"},
-    {"nodes", .argument = "KIND", PARSED(trax_take_nodes, nodes),
+    {"nodes", .argument = "KIND", PARSED(trax_take_nodes, nodes), .choices = trax_node_words,
      .meaning = "of the meshes' tree: binary, quantised or auto, as trax-scene has them (default auto;\n"
                 "for another --program binary)"},
     {"splits", .argument = "[=FACTOR]", PARSED(trax_take_splits, splits),
      .meaning = "splits large triangles, as trax-scene does (default auto; for another\n"
                 "--program 1, which is none)"},
-    {"normals", .argument = "WHICH", PARSED(trax_take_normals, build),
+    {"normals", .argument = "WHICH", PARSED(trax_take_normals, build), .choices = trax_normals_words,
      .meaning = "file: --smooth by the meshes' own normals, computed where there are none (default);\n"
                 "smooth: by computed ones; flat: no --smooth"},
     TRAX_OPTION_GROUP("Shading"),
@@ -100,9 +108,9 @@ static const trax_option rows[] = {
     {"background", .argument = "RRGGBB", PARSED(take_colour, frame.background),
      .meaning = "colour of rays that hit nothing, hexadecimal (default 98a8b8)"},
     TRAX_OPTION_GROUP("Machine"),
-    {"config", .argument = "CHIP|FILE", FIELD(config),
+    {"config", .argument = "CHIP|FILE", FIELD(config), .words = trax_config_list_presets,
      .meaning = "the chip: 1x32 to 8x64 as in the paper, or a file (default 4x32)"},
-    {"set", .argument = "KEY=VALUE", .parse = take_setting,
+    {"set", .argument = "KEY=VALUE", .parse = take_setting, .words = trax_config_list_keys,
      .meaning = "changes one value of the configuration (trax-sim --help-config lists them)"},
     {"engine", .argument = "WHICH", FIELD(engine), .choices = engines,
      .meaning = "fast (default): the emulator; reference: its reference engine, the same cycles, slowly;\n"
@@ -128,7 +136,7 @@ static const trax_option rows[] = {
      .meaning = "the cost of each pixel, in false colours"},
     {"cost-values", .argument = "FILE", OUTPUT(cost_values, "csv pfm"),
      .meaning = "the same in numbers: PFM for FILE.pfm, else CSV"},
-    {"cost", .argument = "WHAT", PARSED(take_cost, cost),
+    {"cost", .argument = "WHAT", PARSED(take_cost, cost), .words = put_costs,
      .meaning = "the cost: cycles (default), instructions, or one cause (trax-sim --help-stats)"},
     {"memory-trace-format", .instead = "--memory-trace FILE.csv, or FILE and memory_trace_for.py of docs/traces.md"},
     {"profile", .instead = "--explore FILE.html, or trax-sim --profile with what --keep writes"},
@@ -202,6 +210,11 @@ const trax_command render_command = {
         "through\n"
         "every pixel, and a shadow ray towards one point light. generate:forest[:SEED] is a mesh made on the spot.",
     .rows = rows,
+    .examples = "trax-render bunny.obj -o bunny.png                          # a mesh on the paper's 4x32 chip\n"
+                "trax-render generate:forest --view forest --size 320x180 -o forest.png --explore run.html\n"
+                "trax-render room.glb --paths 4 --samples 16 --engine native -o room.exr   # computed by this host\n"
+                "trax-render bunny.obj --config 8x64 --set memory.bandwidth_gbps=16 --stats b.json",
+    .see_also = "trax-sim(1), trax-scene(1), trax-compare(1), trax-eval(1); docs/raytracer.md",
     .column = 26};
 
 trax_parsed options_parse(struct options *options, int argc, char **argv, trax_error *error) {

@@ -75,6 +75,14 @@ static void print_sentence(FILE *out, const char *path) {
     fclose(file);
 }
 
+void put_view_names(FILE *out) {
+  struct names list;
+  list_views(&list);
+  for (size_t i = 0; i < list.count; i++)
+    fprintf(out, "%s ", list.names[i]);
+  release_names(&list);
+}
+
 void print_views(FILE *out) {
   struct names list;
   list_views(&list);

@@ -17,6 +17,7 @@ bool known_view(char path[TRAX_PATH_SIZE], const struct options *options);
 
 /* Prints their names, each with the first sentence of its file. */
 void print_views(FILE *out);
+void put_view_names(FILE *out); /* with blanks between */
 
 /* The view without --view: that with the mesh's name, if it shows the scene, else the inside of a closed room (room.h),
    else all of the scene. *inside: it is a room; choice: which of the first two it is, in words, else "". */

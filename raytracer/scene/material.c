@@ -1,5 +1,7 @@
 /* Materials that the command line gives. */
 #include "internal.h"
+#include "trax/names.h"
+#include "trax/scene_options.h"
 
 #include <math.h>
 #include <string.h>
@@ -50,20 +52,32 @@ trax_status trax_override_diffuse(struct trax_material_override *override, char 
              : trax_fail(error, "--diffuse: '%s' is not [NAME=]R,G,B with R, G and B from 0 to 1", whole);
 }
 
+static const struct {
+  const char *name;
+  enum trax_override_kind kind;
+  float colour, value;
+  bool needs_value;
+} kinds[] = {{"lambert", TRAX_OVERRIDE_LAMBERT, 0, 0, false},
+             {"mirror", TRAX_OVERRIDE_MIRROR, 1, 0, false},
+             {"glass", TRAX_OVERRIDE_GLASS, 1, 1.5f, false},
+             {"ggx", TRAX_OVERRIDE_GGX, DIELECTRIC, 0, true},
+             {"emit", TRAX_OVERRIDE_EMISSION, 0, 0, true}};
+enum { KINDS = sizeof kinds / sizeof *kinds };
+
+static const char *kind_name(const void *context, size_t i) {
+  (void)context;
+  return kinds[i].name;
+}
+
+void trax_put_material_kinds(FILE *out) {
+  for (size_t i = 0; i < KINDS; i++)
+    fprintf(out, "%s%s ", kinds[i].name, kinds[i].needs_value ? ":" : "");
+}
+
 static bool parse_kind(struct trax_material_override *override, const char *kind) {
   const char *colon = strchr(kind, ':'), *value = colon ? colon + 1 : NULL;
   const size_t length = colon ? (size_t)(colon - kind) : strlen(kind);
-  const struct {
-    const char *name;
-    enum trax_override_kind kind;
-    float colour, value;
-    bool needs_value;
-  } kinds[] = {{"lambert", TRAX_OVERRIDE_LAMBERT, 0, 0, false},
-               {"mirror", TRAX_OVERRIDE_MIRROR, 1, 0, false},
-               {"glass", TRAX_OVERRIDE_GLASS, 1, 1.5f, false},
-               {"ggx", TRAX_OVERRIDE_GGX, DIELECTRIC, 0, true},
-               {"emit", TRAX_OVERRIDE_EMISSION, 0, 0, true}};
-  for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+  for (size_t i = 0; i < KINDS; i++) {
     if (strlen(kinds[i].name) != length || strncmp(kind, kinds[i].name, length) != 0)
       continue;
     override->kind = kinds[i].kind;
@@ -92,12 +106,16 @@ trax_status trax_override_material(struct trax_material_override *override, char
   char whole[128];
   snprintf(whole, sizeof whole, "%s", text);
   *override = (struct trax_material_override){0};
-  return parse_kind(override, cut_name(override, text))
-             ? TRAX_OK
-             : trax_fail(error,
-                         "--material: '%s' is not [NAME=]lambert, mirror[:R,G,B], glass[:IOR], ggx:ROUGHNESS[:R,G,B] "
-                         "or emit:R,G,B",
-                         whole);
+  char *kind = cut_name(override, text);
+  if (parse_kind(override, kind))
+    return TRAX_OK;
+  kind[strcspn(kind, ":")] = 0;
+  const char *nearest = trax_nearest_name(kind, KINDS, kind_name, NULL);
+  const bool mistyped = nearest && strcmp(nearest, kind) != 0;
+  return trax_fail(error,
+                   "--material: '%s' is not [NAME=]lambert, mirror[:R,G,B], glass[:IOR], ggx:ROUGHNESS[:R,G,B] or "
+                   "emit:R,G,B%s%s%s",
+                   whole, mistyped ? "; did you mean " : "", mistyped ? nearest : "", mistyped ? "?" : "");
 }
 
 static void apply(struct trax_material *surface, const struct trax_material_override *override) {
@@ -126,6 +144,23 @@ static void apply(struct trax_material *surface, const struct trax_material_over
   memcpy(surface->specular, override->colour, sizeof surface->specular);
 }
 
+static const char *material_name(const void *mesh, size_t i) {
+  return ((const struct trax_mesh *)mesh)->materials[i].name;
+}
+
+/* Names the nearest material, or else the first ones. */
+static trax_status no_material(const struct trax_mesh *mesh, const char *name, trax_error *error) {
+  char names[300] = "";
+  size_t used = 0;
+  const char *nearest = trax_nearest_name(name, mesh->material_count, material_name, mesh);
+  if (nearest)
+    return trax_fail(error, "no material is named '%s'; did you mean %s?", name, nearest);
+  for (uint32_t m = 0; m < mesh->material_count && used < sizeof names; m++)
+    used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", m ? ", " : "", mesh->materials[m].name);
+  return trax_fail(error, "no material is named '%s'; there %s %s%s", name, mesh->material_count == 1 ? "is" : "are",
+                   names, used < sizeof names ? "" : "...");
+}
+
 trax_status scene_override_materials(struct trax_mesh *mesh, const struct trax_import_options *options,
                                      trax_error *error) {
   for (size_t i = 0; i < options->override_count; i++) {
@@ -139,8 +174,10 @@ trax_status scene_override_materials(struct trax_mesh *mesh, const struct trax_i
       apply(&mesh->materials[m].surface, override);
       found = true;
     }
+    if (!found && override->name)
+      return no_material(mesh, override->name, error);
     if (!found)
-      return trax_fail(error, "no material is named '%s'", override->name ? override->name : "*");
+      return trax_fail(error, "the meshes have no material");
   }
   return TRAX_OK;
 }

@@ -28,22 +28,37 @@ bool trax_mesh_is_generated(const char *path) {
 
 const struct trax_material trax_default_material = {.diffuse = {0.75f, 0.75f, 0.75f}, .ior = 1, .opacity = 1};
 
-/* Generates the mesh of "forest" or "forest:SEED". */
-static trax_status generate(struct trax_mesh *mesh, const char *path, struct trax_import_report *report,
-                            trax_error *error) {
+/* Parses "generate:forest" or "generate:forest:SEED". */
+static trax_status parse_generated(const char *path, uint64_t *seed, trax_error *error) {
   static const char name[] = "forest";
   const char *what = path + sizeof generated_prefix - 1, *rest = what + sizeof name - 1;
-  uint64_t seed = 0;
+  *seed = 0;
   bool good = strncmp(what, name, sizeof name - 1) == 0 && (*rest == '\0' || *rest == ':');
   if (good && *rest == ':') {
     char *end;
     errno = 0;
-    seed = strtoull(rest + 1, &end, 10);
+    *seed = strtoull(rest + 1, &end, 10);
     good = rest[1] >= '0' && rest[1] <= '9' && *end == '\0' && errno == 0;
   }
-  if (!good)
-    return trax_fail(error, "%s: expected %sforest, or %sforest:SEED with a whole number below 2^64", path,
-                     generated_prefix, generated_prefix);
+  return good ? TRAX_OK
+              : trax_fail(error, "%s: expected %sforest, or %sforest:SEED with a whole number below 2^64", path,
+                          generated_prefix, generated_prefix);
+}
+
+trax_status trax_mesh_check(const char *path, trax_error *error) {
+  uint64_t seed;
+  if (trax_mesh_is_generated(path))
+    return parse_generated(path, &seed, error);
+  return strcmp(path, "-") == 0 || access(path, R_OK) == 0
+             ? TRAX_OK
+             : trax_fail(error, "%s: cannot be read: %s", path, strerror(errno));
+}
+
+static trax_status generate(struct trax_mesh *mesh, const char *path, struct trax_import_report *report,
+                            trax_error *error) {
+  uint64_t seed;
+  if (parse_generated(path, &seed, error) != TRAX_OK)
+    return TRAX_ERROR;
   trax_status result = scene_generate_forest(mesh, seed, error);
   report->source_triangles = mesh->triangle_count;
   return result;

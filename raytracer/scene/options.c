@@ -31,6 +31,9 @@ trax_status trax_take_material(void *target, const trax_option *option, const ch
   return add_override(member(target, option), value, error, trax_override_material);
 }
 
+const char *const trax_node_words[] = {"auto", "binary", "quantised", NULL};
+const char *const trax_normals_words[] = {"file", "smooth", "flat", NULL};
+
 trax_status trax_take_texture_size(void *target, const trax_option *option, const char *value, trax_error *error) {
   const unsigned most = 1u << TRAX_TEXTURE_MAX_LOG2;
   uint64_t size;

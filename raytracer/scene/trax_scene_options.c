@@ -44,7 +44,7 @@ static const trax_option rows[] = {
     {"list-files", .argument = "FILE", OUTPUT(list_files),
      .meaning = "write hash and name of every file that was read, as xxhsum -H2 does; - for a missing one"},
     TRAX_OPTION_GROUP("Meshes"),
-    {"material", .argument = "[NAME=]KIND", PARSED(trax_take_material, import),
+    {"material", .argument = "[NAME=]KIND", PARSED(trax_take_material, import), .words = trax_put_material_kinds,
      .meaning = "lambert, mirror[:R,G,B], glass[:IOR], ggx:ROUGHNESS[:R,G,B] or emit:R,G,B, of the\n"
                 "material NAME, or of all (repeatable)"},
     {"diffuse", .argument = "[NAME=]R,G,B", PARSED(trax_take_diffuse, import),
@@ -59,7 +59,7 @@ static const trax_option rows[] = {
     {"keep-degenerate", .instead = "no ray hits triangles of zero area"},
     {"allow-empty", .instead = "a mesh without triangles is an error"},
     TRAX_OPTION_GROUP("Tree"),
-    {"nodes", .argument = "KIND", PARSED(trax_take_nodes, nodes),
+    {"nodes", .argument = "KIND", PARSED(trax_take_nodes, nodes), .choices = trax_node_words,
      .meaning = "binary: two boxes a line of memory; quantised: four, on a grid of 2^16 planes an axis;\n"
                 "auto (default): quantised, if the grid is fine enough for each large part of the tree"},
     {"leaf", .argument = "N", NUMBER(build.max_leaf, 1, TRAX_SCENE_MAX_LEAF),
@@ -89,7 +89,7 @@ static const trax_option rows[] = {
      .meaning = "writes the meshes' triangles as such a tree numbers them; needs no -o"},
     TRAX_OPTION_GROUP("Normals"),
     {"smooth", FIELD(build.smooth), .meaning = "normals for smooth shading, the same as --normals file"},
-    {"normals", .argument = "WHICH", PARSED(trax_take_normals, build),
+    {"normals", .argument = "WHICH", PARSED(trax_take_normals, build), .choices = trax_normals_words,
      .meaning = "file: the mesh's own, computed where it has none; smooth: computed; flat: none"},
     {"crease", .argument = "DEGREES", PARSED(take_crease, build.crease_degrees),
      .meaning = "edges sharper than this stay edges, up to 180 (default 60)"},
@@ -103,11 +103,14 @@ static const trax_option rows[] = {
 const trax_command scene_command = {
     .name = "trax-scene",
     .synopsis = "[options] MESH... -o SCENE\n--check SCENE [--stats] [--stats-json FILE]",
-    .description =
-        "Imports meshes (PLY, OBJ with MTL, glTF, GLB, also as .xz or .gz), merges them, "
-        "builds\n"
-        "the BVH and writes a scene file. The mesh generate:forest[:SEED] is made by the program itself.",
+    .description = "Imports meshes (PLY, OBJ with MTL, glTF, GLB, also as .xz or .gz), merges them, "
+                   "builds\n"
+                   "the BVH and writes a scene file. The mesh generate:forest[:SEED] is made by the program itself.",
     .rows = rows,
+    .examples = "trax-scene room.glb -o room.trax                  # a scene file for trax-render\n"
+                "trax-scene bunny.ply.xz --smooth --stats -o bunny.trax\n"
+                "trax-scene --check room.trax --stats              # is the file whole?",
+    .see_also = "trax-render(1); docs/scene-file.md",
     .column = 31};
 
 trax_parsed arguments_parse(struct arguments *arguments, int argc, char **argv, trax_error *error) {

@@ -52,6 +52,27 @@ def completed(command, *words):
     return set(run.stdout.split())
 
 
+# Words, and what the completion offers for the last of them, besides files.
+OFFERED = """\
+trax-sim --config 4x -> 4x32 4x48 4x64
+trax-sim --engine '' -> fast reference functional simt
+trax-sim --main-on '' -> 0 all
+trax-sim --set dcache. -> dcache.bytes= dcache.line_bytes=
+trax-sim comp -> compare
+trax-sim compare -- -> --all --json --html --picture --cost-picture --help
+trax-sim compare inde -> index.md
+trax-render --config 8x64 -> 8x64
+trax-render --set l2.b -> l2.bytes= l2.banks=
+trax-render --view for -> forest
+trax-render --view inde -> index.md
+trax-render --cost cyc -> cycles
+trax-render --cost wait_m -> wait_memory
+trax-render --material m -> mirror
+trax-render --nodes '' -> auto binary quantised
+trax-scene --material '' -> lambert mirror glass ggx: emit:
+trax-scene --normals '' -> file smooth flat"""
+
+
 def main():
     for command in TABLES:
         check(re.search(r"^\S[^:]*:$", printed(command, "--help"), re.MULTILINE), command, "--help has no groups")
@@ -74,6 +95,13 @@ def main():
     check(completed("trax-render", "--engine", "") == {"fast", "reference", "native", "embree", "exact"}, "choices")
     check(completed("trax-render", "--engine", "re") == {"reference"}, "a choice that is begun")
     check(completed("trax-render", "--engine", "=", "na") == {"native"}, "a choice behind '='")
+    for row in OFFERED.splitlines():
+        words, expected = row.split(" -> ")
+        there, expected = completed(*words.replace("''", "").split(" ")), set(expected.split())
+        check(expected <= there, words, "offers", sorted(there), "and not", sorted(expected - there))
+    for command in TABLES:
+        heads = [f".SH {head}\n" in printed(command, "--help-man") for head in ("EXAMPLES", "SEE ALSO")]
+        check(all(heads) and "\nExamples:\n" in printed(command, "--help"), command, "has no examples")
     check(completed("trax-render", "--size", "1") == set(), "what only the user knows")
     check(completed("trax-sim", "--stats", "manif") == completed("trax-sim", "manif") == {"manifest.md"}, "files")
     check("SS View" in printed("trax-render", "--help-man") and "\nView:\n" in printed("trax-render", "--help"),

@@ -55,6 +55,9 @@ void trax_config_describe(FILE *out);
 /* The presets' names, ended by NULL. */
 const char *const *trax_config_presets(void);
 bool trax_config_is_preset(const char *name);
+/* Print the names of all keys, and of all presets, with blanks between. */
+void trax_config_list_keys(FILE *out);
+void trax_config_list_presets(FILE *out);
 /* Returns the value of a key, 0 or 1 for a flag, NaN if there is no such key. */
 double trax_config_get(const trax_config *config, const char *key);
 /* Returns the value of a key with words as values, such as "dcache.replacement", valid until the thread's next call.

@@ -1,11 +1,13 @@
 """The completion of trax-eval in bash, from its options, experiments, programs and scenes."""
 
+from compare import main as comparison
 from fetch import main as fetch
 from report import docs, make
 
 from .options import OPTIONS
 
-COMMANDS = {"report": make.new_parser, "docs": docs.new_parser, "fetch-scenes": fetch.new_parser}
+COMMANDS = {"report": make.new_parser, "docs": docs.new_parser, "fetch-scenes": fetch.new_parser,
+            "compare": comparison.new_parser}
 
 SCRIPT = """\
 # Completes the options and experiments of trax-eval in bash.

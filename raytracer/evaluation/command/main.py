@@ -25,11 +25,11 @@ from trax_eval.results import collect, plan_file, write_plan
 from trax_eval.scratch import clean_scratch, new_scratch
 from trax_eval.sweep import parse_size, read_sweep
 from trax_eval.tools import Tools
-from trax_eval.util import Problem, check_files, complain, remark
+from trax_eval.util import Parser, Problem, check_files, complain, nearest, remark
 from trax_eval.values import Areas
 
 from . import completion
-from .options import OPTIONS, Parser, described, new_parser
+from .options import OPTIONS, described, new_parser
 
 HELP = """\
 usage: trax-eval [OPTION...] EXPERIMENT... [SCENES]
@@ -100,10 +100,8 @@ def choose(options, data):
         elif pathlib.Path(word).is_dir() and folder is None:
             folder = pathlib.Path(word)
         else:
-            raise Problem(
-                f'"{word}" is neither an experiment ({", ".join(known)}), nor a sweep file (NAME.json), nor a folder '
-                f'of scenes'
-            )
+            raise Problem(f'"{word}" is neither an experiment (trax-eval --help lists them), nor a sweep file '
+                          f'(NAME.json), nor a folder of scenes{nearest(word, known)}')
     if not files:
         raise Problem("no experiment was named; trax-eval --help lists them, --all is all of them")
     return files, folder or pathlib.Path(os.environ.get("TRAX_SCENES", "scenes"))

@@ -1,19 +1,13 @@
 """The options of trax-eval: one table for help, parser and completion (completion.py)."""
 
-import argparse
 import dataclasses
 import os
 import pathlib
 
 from trax_eval.sweep import CHIPS, MODES
-from trax_eval.util import Problem
+from trax_eval.util import Parser, Problem
 
 COLUMN = 24  # of the meanings in the help
-
-
-class Parser(argparse.ArgumentParser):
-    def error(self, message):
-        raise Problem(f"{message} (trax-eval --help lists the options)")
 
 
 def path_argument(text):

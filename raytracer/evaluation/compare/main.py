@@ -1,6 +1,5 @@
 """trax-sim compare: what differs between two runs (docs/compare.md)."""
 
-import argparse
 import json
 import math
 import os
@@ -8,7 +7,7 @@ import pathlib
 import sys
 
 from trax_eval.outputs import IsInput, write_output
-from trax_eval.util import Problem, check_files
+from trax_eval.util import Parser, Problem, check_files
 
 from .difference import compare
 from .figures import Figures
@@ -35,20 +34,19 @@ Exit status: 0, also if the runs differ; 1 for an error. docs/compare.md explain
 """
 
 
-class Parser(argparse.ArgumentParser):
-    def error(self, message):
-        raise Problem(f"compare: {message} (trax-sim compare --help lists the options)")
-
-
-def parse(arguments):
+def new_parser():
     parser = Parser(prog="trax-sim compare", add_help=False, allow_abbrev=False)
     parser.add_argument("a")
     parser.add_argument("b")
     for name in ("html", "picture", "cost-picture"):
         parser.add_argument(f"--{name}")
-    for name in ("json", "all"):
+    for name in ("json", "all", "help"):
         parser.add_argument(f"--{name}", action="store_true")
-    options = parser.parse_intermixed_args(arguments)
+    return parser
+
+
+def parse(arguments):
+    options = new_parser().parse_intermixed_args(arguments)
     outputs = [path for path in (options.html, options.picture, options.cost_picture) if path is not None]
     for path in (options.a, options.b):
         if not os.path.exists(path):

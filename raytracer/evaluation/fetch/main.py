@@ -16,18 +16,13 @@ import tempfile
 
 from trax_eval.fields import installed
 from trax_eval.scenes import find_scenes
-from trax_eval.util import Problem, complain, remark
+from trax_eval.util import Parser, Problem, complain, remark
 
 from .folder import work_folder
 from .geometry import geometry_hash, import_triangles
 from .meshes import Fetcher
 from .problems import Failed
 from .sources import MESHES, read_meshes
-
-
-class Parser(argparse.ArgumentParser):
-    def error(self, message):
-        raise Problem(f"{message} (trax-eval fetch-scenes --help lists the options)")
 
 
 def new_parser():

@@ -11,7 +11,7 @@ from .jobs import key_of, make_job, write_job
 from .programs import Program, build
 from .scenes import import_scenes, order_options, plan_scene
 from .sweep import CHIPS, TAKEN, option_of, option_words
-from .util import Problem, hash_value
+from .util import Problem, hash_value, nearest
 
 
 def check_names(options, sweeps):
@@ -20,12 +20,14 @@ def check_names(options, sweeps):
     known = dict.fromkeys([*installed("programs"), *(program.name for sweep in sweeps for program in sweep.programs)])
     for program in options.programs or ():
         if not isinstance(program, Program) and program not in known:
-            raise Problem(f'--program {program}: allowed are {", ".join(known)}, and files NAME.json')
+            raise Problem(f'--program {program}: allowed are {", ".join(known)}, and files NAME.json'
+                          f'{nearest(program, known)}')
     for option, given, known in (("scene", options.scene, [scene for sweep in sweeps for scene in sweep.scenes]),
                                  ("variant", options.variant, [name for sweep in sweeps for name in sweep.variants])):
         for name in given or ():
             if name not in known:
-                raise Problem(f'--{option} {name}: the sweep has {"; ".join(dict.fromkeys(known)) or "none"}')
+                raise Problem(f'--{option} {name}: the sweep has {"; ".join(dict.fromkeys(known)) or "none"}'
+                              f'{nearest(name, known)}')
 
 
 def check_machines(sweeps, tools):

@@ -1,5 +1,7 @@
 """Common parts: errors for the user, hashes, files that appear complete or not at all."""
 
+import argparse
+import difflib
 import hashlib
 import json
 import math
@@ -20,6 +22,21 @@ def complain(program, problem, kind="error", colour="1;31"):
     coloured = not os.environ.get("NO_COLOR") and os.environ.get("TERM", "dumb") != "dumb" and sys.stderr.isatty()
     begin, end = (f"{chr(27)}[{colour}m", f"{chr(27)}[0m") if coloured else ("", "")
     print(f"{program}: {begin}{kind}: {end}{problem}", file=sys.stderr, flush=True)
+
+
+def nearest(word, names):
+    """"; did you mean NAME?", or nothing if no name is near."""
+    found = difflib.get_close_matches(word, names, 1, 0.75)
+    return f"; did you mean {found[0]}?" if found else ""
+
+
+class Parser(argparse.ArgumentParser):
+    """Its errors are Problems. An unknown option suggests one."""
+    def error(self, message):
+        wrong = message.startswith("unrecognized arguments: ")
+        known = [name for action in self._actions for name in action.option_strings]
+        guess = nearest(message.split()[2], known) if wrong else ""
+        raise Problem(f"{message}{guess} ({self.prog} --help lists the options)")
 
 
 def remark(text):

@@ -137,6 +137,8 @@ extern const struct trax_material trax_default_material;
 
 /* Whether the path names a generated mesh, "generate:forest", and no file. */
 bool trax_mesh_is_generated(const char *path);
+/* Checks that the path is of a file that can be read, or a valid "generate:forest". */
+trax_status trax_mesh_check(const char *path, trax_error *error);
 
 /* Reads and merges the files: PLY, OBJ with MTL, glTF, GLB, plain or compressed as .xz or .gz; or "generate:forest", see
    docs/scene-file.md. Node transforms are applied and polygons cut into triangles, in the order of the files. report

@@ -43,7 +43,8 @@ struct trax_option {
   trax_option_kind kind;
   size_t offset; /* in the structure that is filled in */
   uint64_t least, most;
-  const char *const *choices; /* ended by NULL */
+  const char *const *choices; /* ended by NULL; if there is a parse(), only offered by the completion */
+  void (*words)(FILE *out);   /* prints what the completion offers, with blanks or newlines between */
   /* value is not empty; it is NULL if it is optional and was not given. */
   trax_status (*parse)(void *target, const trax_option *option, const char *value, trax_error *error);
   void (*show)(FILE *out);
@@ -77,6 +78,9 @@ typedef struct trax_command {
   const char *description; /* lines below the synopsis */
   const trax_option *rows; /* ended by a row without a name */
   const char *notes;       /* lines at the end; may be NULL */
+  const char *examples;    /* "COMMAND  # MEANING", a line each; may be NULL */
+  const char *see_also;    /* of the man page: other pages; may be NULL */
+  const char *part, *part_of; /* a first word, such as compare, that the program part_of takes and completes */
   unsigned column;         /* the column of the meanings in --help */
 } trax_command;
 
