@@ -46,7 +46,7 @@ static const struct {
              {"trax_step_at", TRAX_HOLE_STEP_AT, true},
              {"trax_step", TRAX_HOLE_STEP, true},
              {"trax_bank_mask", TRAX_HOLE_BANK_MASK, true},
-             {"trax_slow_local", TRAX_HOLE_SLOW_LOCAL, true}};
+             {"trax_local_step", TRAX_HOLE_LOCAL_STEP, true}};
 
 struct object {
   Elf *elf;

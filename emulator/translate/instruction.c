@@ -56,8 +56,8 @@ static void emit_part(struct trax_translation *t, const struct trax_template_par
     case TRAX_HOLE_BANK_MASK:
       value += t->bursts->bank_mask;
       break;
-    case TRAX_HOLE_SLOW_LOCAL:
-      value += t->bursts->slow_local;
+    case TRAX_HOLE_LOCAL_STEP:
+      value += t->bursts->step[index] | t->bursts->slow_local;
       break;
     case TRAX_HOLES:
       break;

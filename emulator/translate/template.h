@@ -20,7 +20,7 @@ enum trax_hole_kind {
   TRAX_HOLE_STEP_AT,     /* of bursts: the place of the step, for r14 + 2 * r15 */
   TRAX_HOLE_STEP,        /* the step of a load of global memory, without its bank */
   TRAX_HOLE_BANK_MASK,
-  TRAX_HOLE_SLOW_LOCAL,
+  TRAX_HOLE_LOCAL_STEP, /* the step of a load of local memory */
   TRAX_HOLES
 };
 

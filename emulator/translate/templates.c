@@ -30,7 +30,8 @@ TEMPLATE trax_is_slow(void); /* the interpreter must execute this instruction; n
 
 /* Constants, as addresses of symbols. They are weak, so that the compiler does not take them for other than 0. */
 extern const char trax_imm[] __attribute__((weak)), trax_pc[] __attribute__((weak)),
-    trax_precision[] __attribute__((weak)), trax_step[] __attribute__((weak)), trax_bank_mask[] __attribute__((weak));
+    trax_precision[] __attribute__((weak)), trax_step[] __attribute__((weak)), trax_bank_mask[] __attribute__((weak)),
+    trax_local_step[] __attribute__((weak));
 #define CONSTANT(SYMBOL) ((uint32_t)(uintptr_t)(SYMBOL))
 
 /* A member of the state, to which rbx points; split.awk refuses templates that use rbx otherwise, too. Instructions
@@ -84,7 +85,8 @@ static inline void record_load(uint32_t address) {
 }
 
 static inline void record_local_load(void) {
-  __asm__ volatile("orl $trax_slow_local, trax_step_at(%%r14,%%r15,2) # state" : : : "memory");
+  const uint32_t step = CONSTANT(trax_local_step);
+  __asm__ volatile("movw %w0, trax_step_at(%%r14,%%r15,2) # state" : : "r"(step) : "memory");
 }
 
 /* Records a word of local memory before a store to it. */
