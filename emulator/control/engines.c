@@ -15,6 +15,8 @@ static const struct trax_engine *const engines[] = {
     &trax_functional_engine,
     &trax_simt_engine,
     &trax_fast_any_engine,
+    &trax_fast_interpreted_engine,
+    &trax_fast_translated_engine,
     &trax_functional_interpreted_engine,
     &trax_functional_translated_engine,
 #ifdef TRAX_FAST_HAVE_V3

@@ -1,6 +1,5 @@
 #include "fast/chip.h"
 
-#include "fast/chip.h"
 #include "fast/epochs.h"
 #include "fast/state.h"
 #include "fast/time/variant.h"
@@ -19,7 +18,8 @@ static bool has_avx512(void) {
 #endif
 
 static const struct trax_fast_variant *variant_of(const struct trax_engine *engine) {
-  const bool best = engine == &trax_fast_engine;
+  const bool best =
+      engine == &trax_fast_engine || engine == &trax_fast_interpreted_engine || engine == &trax_fast_translated_engine;
 #ifdef TRAX_FAST_HAVE_V4
   if (engine == &trax_fast_avx512_engine || (best && has_avx512()))
     return &trax_fast_variant_v4;
@@ -105,6 +105,8 @@ static void commit(void *context) {
 static enum trax_advance advance(void *context, uint64_t *t, uint64_t until) {
   enum { CYCLES = 1024 }; /* the most cycles outside epochs in one call */
   struct trax_chip *chip = context;
+  if (chip->translation && !chip->epochs)
+    trax_translation_extend(chip->translation);
   if (!chip->alone && has_one_thread(chip)) {
     commit(chip);
     chip->alone = true;
@@ -208,6 +210,8 @@ static uint32_t queued(const void *context, uint32_t tm, uint64_t t) {
 
 const struct trax_engine trax_fast_engine = ENGINE("fast", "the default, for what the host has", NULL);
 const struct trax_engine trax_fast_any_engine = ENGINE("fast-any", "the same for any host of the family", NULL);
+const struct trax_engine trax_fast_interpreted_engine = ENGINE("fast-interpreted", "without translation", NULL);
+const struct trax_engine trax_fast_translated_engine = ENGINE("fast-translated", "translation at once", NULL);
 #ifdef TRAX_FAST_HAVE_V3
 const struct trax_engine trax_fast_avx2_engine = ENGINE("fast-avx2", "the same for AVX2", has_avx2);
 #endif

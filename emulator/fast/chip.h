@@ -14,6 +14,7 @@
 #include "fast/function/blocks.h"
 #include "fast/memory/memory.h"
 #include "fast/tm/tm.h"
+#include "translate/translate.h"
 
 struct trax_chip {
   struct trax_machine *machine;
@@ -25,6 +26,8 @@ struct trax_chip {
   const struct trax_fast_variant *variant;
   struct trax_fast_program program;
   struct trax_fast_blocks blocks;
+  struct trax_burst_facts facts;
+  struct trax_translation *translation; /* of bursts; NULL: all are interpreted */
   unsigned burst; /* limit of a burst's instructions; 1 with an observer, which must see the state at each issue */
   /* One thread is left, and no increment is under way: nobody else accesses memory, so that bursts may store. */
   bool alone;
@@ -69,6 +72,8 @@ void trax_fast_set_fetch_rr_mask(struct trax_tm *tm, uint32_t icache, uint32_t b
 
 /* The engine with the best variant that the host can run, and the engines of single variants. */
 extern const struct trax_engine trax_fast_engine, trax_fast_any_engine;
+/* The best variant without translation, and, for tests, with all of it at once. */
+extern const struct trax_engine trax_fast_interpreted_engine, trax_fast_translated_engine;
 #ifdef TRAX_FAST_HAVE_V3
 extern const struct trax_engine trax_fast_avx2_engine;
 #endif

@@ -91,7 +91,7 @@ static trax_status create_tm(struct trax_tm *tm, uint32_t number, struct trax_ch
     return trax_fail(error, "out of memory");
   tm->awake = trax_group_mask(0, tps);
   tm->running = tps;
-  tm->heads.steps = tm->tp->step;
+  tm->heads.steps = tm->tp->burst.step;
   for (unsigned i = 0; i < TRAX_MAX_TPS_PER_TM; i++) /* TPs that do not exist have TP 0's steps: vectors read them */
     trax_fast_begin_heads(&tm->heads, i, i < tps ? i * (uint32_t)(sizeof *tm->tp / sizeof(uint16_t)) : 0);
   for (unsigned i = 0; i < tps; i++) {
@@ -117,6 +117,25 @@ static void destroy_tm(struct trax_tm *tm) {
   free(tm->fetch_rr_masks);
   free(tm->resident);
   free(tm->resident_lines);
+}
+
+/* Bursts are translated if a bank follows from bits of the address. */
+static void create_translation(struct trax_chip *chip, const struct trax_run *run) {
+  const struct trax_config *const config = &chip->machine->config;
+  const uint32_t banks = chip->tm->data_banks;
+  const bool at_once = run->engine == &trax_fast_translated_engine;
+  chip->facts = (struct trax_burst_facts){.step = chip->program.step,
+                                          .lines = chip->program.chunk_lines,
+                                          .blocks = chip->blocks.state,
+                                          .load_step = TRAX_STEP_BANK,
+                                          .bank_mask = (banks - 1) << TRAX_STEP_BANK_SHIFT,
+                                          .slow_local = config->tp.local_latency_cycles > 1 ? TRAX_STEP_SLOW : 0,
+                                          .slow_jump = config->tp.branch_bubble_cycles > 0 ? TRAX_STEP_SLOW : 0};
+  if (run->engine != &trax_fast_interpreted_engine && chip->burst == TRAX_BURST && !(banks & (banks - 1)))
+    chip->translation = trax_translation_create(chip->text, &chip->machine->space, config->special.precision_bits,
+                                                chip->tms, at_once, &chip->facts);
+  if (chip->translation && at_once)
+    trax_translation_extend(chip->translation);
 }
 
 trax_status trax_chip_create(struct trax_run *run, const struct trax_fast_variant *variant, trax_error *error) {
@@ -146,7 +165,10 @@ trax_status trax_chip_create(struct trax_run *run, const struct trax_fast_varian
   for (uint32_t i = 0; i < chip->tms; i++)
     if (create_tm(&chip->tm[i], i, chip, run->options->output, error))
       return TRAX_ERROR;
-  return trax_epochs_create(chip, run->options->host_threads, error);
+  if (trax_epochs_create(chip, run->options->host_threads, error))
+    return TRAX_ERROR;
+  create_translation(chip, run);
+  return TRAX_OK;
 }
 
 void trax_chip_destroy(void *context) {
@@ -158,6 +180,7 @@ void trax_chip_destroy(void *context) {
   for (uint32_t i = 0; chip->tm && i < chip->tms; i++)
     destroy_tm(&chip->tm[i]);
   free(chip->tm);
+  trax_translation_destroy(chip->translation);
   trax_memory_destroy(&chip->memory);
   trax_fast_blocks_destroy(&chip->blocks);
   trax_fast_program_destroy(&chip->program);

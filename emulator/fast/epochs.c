@@ -90,6 +90,8 @@ static void print(struct trax_epochs *epochs) {
 }
 
 static void take_snapshot(struct trax_epochs *epochs, uint64_t t) {
+  if (epochs->chip->translation) /* here alone: epochs that are run again have the same bursts */
+    trax_translation_extend(epochs->chip->translation);
   uint8_t *to = epochs->snapshot;
   for (size_t i = 0; i < epochs->section_count; i++) {
     const struct trax_section *section = &epochs->sections[i];

@@ -288,7 +288,7 @@ static trax_status create(struct trax_run *run, trax_error *error) {
     return TRAX_ERROR;
   if (run->engine != &trax_functional_interpreted_engine)
     chip->translation = trax_translation_create(&run->text, &run->machine->space, config->special.precision_bits, tms,
-                                                run->engine == &trax_functional_translated_engine);
+                                                run->engine == &trax_functional_translated_engine, NULL);
   chip->thread = calloc(chip->threads, sizeof *chip->thread);
   chip->deltas = calloc(tms, sizeof *chip->deltas);
   bool complete = chip->thread && chip->deltas;

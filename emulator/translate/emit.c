@@ -4,7 +4,8 @@
 
 enum { RAX, RCX, RDX, RBX, RSP, RBP, RSI, RDI, R8, R9, R10, R11, R12, R13, R14, R15 };
 
-/* Those that the templates' calling convention keeps, but rbx, the state, and r15, the instructions left. */
+/* Those that the templates' calling convention keeps, but rbx, the state, and r15, the instructions left. With bursts,
+   r14 points to the trax_burst, and r15 is the number of its steps so far. */
 static const uint8_t kept[2][10] = {{RBP, RSI, RDI, R12, R13, R14}, {6, 7, 8, 9, 10, 11, 12, 13, 14, 15}};
 static const unsigned kept_count[2] = {6, 10};
 
@@ -73,7 +74,7 @@ void trax_set_places(struct trax_translation *t, uint64_t weight[TRAX_NUM_REGIST
   for (unsigned n = 0; n < TRAX_NUM_REGISTERS; n++)
     t->place[n] = (struct trax_place){n ? TRAX_IN_MEMORY : TRAX_ZERO, n};
   for (unsigned kind = 0; kind < 2; kind++)
-    for (unsigned i = 0; i < kept_count[kind]; i++) {
+    for (unsigned i = 0; i < kept_count[kind] - (t->bursts && !kind); i++) {
       unsigned best = 0;
       weight[0][kind] = 0;
       for (unsigned n = 1; n < TRAX_NUM_REGISTERS; n++)
@@ -99,6 +100,8 @@ void trax_emit_frame(struct trax_translation *t) {
    */
   trax_emit(t, "\x53\x55\x41\x54\x41\x55\x41\x56\x41\x57\x48\x83\xEC\x30", 14);
   trax_emit(t, "\x48\x89\xFB\x49\x89\xD7\x48\x89\xF0", 9); /* mov rbx, rdi; mov r15, rdx; mov rax, rsi */
+  if (t->bursts)
+    trax_emit(t, "\x49\x89\xCE", 3); /* mov r14, rcx */
   emit_places(t, false);
   trax_emit(t, "\xFF\xE0", 2); /* jmp rax */
   t->leave = t->at;

@@ -11,7 +11,10 @@
 #include <string.h>
 #include <unistd.h>
 
-static const char prefix[] = ".text.trax_template_", cold_prefix[] = ".text.cold_trax_template_";
+/* The beginnings of the sections' names: of templates, and of those of bursts. */
+static const char *const prefix[] = {".text.trax_template_", ".text.trax_burst_"}, *const cold_prefix[] = {
+                                                                                       ".text.cold_trax_template_",
+                                                                                       ".text.cold_trax_burst_"};
 
 static _Noreturn void fail(const char *format, ...) {
   va_list arguments;
@@ -39,7 +42,11 @@ static const struct {
              {"trax_pc", TRAX_HOLE_PC, true},
              {"trax_precision", TRAX_HOLE_PRECISION, true},
              {"trax_minus_input", TRAX_HOLE_MINUS_INPUT, true},
-             {"trax_input_bytes", TRAX_HOLE_INPUT_BYTES, true}};
+             {"trax_input_bytes", TRAX_HOLE_INPUT_BYTES, true},
+             {"trax_step_at", TRAX_HOLE_STEP_AT, true},
+             {"trax_step", TRAX_HOLE_STEP, true},
+             {"trax_bank_mask", TRAX_HOLE_BANK_MASK, true},
+             {"trax_local_step", TRAX_HOLE_LOCAL_STEP, true}};
 
 struct object {
   Elf *elf;
@@ -57,7 +64,7 @@ static Elf_Data *data_of(const struct object *object, size_t section, GElf_Shdr 
   return elf_getdata(scn, NULL);
 }
 
-/* Returns what follows the prefix in a section's name, if it is a section of code with this prefix. */
+/* Returns what follows the prefix in a section's name, if it is a section of code with it. */
 static const char *name_behind(const struct object *object, size_t section, const char *prefix_text) {
   GElf_Shdr header;
   data_of(object, section, &header);
@@ -102,9 +109,11 @@ static struct trax_template_hole read_hole(const struct object *object, const GE
   if (symbol.st_shndx != SHN_UNDEF) {
     if (is_absolute || symbol.st_shndx >= object->sections)
       fail("a relocation to a place in the object");
-    hole.kind = name_behind(object, symbol.st_shndx, cold_prefix) ? TRAX_HOLE_COLD
-                : name_behind(object, symbol.st_shndx, prefix)    ? TRAX_HOLE_HOT
-                                                                  : TRAX_HOLE_POOL;
+    hole.kind = TRAX_HOLE_POOL;
+    for (unsigned i = 0; i < 2; i++)
+      hole.kind = name_behind(object, symbol.st_shndx, cold_prefix[i]) ? TRAX_HOLE_COLD
+                  : name_behind(object, symbol.st_shndx, prefix[i])    ? TRAX_HOLE_HOT
+                                                                       : hole.kind;
     if (hole.kind == TRAX_HOLE_POOL && !object->is_pool[symbol.st_shndx])
       fail("a call or jump to another function");
     hole.addend += (int32_t)(object->pool_at[symbol.st_shndx] + symbol.st_value);
@@ -130,7 +139,7 @@ static size_t relocations_of(const struct object *object, size_t section) {
 }
 
 struct totals {
-  size_t bytes, holes[TRAX_HOLE_INPUT_BYTES + 1];
+  size_t bytes, holes[TRAX_HOLES];
 };
 
 /* Writes the arrays of a section's code, and its part of the template to `row`. */
@@ -185,7 +194,7 @@ static void write_part(const struct object *object, bool is_hot, size_t section,
 }
 
 /* Writes the row of a template: NAME_A_B_D, each of the last three int or float. */
-static void write_template(const struct object *object, const char *name, size_t section, FILE *row) {
+static void write_template(const struct object *object, unsigned kind, const char *name, size_t section, FILE *row) {
   unsigned variant = 0;
   size_t length = strlen(name), cold = 0;
   for (unsigned bit = TRAX_FLOAT_D; bit; bit >>= 1) {
@@ -194,7 +203,7 @@ static void write_template(const struct object *object, const char *name, size_t
     length -= is_float ? strlen("_float") : strlen("_int");
   }
   for (size_t i = 1; i < object->sections; i++)
-    if (name_behind(object, i, cold_prefix) && strcmp(name_behind(object, i, cold_prefix), name) == 0)
+    if (name_behind(object, i, cold_prefix[kind]) && strcmp(name_behind(object, i, cold_prefix[kind]), name) == 0)
       cold = i;
   fprintf(row, "  [TRAX_OP_%.*s][%u] = {", (int)length, name, variant);
   struct totals totals = {0};
@@ -231,23 +240,32 @@ static void open_object(struct object *object, const char *path) {
     fail("%s has no symbols", path);
 }
 
-int main(int argc, char **argv) {
-  struct object object = {0};
+/* Writes the table of the templates of a kind. */
+static void write_table(const struct object *object, unsigned kind, const char *table) {
   char *rows = NULL;
   size_t bytes = 0;
+  FILE *const row = open_memstream(&rows, &bytes);
+  for (size_t i = 1; i < object->sections && row; i++) {
+    const char *const name = name_behind(object, i, prefix[kind]);
+    GElf_Shdr header;
+    if (name && (data_of(object, i, &header), kind == 0 || header.sh_size > 5)) /* 5: a jump alone, to trax_is_slow */
+      write_template(object, kind, name, i, row);
+  }
+  if (!row || fclose(row) != 0)
+    fail("out of memory");
+  printf("\nconst struct trax_template %s[TRAX_OP_COUNT + 1][TRAX_VARIANTS] = {\n%s};\n", table, rows);
+  free(rows);
+}
+
+int main(int argc, char **argv) {
+  struct object object = {0};
   if (argc != 2)
     fail("usage: extract-templates OBJECT");
-  FILE *const row = open_memstream(&rows, &bytes);
   open_object(&object, argv[1]);
   printf("/* Made by extract-templates from templates.c. */\n#include \"translate/template.h\"\n\n");
   write_pool(&object);
-  for (size_t i = 1; i < object.sections && row; i++)
-    if (name_behind(&object, i, prefix))
-      write_template(&object, name_behind(&object, i, prefix), i, row);
-  if (!row || fclose(row) != 0)
-    fail("out of memory");
-  printf("\nconst struct trax_template trax_templates[TRAX_OP_COUNT + 1][TRAX_VARIANTS] = {\n%s};\n", rows);
-  free(rows);
+  write_table(&object, 0, "trax_templates");
+  write_table(&object, 1, "trax_burst_templates");
   free(object.pool_at);
   free(object.is_pool);
   elf_end(object.elf);

@@ -2,6 +2,7 @@
 #ifndef TRAX_TRANSLATE_INTERNAL_H
 #define TRAX_TRANSLATE_INTERNAL_H
 
+#include "translate/burst.h"
 #include "translate/state.h"
 #include "translate/template.h"
 #include "translate/translate.h"
@@ -44,6 +45,7 @@ struct trax_stub {
 
 struct trax_translation {
   const struct trax_space *space;
+  const struct trax_burst_facts *bursts; /* NULL: the code is no bursts' */
   unsigned precision;
   uint32_t tms;
   struct trax_translated **state; /* [tms] */
@@ -68,11 +70,14 @@ struct trax_translation {
   struct trax_stub stubs[TRAX_STUBS]; /* of the sequence that is translated */
   unsigned stub_count;
   struct trax_result last;
+  size_t begin; /* of the sequence */
 
   /* One mapping: the entries, the pool of constants, the code. */
   uint8_t *mapping;
   size_t mapping_bytes;
   const uint8_t **entry; /* [count]: the code of the sequence that begins there, or `leave` */
+  uint16_t *step;        /* [count + TRAX_PIECE]: a copy of trax_burst_facts.step, near the code */
+  const uint8_t *distances; /* [TRAX_PIECE]: 0, 1 and so on */
   const uint8_t *pool;
   uint8_t *code, *at;           /* the next byte */
   const uint8_t *enter, *leave; /* what C calls, and what returns to it */
@@ -98,12 +103,25 @@ bool trax_is_always_slow(const struct trax_decoded *inst);
 /* Whether it can lead to the next instruction. */
 bool trax_goes_on(const struct trax_decoded *inst);
 /* Returns the bytes of its largest template. */
-size_t trax_most_code(const struct trax_decoded *inst);
+size_t trax_most_code(const struct trax_translation *t, const struct trax_decoded *inst);
+/* Returns the templates of an operation, [TRAX_VARIANTS]. */
+const struct trax_template *trax_templates_of(const struct trax_translation *t, unsigned op);
 void trax_emit_template(struct trax_translation *t, const struct trax_template *template, size_t index);
 void trax_emit_cold(struct trax_translation *t, struct trax_stub stub);
 void trax_emit_instruction(struct trax_translation *t, size_t index);
 /* Adds `count` to the weight of the registers that an instruction uses, as an integer [0] and as a float [1]. */
 void trax_add_weight(const struct trax_decoded *inst, uint64_t count, uint64_t weight[TRAX_NUM_REGISTERS + 1][2]);
+
+/* --- burst.c: what bursts record --- */
+/* Records the `count` instructions from `begin` on as steps, or leaves if the burst has no place for them. Returns the
+   beginning of this code. */
+const uint8_t *trax_emit_record(struct trax_translation *t, size_t begin, size_t count);
+/* Records the jump behind the instruction end - 1, to `target` or, if that is NULL, to the first segment's byte ecx. */
+void trax_emit_taken(struct trax_translation *t, size_t end, const size_t *target);
+
+/* --- translate.c --- */
+/* Has the sequence that begins with an instruction translated, too. */
+void trax_translation_add(struct trax_translation *t, size_t index);
 
 /* --- sequence.c --- */
 /* Translates the sequence that begins at `begin`. */

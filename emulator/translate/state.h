@@ -2,6 +2,7 @@
 #ifndef TRAX_TRANSLATE_STATE_H
 #define TRAX_TRANSLATE_STATE_H
 
+#include <stddef.h>
 #include <stdint.h>
 
 /* Where instructions that read groups of registers find them, in `reg`. */
@@ -14,7 +15,11 @@ struct trax_translated {
   uint64_t accessible;
   uint32_t begin, bytes; /* the program's first segment */
   uint32_t pc;           /* the target of the latest jump to a register's value */
-  int64_t left;
+  int64_t left;          /* instructions; of a burst: its steps so far */
+  /* Only bursts have these. */
+  uint8_t *blocks;
+  int64_t *deltas;
+  uint32_t input_bytes;
   uint64_t executions[]; /* [exit] */
 };
 

@@ -16,7 +16,12 @@ enum trax_hole_kind {
   TRAX_HOLE_PC,
   TRAX_HOLE_PRECISION,
   TRAX_HOLE_MINUS_INPUT, /* -trax_space.input */
-  TRAX_HOLE_INPUT_BYTES  /* trax_space.input_bytes */
+  TRAX_HOLE_INPUT_BYTES, /* trax_space.input_bytes */
+  TRAX_HOLE_STEP_AT,     /* of bursts: the place of the step, for r14 + 2 * r15 */
+  TRAX_HOLE_STEP,        /* the step of a load of global memory, without its bank */
+  TRAX_HOLE_BANK_MASK,
+  TRAX_HOLE_LOCAL_STEP, /* the step of a load of local memory */
+  TRAX_HOLES
 };
 
 struct trax_template_hole {
@@ -45,6 +50,8 @@ enum { TRAX_MOST_BYTES = 16000, TRAX_MOST_STUBS = 8 };
 
 enum { TRAX_OP_LOOKUP = TRAX_OP_COUNT };
 extern const struct trax_template trax_templates[TRAX_OP_COUNT + 1][TRAX_VARIANTS];
+/* For bursts: of loads and stores; the others have no code here. */
+extern const struct trax_template trax_burst_templates[TRAX_OP_COUNT + 1][TRAX_VARIANTS];
 extern const uint8_t trax_template_pool[];
 extern const unsigned trax_template_pool_bytes;
 

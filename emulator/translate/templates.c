@@ -6,6 +6,7 @@
    The calling convention is that of Windows, since it keeps more registers than any other: translate.c has registers of
    the thread in them. An operand is in the general or the floating-point register of its position. Of each instruction
    there is a template for each choice; translate.c takes the shortest one. */
+#include "translate/burst.h"
 #include "translate/state.h"
 
 #include "machine/address_space.h"
@@ -29,7 +30,8 @@ TEMPLATE trax_is_slow(void); /* the interpreter must execute this instruction; n
 
 /* Constants, as addresses of symbols. They are weak, so that the compiler does not take them for other than 0. */
 extern const char trax_imm[] __attribute__((weak)), trax_pc[] __attribute__((weak)),
-    trax_precision[] __attribute__((weak));
+    trax_precision[] __attribute__((weak)), trax_step[] __attribute__((weak)), trax_bank_mask[] __attribute__((weak)),
+    trax_local_step[] __attribute__((weak));
 #define CONSTANT(SYMBOL) ((uint32_t)(uintptr_t)(SYMBOL))
 
 /* A member of the state, to which rbx points; split.awk refuses templates that use rbx otherwise, too. Instructions
@@ -41,11 +43,14 @@ extern const char trax_imm[] __attribute__((weak)), trax_pc[] __attribute__((wea
     value_;                                                                                                            \
   }))
 
-/* Whether the address is in trax_space.input. The constants are operands. */
-static inline bool is_input(uint32_t address) {
+/* Whether the address is in trax_space.input; of bursts: in the part of it that is not written. The constants are
+   operands. */
+static inline bool is_input(uint32_t address, const bool burst) {
   uint32_t offset;
   bool below;
   __asm__("lea trax_minus_input(%q1), %k0" : "=r"(offset) : "r"(address));
+  if (burst)
+    return offset < STATE(input_bytes);
   __asm__("cmp $trax_input_bytes, %1" : "=@ccb"(below) : "r"(offset));
   return below;
 }
@@ -64,6 +69,46 @@ static inline uint32_t read_bytes(const uint8_t *from, unsigned bytes) {
   if (bytes == 2)
     return memcpy(&half, from, sizeof half), half;
   return memcpy(&word, from, sizeof word), word;
+}
+
+/* --- what bursts record: r14 points to the burst, and r15 is the number of the sequence's first step --- */
+
+/* Adds the address to the burst's loads, and its bank to the step. */
+static inline void record_load(uint32_t address) {
+  const uint32_t step = (address << (TRAX_STEP_BANK_SHIFT - 2) & CONSTANT(trax_bank_mask)) | CONSTANT(trax_step);
+  uint64_t load;
+  __asm__ volatile("mov %c2(%%r14), %k0 # state\n\tmov %1, %c3(%%r14,%0,4) # state\n\tincl %c2(%%r14) # state"
+                   : "=&r"(load)
+                   : "r"(address), "i"(offsetof(struct trax_burst, load_count)), "i"(offsetof(struct trax_burst, loads))
+                   : "memory");
+  __asm__ volatile("movw %w0, trax_step_at(%%r14,%%r15,2) # state" : : "r"(step) : "memory");
+}
+
+static inline void record_local_load(void) {
+  const uint32_t step = CONSTANT(trax_local_step);
+  __asm__ volatile("movw %w0, trax_step_at(%%r14,%%r15,2) # state" : : "r"(step) : "memory");
+}
+
+/* Records a word of local memory before a store to it. */
+static inline void record_undo(uint32_t address, const uint8_t *place) {
+  uint64_t undo;
+  uint32_t word;
+  memcpy(&word, place, sizeof word);
+  __asm__ volatile("mov %c3(%%r14), %k0 # state\n\tmov %1, %c4(%%r14,%0,8) # state\n\t"
+                   "mov %2, %c4+4(%%r14,%0,8) # state\n\tincl %c3(%%r14) # state"
+                   : "=&r"(undo)
+                   : "r"(address), "r"(word), "i"(offsetof(struct trax_burst, undo_count)),
+                     "i"(offsetof(struct trax_burst, undo))
+                   : "memory");
+}
+
+/* Whether a burst can load from the address without being watched; then its block is LOADED. */
+static inline bool is_loadable(uint32_t address) {
+  uint8_t *const block = STATE(blocks) + (address >> TRAX_BLOCK_SHIFT);
+  const uint8_t state = __atomic_load_n(block, __ATOMIC_RELAXED);
+  if (state == 0)
+    __atomic_store_n(block, TRAX_BLOCK_LOADED, __ATOMIC_RELAXED);
+  return state <= TRAX_BLOCK_LOADED;
 }
 
 #define SLOW()                                                                                                         \
@@ -96,15 +141,22 @@ static inline uint32_t read_bytes(const uint8_t *from, unsigned bytes) {
     uint32_t word;                                                                                                     \
     if (__builtin_expect((address & (BYTES - 1)) != 0, 0))                                                             \
       SLOW();                                                                                                          \
-    if (__builtin_expect(is_input(address), 1))                                                                        \
+    if (__builtin_expect(is_input(address, burst), 1)) {                                                               \
       word = read_bytes(STATE(global) + address, BYTES);                                                               \
-    else if (address - TRAX_NULL_END < STATE(accessible) &&                                                            \
-             !(STATE(restrictions)[address / TRAX_GRANULE] & TRAX_HAS_HOLE))                                           \
+      if (burst)                                                                                                       \
+        record_load(address);                                                                                          \
+    } else if (address - TRAX_NULL_END < STATE(accessible) &&                                                          \
+               (burst ? is_loadable(address) : !(STATE(restrictions)[address / TRAX_GRANULE] & TRAX_HAS_HOLE))) {      \
       word = read_bytes(STATE(global) + address, BYTES);                                                               \
-    else if (address >= TRAX_LOCAL_BASE)                                                                               \
+      if (burst)                                                                                                       \
+        record_load(address);                                                                                          \
+    } else if (address >= TRAX_LOCAL_BASE) {                                                                           \
       word = read_bytes(STATE(local) + (address - TRAX_LOCAL_BASE), BYTES);                                            \
-    else                                                                                                               \
+      if (burst)                                                                                                       \
+        record_local_load();                                                                                           \
+    } else {                                                                                                           \
       SLOW();                                                                                                          \
+    }                                                                                                                  \
     word;                                                                                                              \
   }))
 #define STORE(ADDRESS, VALUE, BYTES)                                                                                   \
@@ -113,8 +165,12 @@ static inline uint32_t read_bytes(const uint8_t *from, unsigned bytes) {
     const uint32_t word = (VALUE);                                                                                     \
     if (__builtin_expect((address & (BYTES - 1)) != 0, 0))                                                             \
       SLOW();                                                                                                          \
-    if (__builtin_expect(address >= TRAX_LOCAL_BASE, 1))                                                               \
+    if (__builtin_expect(address >= TRAX_LOCAL_BASE, 1)) {                                                             \
+      if (burst)                                                                                                       \
+        record_undo(address & ~3u, STATE(local) + ((address & ~3u) - TRAX_LOCAL_BASE));                                \
       memcpy(STATE(local) + (address - TRAX_LOCAL_BASE), &word, BYTES);                                                \
+    } else if (burst)                                                                                                  \
+      SLOW();                                                                                                          \
     else if (address - TRAX_NULL_END < STATE(accessible) &&                                                            \
              !(STATE(restrictions)[address / TRAX_GRANULE] & (TRAX_RESTRICT_WRITE | TRAX_HAS_HOLE)))                   \
       memcpy(STATE(global) + address, &word, BYTES);                                                                   \
@@ -130,12 +186,17 @@ static inline uint32_t read_bytes(const uint8_t *from, unsigned bytes) {
 #define HALT() SLOW()
 #define NOWHERE UINT64_MAX
 
-#define TRAX_TEMPLATE(NAME, A, B, D, ...)                                                                              \
-  TEMPLATE trax_template_##NAME##_##A##_##B##_##D(A##_t a, B##_t b, D##_t d, const struct trax_translated *state) {    \
+#define TRAX_TEMPLATE(KIND, BURST, NAME, A, B, D, ...)                                                                 \
+  TEMPLATE trax_##KIND##_##NAME##_##A##_##B##_##D(A##_t a, B##_t b, D##_t d, const struct trax_translated *state) {    \
+    const bool burst = BURST;                                                                                          \
     const uint32_t ra = from_##A(a), rb = from_##B(b);                                                                 \
     uint32_t rd = from_##D(d);                                                                                         \
     uint64_t next_pc = NOWHERE;                                                                                        \
-    (void)ra, (void)rb, (void)state;                                                                                   \
+    (void)ra, (void)rb, (void)state, (void)burst;                                                                      \
+    if (burst && !(TRAX_FLAGS_##NAME & (TRAX_IS_LOAD | TRAX_IS_STORE))) {                                              \
+      trax_is_slow(); /* as a burst's template, it is not used */                                                      \
+      return;                                                                                                          \
+    }                                                                                                                  \
     __VA_ARGS__                                                                                                        \
     if (next_pc != NOWHERE && !(TRAX_FLAGS_##NAME & TRAX_WRITES_RD))                                                   \
       trax_jumps();                                                                                                    \
@@ -151,15 +212,18 @@ static inline uint32_t read_bytes(const uint8_t *from, unsigned bytes) {
 typedef uint32_t int_t;
 #define to_int(VALUE) (VALUE)
 #define to_float trax_to_float
+#define TRAX_TEMPLATES(KIND, BURST, NAME, ...)                                                                         \
+  TRAX_TEMPLATE(KIND, BURST, NAME, int, int, int, __VA_ARGS__)                                                         \
+  TRAX_TEMPLATE(KIND, BURST, NAME, int, int, float, __VA_ARGS__)                                                       \
+  TRAX_TEMPLATE(KIND, BURST, NAME, int, float, int, __VA_ARGS__)                                                       \
+  TRAX_TEMPLATE(KIND, BURST, NAME, int, float, float, __VA_ARGS__)                                                     \
+  TRAX_TEMPLATE(KIND, BURST, NAME, float, int, int, __VA_ARGS__)                                                       \
+  TRAX_TEMPLATE(KIND, BURST, NAME, float, int, float, __VA_ARGS__)                                                     \
+  TRAX_TEMPLATE(KIND, BURST, NAME, float, float, int, __VA_ARGS__)                                                     \
+  TRAX_TEMPLATE(KIND, BURST, NAME, float, float, float, __VA_ARGS__)
 #define TRAX_SEMANTICS(NAME, ...)                                                                                      \
-  TRAX_TEMPLATE(NAME, int, int, int, __VA_ARGS__)                                                                      \
-  TRAX_TEMPLATE(NAME, int, int, float, __VA_ARGS__)                                                                    \
-  TRAX_TEMPLATE(NAME, int, float, int, __VA_ARGS__)                                                                    \
-  TRAX_TEMPLATE(NAME, int, float, float, __VA_ARGS__)                                                                  \
-  TRAX_TEMPLATE(NAME, float, int, int, __VA_ARGS__)                                                                    \
-  TRAX_TEMPLATE(NAME, float, int, float, __VA_ARGS__)                                                                  \
-  TRAX_TEMPLATE(NAME, float, float, int, __VA_ARGS__)                                                                  \
-  TRAX_TEMPLATE(NAME, float, float, float, __VA_ARGS__)
+  TRAX_TEMPLATES(template, false, NAME, __VA_ARGS__)                                                                   \
+  TRAX_TEMPLATES(burst, true, NAME, __VA_ARGS__)
 #include "trax/semantics.inc"
 #undef TRAX_SEMANTICS
 #include "machine/semantics_end.h"

@@ -12,6 +12,8 @@
 enum {
   HOT = 32,      /* a sequence is translated after it was interpreted so often, */
   FIRST = 20000, /* and after any sequences were: then the first ones to be translated show which registers matter */
+  HOT_BURSTS = 8,
+  FIRST_BURSTS = 4000,
   PAGE = 4096,
   POOL_BYTES = PAGE
 };
@@ -19,10 +21,17 @@ enum {
 bool trax_translation_has(struct trax_translation *t, size_t index) {
   if (t->entry[index] != t->leave && !t->is_broken)
     return true;
-  t->interpreted++;
-  if (++t->heat[index] == t->hot_after && !t->ends)
-    t->hot[t->hot_count++] = (uint32_t)index;
+  __atomic_add_fetch(&t->interpreted, 1, __ATOMIC_RELAXED);
+  if (__atomic_add_fetch(&t->heat[index], 1, __ATOMIC_RELAXED) == t->hot_after && !t->ends)
+    t->hot[__atomic_fetch_add(&t->hot_count, 1, __ATOMIC_RELAXED)] = (uint32_t)index;
   return false;
+}
+
+void trax_translation_add(struct trax_translation *t, size_t index) {
+  if (t->heat[index] < t->hot_after) {
+    t->heat[index] = t->hot_after;
+    t->hot[t->hot_count++] = (uint32_t)index;
+  }
 }
 
 /* The first time: gives the host's registers to those that the hot sequences use most. */
@@ -35,6 +44,9 @@ static void begin_code(struct trax_translation *t) {
         break;
     }
   trax_set_places(t, weight);
+  t->distances = t->at;
+  for (unsigned i = 0; t->bursts && i < TRAX_PIECE; i++)
+    trax_emit_byte(t, i);
   trax_emit_frame(t);
   for (size_t i = 0; i < t->count; i++)
     t->entry[i] = t->leave;
@@ -107,7 +119,8 @@ static bool fill(struct trax_translation *t, const struct trax_text *text, const
   t->pc[index] = 1;
   t->decoded[index] = trax_text_at(text, 1);
   for (uint32_t i = 0; i < t->tms; i++) {
-    struct trax_translated *const state = calloc(1, sizeof *state + TRAX_EXITS * sizeof *state->executions);
+    const size_t exits = t->bursts ? 0 : TRAX_EXITS;
+    struct trax_translated *const state = calloc(1, sizeof *state + exits * sizeof *state->executions);
     if (!state)
       return false;
     t->state[i] = state;
@@ -116,19 +129,22 @@ static bool fill(struct trax_translation *t, const struct trax_text *text, const
     state->accessible = space->size - TRAX_NULL_END;
     state->begin = text->count ? text->segments[0].begin : 0;
     state->bytes = text->count ? text->segments[0].end - state->begin : 0;
+    state->blocks = t->bursts ? t->bursts->blocks : NULL;
   }
   return true;
 }
 
 struct trax_translation *trax_translation_create(const struct trax_text *text, const struct trax_space *space,
-                                                 unsigned precision, uint32_t tms, bool at_once) {
+                                                 unsigned precision, uint32_t tms, bool at_once,
+                                                 const struct trax_burst_facts *bursts) {
   struct trax_translation *const t = calloc(1, sizeof *t);
   if (!t)
     return NULL;
   t->space = space;
+  t->bursts = bursts;
   t->precision = precision;
-  t->hot_after = at_once ? 1 : HOT;
-  t->first = at_once ? 0 : FIRST;
+  t->hot_after = at_once ? 1 : bursts ? HOT_BURSTS : HOT;
+  t->first = at_once ? 0 : bursts ? FIRST_BURSTS : FIRST;
   t->tms = tms;
   t->count = 1;
   for (size_t i = 0; i < text->count; i++)
@@ -138,7 +154,8 @@ struct trax_translation *trax_translation_create(const struct trax_text *text, c
   t->heat = calloc(t->count, sizeof *t->heat);
   t->hot = calloc(t->count, sizeof *t->hot);
   t->state = calloc(tms, sizeof *t->state);
-  const size_t table_bytes = (t->count * sizeof *t->entry + PAGE - 1) / PAGE * PAGE;
+  const size_t step_bytes = bursts ? (t->count + TRAX_PIECE) * sizeof *t->step : 0;
+  const size_t table_bytes = (t->count * sizeof *t->entry + step_bytes + PAGE - 1) / PAGE * PAGE;
   t->mapping_bytes = table_bytes + POOL_BYTES + TRAX_CODE;
   void *const mapping = mmap(NULL, t->mapping_bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   t->mapping = mapping == MAP_FAILED ? NULL : mapping;
@@ -148,17 +165,23 @@ struct trax_translation *trax_translation_create(const struct trax_text *text, c
     return NULL;
   }
   t->entry = (const uint8_t **)t->mapping;
+  t->step = (uint16_t *)(t->entry + t->count);
+  if (bursts)
+    memcpy(t->step, bursts->step, t->count * sizeof *t->step);
   t->pool = t->mapping + table_bytes;
   memcpy(t->mapping + table_bytes, trax_template_pool, trax_template_pool_bytes);
   t->code = t->at = t->mapping + table_bytes + POOL_BYTES;
+  for (size_t i = bursts && at_once ? t->count : 0; i-- > 0;)
+    trax_translation_add(t, i); /* a burst may begin anywhere */
   return t;
 }
 
 #else /* another host: nothing is translated */
 
 struct trax_translation *trax_translation_create(const struct trax_text *text, const struct trax_space *space,
-                                                 unsigned precision, uint32_t tms, bool at_once) {
-  (void)text, (void)space, (void)precision, (void)tms, (void)at_once;
+                                                 unsigned precision, uint32_t tms, bool at_once,
+                                                 const struct trax_burst_facts *bursts) {
+  (void)text, (void)space, (void)precision, (void)tms, (void)at_once, (void)bursts;
   return NULL;
 }
 void trax_translation_destroy(struct trax_translation *t) {
@@ -175,6 +198,10 @@ enum trax_translated_end trax_translation_run(struct trax_translation *t, size_t
                                               struct trax_translated_thread *thread) {
   (void)t, (void)index, (void)thread;
   return TRAX_TRANSLATED_SLOW;
+}
+unsigned trax_translation_burst(struct trax_translation *t, size_t index, struct trax_translated_burst *run) {
+  (void)t, (void)index, (void)run;
+  return 0;
 }
 void trax_translation_collect(struct trax_translation *t, uint32_t tm, int64_t *deltas) {
   (void)t, (void)tm, (void)deltas;

@@ -23,7 +23,10 @@ HAND = ["runs", "faults"]
 TESTS = [(["timing-rules-test", "docs/timing-rules.md"], {}), (["timing-dram-test"], {})]
 TESTS += [([f"timing-{name}-test"], {"TRAX_ENGINE": engine}) for engine in ("fast", "reference") for name in HAND]
 TESTS += [(["timing-bandwidth-test"], {})]
-TESTS += [(["timing-engines-test", "--count", "200", "--jobs", "2", "--stop"], {}), (["timing-state-test"], {}),
+TESTS += [(["timing-translated-test"], {})]
+TESTS += [(["timing-engines-test", "--engine", engine, "--count", "200", "--jobs", "2", "--stop"], {})
+          for engine in ("fast-translated", "fast")]
+TESTS += [(["timing-state-test"], {}),
           (["timing-epochs-test"], {}), (["timing-checkpoint-test"], {})]
 SECONDS = 60  # of a processor, that a test may take
 TARGETS = sorted({test[0][0] for test in TESTS})

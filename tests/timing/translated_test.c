@@ -1,5 +1,5 @@
-/* Translated code against the interpreter of the functional engine: random programs, to the last count and byte. Then
-   one template after the other is replaced by a wrong one, and each must be noticed. */
+/* Translated code against the interpreters of the functional and the fast engine: random programs, to the last count
+   and byte. Then one template after the other is replaced by a wrong one, and each must be noticed. */
 #include "cases.h"
 
 #include "translate/template.h"
@@ -8,18 +8,24 @@
 
 enum { CASES = 60, MOST_CASES = 600 };
 
+/* What is compared. */
+struct engines {
+  const char *interpreted, *translated;
+  uint64_t most; /* instructions of a thread, or cycles: a wrong jump may loop */
+};
+static const struct engines functional = {"functional-interpreted", "functional-translated", 40000},
+                            bursts = {"fast-interpreted", "fast-translated", 20000};
+
 static void give_input(void *context, struct trax_machine *machine) {
   (void)context;
   machine->space.input = DATA;
   machine->space.input_bytes = DATA_BYTES / 2;
 }
 
-static bool is_different(unsigned seed, struct difference *difference) {
-  struct random_case c = case_of_seed(seed);
-  const uint64_t most = 40000; /* instructions of a thread: a wrong jump may loop */
+static bool is_different(const struct engines *engines, struct random_case c, struct difference *difference) {
   c.config.ray.units_per_group += c.config.ray.units_per_group == 0;
-  const trax_run_options interpreted = {.engine = "functional-interpreted", .max_cycles = most};
-  const trax_run_options translated = {.engine = "functional-translated", .max_cycles = most};
+  const trax_run_options interpreted = {.engine = engines->interpreted, .max_cycles = engines->most, .host_threads = 1};
+  const trax_run_options translated = {.engine = engines->translated, .max_cycles = engines->most, .host_threads = 1};
   struct run a = run_prepared(&c.config, c.words, c.count, &interpreted, give_input, NULL);
   struct run b = run_prepared(&c.config, c.words, c.count, &translated, give_input, NULL);
   assert_int_not_equal(a.bench.status, TRAX_ERROR);
@@ -37,10 +43,10 @@ static bool is_different(unsigned seed, struct difference *difference) {
 }
 
 static void test_equal(void **state) {
-  (void)state;
+  const struct engines *const engines = *state;
   for (unsigned seed = 0; seed < setting("TRAX_RANDOM_ROUNDS", CASES); seed++) {
     struct difference difference = {""};
-    if (is_different(seed, &difference))
+    if (is_different(engines, case_of_seed(seed), &difference))
       fail_msg("seed %u: %s", seed, difference.text);
   }
 }
@@ -69,11 +75,17 @@ static void test_large_sequences(void **state) {
   end(&b);
 }
 
-struct trax_template *mutable_templates(unsigned op); /* mutable_templates.c */
+struct trax_template *mutable_templates(unsigned op), *mutable_burst_templates(unsigned op); /* mutable_templates.c */
 
 static bool is_slow(unsigned op) {
   const struct trax_template_part *hot = &mutable_templates(op)[0].hot;
   return hot->bytes == 5 && hot->hole_count == 1 && hot->holes[0].kind == TRAX_HOLE_SLOW;
+}
+
+/* The templates of an instruction: bursts have others of loads and stores. */
+static struct trax_template *templates_of(const struct engines *engines, unsigned op) {
+  return engines == &bursts && mutable_burst_templates(op)[0].hot.bytes ? mutable_burst_templates(op)
+                                                                        : mutable_templates(op);
 }
 
 /* Another instruction with the same operands, or none. Only those that read groups have the state as an operand. */
@@ -90,16 +102,71 @@ static unsigned partner_of(unsigned op) {
   return TRAX_OP_ILLEGAL;
 }
 
-static void add_to_constants(unsigned op, int32_t difference) {
+static void add_to_constants(struct trax_template *templates, int32_t difference) {
   for (unsigned v = 0; v < TRAX_VARIANTS; v++)
-    for (unsigned i = 0; i < mutable_templates(op)[v].hot.hole_count; i++) {
-      struct trax_template_hole *hole = (struct trax_template_hole *)(uintptr_t)&mutable_templates(op)[v].hot.holes[i];
+    for (unsigned i = 0; i < templates[v].hot.hole_count; i++) {
+      struct trax_template_hole *hole = (struct trax_template_hole *)(uintptr_t)&templates[v].hot.holes[i];
       hole->addend += hole->kind == TRAX_HOLE_IMM || hole->kind == TRAX_HOLE_PC ? difference : 0;
     }
 }
 
+enum { INPUT = 20, LOCAL, ROUNDS, OUTPUT, OTHERS, LINK };
+
+/* Appends an instruction of the operation with random operands, which accesses only what the thread may, and jumps over
+   one instruction. Only part of global memory is input; a burst stores to local memory alone. */
+static void append(struct random_case *c, unsigned op, uint32_t random) {
+  const unsigned flags = trax_op_table[op].flags, rd = 1 + random % 12;
+  trax_inst inst = {op, (uint8_t)rd, (uint8_t)(1 + (random >> 4) % 12), (uint8_t)(1 + (random >> 8) % 12),
+                    (int32_t)(random >> 12) % 32};
+  if (flags & (TRAX_IS_LOAD | TRAX_IS_STORE)) {
+    const uint8_t bases[] = {LOCAL, INPUT, OTHERS};
+    inst.ra = flags & TRAX_IS_STORE ? LOCAL : bases[(random >> 4) % 3];
+    inst.imm = (int32_t)(4 * ((random >> 12) % 16));
+  }
+  if (op == TRAX_OP_JALR) {
+    c->words[c->count++] = J(LINK, 8);
+    c->words[c->count++] = NOP;
+    inst.ra = LINK;
+    inst.imm = 12;
+  }
+  inst.imm = flags & TRAX_IS_RELATIVE ? 8 : inst.imm;
+  c->words[c->count++] = trax_encode(inst);
+  c->words[c->count++] = I(ADDI, rd, rd, 1);
+}
+
+/* Two threads that execute an operation often and store what follows from it: neither is alone. */
+static struct random_case case_of_operation(unsigned op, unsigned seed) {
+  struct random_case c = {.config = bench_near(1, 2)};
+  uint32_t random = seed * 2654435761u + 12345;
+  const uint32_t begin[] = {U(LUI, INPUT, 1),           I(ADDI, LOCAL, 0, -256),   I(ADDI, OTHERS, 0, 0x188),
+                            I(SLLI, OTHERS, OTHERS, 8), I(ADDI, OUTPUT, 0, 0x1F0), I(SLLI, OUTPUT, OUTPUT, 8),
+                            I(ADDI, ROUNDS, 0, 4)};
+  memcpy(c.words, begin, sizeof begin);
+  c.count = sizeof begin / sizeof *begin;
+  const size_t round = c.count;
+  for (unsigned i = 1; i <= 12; i++)
+    c.words[c.count++] = I(LW, i, i % 2 ? INPUT : OTHERS, (int32_t)(4 * i + 64 * (seed % 8)));
+  for (unsigned i = 1; i <= 6; i++) /* small numbers, too */
+    c.words[c.count++] = I(ANDI, i, i, 31);
+  for (unsigned i = 0; i < 24; i++, random = random * 1664525 + 1013904223)
+    append(&c, op, random >> 3);
+  for (unsigned i = 1; i <= 12; i++)
+    c.words[c.count++] = S(SW, i, OUTPUT, (int32_t)(4 * i));
+  for (unsigned i = 0; i < 16; i++) {
+    c.words[c.count++] = I(LW, 1, LOCAL, (int32_t)(4 * i));
+    c.words[c.count++] = S(SW, 1, OUTPUT, (int32_t)(64 + 4 * i));
+  }
+  c.words[c.count++] = I(ADDI, INPUT, INPUT, 64); /* each round has other data */
+  c.words[c.count++] = I(ADDI, OTHERS, OTHERS, 64);
+  c.words[c.count++] = I(ADDI, ROUNDS, ROUNDS, -1);
+  c.words[c.count] = B(BNE, ROUNDS, 0, -4 * (int32_t)(c.count - round));
+  c.words[++c.count] = HALT;
+  c.count++;
+  return c;
+}
+
 static void test_mutants(void **state) {
-  (void)state;
+  const struct engines *const engines = *state;
   const size_t bytes = sizeof(struct trax_template[TRAX_VARIANTS]);
   for (unsigned op = 1; op < TRAX_OP_COUNT; op++) {
     struct trax_template saved[TRAX_VARIANTS];
@@ -107,17 +174,19 @@ static void test_mutants(void **state) {
     const unsigned partner = partner_of(op);
     if (is_slow(op))
       continue;
-    memcpy(saved, mutable_templates(op), bytes);
+    struct trax_template *const templates = templates_of(engines, op);
+    memcpy(saved, templates, bytes);
     if (partner)
-      memcpy(mutable_templates(op), mutable_templates(partner), bytes);
+      memcpy(templates, templates_of(engines, partner), bytes);
     else
-      add_to_constants(op, 4);
+      add_to_constants(templates, 4);
     unsigned seed = 0;
-    while (seed < MOST_CASES && !is_different(seed, &difference))
+    while (seed < MOST_CASES &&
+           !is_different(engines, engines == &bursts ? case_of_operation(op, seed) : case_of_seed(seed), &difference))
       seed++;
     if (!partner)
-      add_to_constants(op, -4);
-    memcpy(mutable_templates(op), saved, bytes);
+      add_to_constants(templates, -4);
+    memcpy(templates, saved, bytes);
     if (seed == MOST_CASES)
       fail_msg("nobody notices that %s executes as %s", trax_op_table[op].name,
                partner ? trax_op_table[partner].name : "something else");
@@ -125,7 +194,10 @@ static void test_mutants(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_equal), cmocka_unit_test(test_large_sequences),
-                                     cmocka_unit_test(test_mutants)};
+  void *const both[] = {(void *)(uintptr_t)&functional, (void *)(uintptr_t)&bursts};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test_prestate(test_equal, both[0]), cmocka_unit_test(test_large_sequences),
+      cmocka_unit_test_prestate(test_mutants, both[0]), cmocka_unit_test_prestate(test_equal, both[1]),
+      cmocka_unit_test_prestate(test_mutants, both[1])};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

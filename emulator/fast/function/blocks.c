@@ -42,8 +42,8 @@ static void roll_back_tp(struct trax_chip *chip, struct trax_tm *tm, unsigned nu
   struct trax_tp *tp = &tm->tp[number];
   if (tm->executes_at_issue & bit)
     return;
-  while (tp->undo_count) {
-    const struct trax_fast_undo *undo = &tp->undo[--tp->undo_count];
+  while (tp->burst.undo_count) {
+    const struct trax_burst_undo *undo = &tp->burst.undo[--tp->burst.undo_count];
     memcpy(undo->address < TRAX_LOCAL_BASE ? chip->machine->space.bytes + undo->address
                                            : tp->local + (undo->address - TRAX_LOCAL_BASE),
            &undo->word, sizeof undo->word);
@@ -51,7 +51,7 @@ static void roll_back_tp(struct trax_chip *chip, struct trax_tm *tm, unsigned nu
   memcpy(tp->reg, tp->begin_reg, sizeof tp->begin_reg);
   const unsigned issued = tm->heads.at[number];
   const uint32_t head = trax_fast_head(tm, number);
-  const uint16_t step = tp->step[issued];                          /* the head needs the same resources as before */
+  const uint16_t step = tp->burst.step[issued];                    /* the head needs the same resources as before */
   trax_fast_end_burst(tm, number, tm->heads.last[number] + 1u, 0); /* takes the whole burst off the counts */
   tp->resume = tp->begin;
   tp->resume_pc = chip->program.timing[tp->begin - chip->program.inst].pc;
@@ -78,9 +78,9 @@ static void roll_back_readers(struct trax_tm *tm, uint64_t bits, uint32_t begin,
     if (!(tm->watched[number] & bits))
       continue;
     uint32_t i = 0;
-    while (i < tp->load_count && (tp->loads[i] & ~3u) - begin >= bytes)
+    while (i < tp->burst.load_count && (tp->burst.loads[i] & ~3u) - begin >= bytes)
       i++;
-    if (i < tp->load_count)
+    if (i < tp->burst.load_count)
       roll_back_tp(tm->chip, tm, number);
   }
 }
@@ -92,9 +92,10 @@ void trax_fast_roll_back_readers(struct trax_tm *tm, uint32_t address) {
 void trax_fast_record_readers(struct trax_tm *tm) {
   const uint8_t *const state = tm->chip->blocks.state;
   for (unsigned number = 0; number < tm->tps; number++)
-    for (uint32_t i = 0; tm->watched[number] && i < tm->tp[number].load_count; i++)
-      if (__atomic_load_n(&state[tm->tp[number].loads[i] >> TRAX_BLOCK_SHIFT], __ATOMIC_RELAXED) >= TRAX_BLOCK_WRITTEN)
-        trax_store_buffer_read(tm->buffer, tm->tp[number].loads[i]);
+    for (uint32_t i = 0; tm->watched[number] && i < tm->tp[number].burst.load_count; i++)
+      if (__atomic_load_n(&state[tm->tp[number].burst.loads[i] >> TRAX_BLOCK_SHIFT], __ATOMIC_RELAXED) >=
+          TRAX_BLOCK_WRITTEN)
+        trax_store_buffer_read(tm->buffer, tm->tp[number].burst.loads[i]);
 }
 
 /* After a roll back of all TPs: makes all blocks around an address WRITTEN, so that their first writes need no roll

@@ -3,12 +3,10 @@
 #define TRAX_FAST_BLOCKS_H
 
 #include "machine/address_space.h"
+#include "translate/burst.h"
 
 struct trax_chip;
 struct trax_tm;
-
-/* The state of a block of global memory in the run (blocks.c). */
-enum { TRAX_BLOCK_SHIFT = 4, TRAX_BLOCK_LOADED = 1, TRAX_BLOCK_WRITTEN, TRAX_BLOCK_SHARED, TRAX_BLOCK_HOLE };
 
 struct trax_fast_blocks {
   /* [block]: 0, then LOADED by a burst, then WRITTEN, then SHARED; or a later one at once. Several TMs may set LOADED

@@ -2,7 +2,7 @@
    to other TPs or whose result depends on time: atomic increments, stores to global memory unless the thread is alone,
    loads from shared blocks, loads and stores past the cache, fences, reads of the cycle counter, traps, ends of
    threads, and all instructions that fault. */
-#include "fast/chip.h"
+#include "fast/time/head.h"
 #define inline __inline__ __attribute__((always_inline)) /* a call costs as much as an instruction */
 #include "trax/semantics.h"
 #undef inline
@@ -19,11 +19,13 @@ static inline unsigned data_bank(uint32_t banks, uint32_t mask, uint32_t address
 }
 
 /* Records `count` instructions from index on as the steps from `at` on, a segment of the burst. */
-static inline void record_segment(struct trax_tp *tp, unsigned segment, unsigned at, const uint16_t *step,
-                                  uint32_t index, const unsigned count) {
-  memcpy(tp->step + at, step, count * sizeof *step);
-  memset(tp->segment + at, (int)segment, count);
-  tp->origin[segment] = index - at;
+static inline void record_segment(struct trax_burst *burst, unsigned at, const uint16_t *step, uint32_t index,
+                                  const unsigned count) {
+  static const uint8_t distance[TRAX_CHUNK] = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 12, 13, 14, 15,
+                                               16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31};
+  memcpy(burst->step + at, step, count * sizeof *step);
+  memcpy(burst->distance + at, distance, count);
+  burst->index[at] = index;
 }
 
 /* Loads from a WRITTEN block: before the word is written again, the TP rolls back. */
@@ -39,7 +41,7 @@ static __attribute__((noinline)) bool store_ahead(const struct trax_chip *chip, 
   const struct trax_space *space = &chip->machine->space;
   if (trax_space_check(space, address, bytes, true) || address - chip->blocks.input < chip->blocks.input_bytes)
     return false;
-  struct trax_fast_undo *const undo = &tp->undo[tp->undo_count++];
+  struct trax_burst_undo *const undo = &tp->burst.undo[tp->burst.undo_count++];
   undo->address = address & ~3u;
   memcpy(&undo->word, space->bytes + undo->address, sizeof undo->word);
   memcpy(space->bytes + address, &value, bytes);
@@ -59,7 +61,49 @@ const void *const *trax_fast_operations(void) {
   return operations;
 }
 
+/* Executes the translated burst from `resume` on. 0: its first instruction must be interpreted. */
+static unsigned run_translated(struct trax_chip *chip, struct trax_tm *tm, unsigned number) {
+  const struct trax_fast_program *const program = &chip->program;
+  struct trax_tp *const tp = &tm->tp[number];
+  struct trax_translated_burst run = {.reg = tp->reg,
+                                      .local = tp->local,
+                                      .deltas = tm->count_deltas,
+                                      .burst = &tp->burst,
+                                      .tm = tm->number,
+                                      .input_bytes = chip->blocks.input_bytes};
+  const size_t begin = (size_t)(tp->resume - program->inst);
+  const unsigned count = trax_translation_burst(chip->translation, begin, &run);
+  if (!count)
+    return 0;
+  tm->watched[number] = 0;
+  tm->count_deltas[begin]++;
+  if (run.index == TRAX_NO_INDEX) {
+    const uint32_t end = trax_fast_index(tp, count - 1) + 1;
+    tp->resume = trax_fast_inst_at(program, run.pc);
+    if (run.pc == program->timing[end].pc) { /* no jump */
+      tp->resume = &program->inst[end];
+    } else {
+      tm->count_deltas[end]--;
+      tm->count_deltas[tp->resume - program->inst]++;
+      tp->burst.jumps++;
+      tp->burst.step[count - 1] |= (uint16_t)chip->facts.slow_jump;
+    }
+  } else {
+    tp->resume = &program->inst[run.index];
+  }
+  const size_t next = (size_t)(tp->resume - program->inst);
+  tm->count_deltas[next]--;
+  tp->resume_pc = tp->resume == program->no_text ? run.pc : program->timing[next].pc;
+  return count;
+}
+
 unsigned trax_fast_burst(struct trax_chip *chip, struct trax_tm *tm, unsigned number, unsigned limit) {
-  return limit == TRAX_BURST && !tm->tp[number].atomics ? burst_whole(chip, tm, number, limit, NULL)
-                                                        : burst_exactly(chip, tm, number, limit, NULL);
+  const struct trax_tp *const tp = &tm->tp[number];
+  unsigned count = 0;
+  if (limit != TRAX_BURST || tp->atomics)
+    return burst_exactly(chip, tm, number, limit, NULL);
+  if (chip->translation && !tp->alone && tp->resume->op != TRAX_OP_ILLEGAL &&
+      trax_translation_has(chip->translation, (size_t)(tp->resume - chip->program.inst)))
+    count = run_translated(chip, tm, number);
+  return count ? count : burst_whole(chip, tm, number, limit, NULL);
 }

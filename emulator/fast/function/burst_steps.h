@@ -16,6 +16,7 @@ static unsigned BURST(struct trax_chip *chip, struct trax_tm *tm, unsigned numbe
   uint32_t *const reg = tp->reg;
   uint8_t *const local = tp->local, *const global = chip->machine->space.bytes;
   const struct trax_fast_program *const program = &chip->program;
+  struct trax_burst *const burst = &tp->burst;
   const struct trax_fast_inst *inst = tp->resume;
   const struct trax_config *const config = tm->config;
   const uint16_t slow_local = config->tp.local_latency_cycles > 1 ? TRAX_STEP_SLOW : 0;
@@ -25,14 +26,14 @@ static unsigned BURST(struct trax_chip *chip, struct trax_tm *tm, unsigned numbe
   const uint64_t accessible = chip->machine->space.size - TRAX_NULL_END;
   const uint32_t input = chip->blocks.input, input_bytes = chip->blocks.input_bytes;
   uint32_t address, word, jumps = 0;
-  unsigned loads = 0, segment = 0;
+  unsigned loads = 0;
   uint64_t resume_pc = tp->resume_pc; /* the latest jump's target, needed if it is no text */
   int64_t *const count_deltas = tm->count_deltas;
   uint64_t lines = 0;
   /* A burst that is executed again may have loaded from a block before it was SHARED. Its limit is less. */
   const bool alone = tp->alone;
   const uint8_t last_loadable = limit < TRAX_BURST || alone ? TRAX_BLOCK_SHARED : TRAX_BLOCK_WRITTEN;
-  tp->undo_count = 0;
+  burst->undo_count = 0;
   tm->watched[number] = 0;
   /* The number of inst's step is its distance from `begin`, which changes with each jump. */
   uintptr_t begin = (uintptr_t)inst;
@@ -49,7 +50,7 @@ static unsigned BURST(struct trax_chip *chip, struct trax_tm *tm, unsigned numbe
     address = (ADDRESS);                                                                                               \
     at = AT;                                                                                                           \
     word = 0;                                                                                                          \
-    tp->loads[loads] = address;                                                                                        \
+    burst->loads[loads] = address;                                                                                     \
     if (address & (BYTES - 1))                                                                                         \
       goto stop;                                                                                                       \
     if (LIKELY(address - input < input_bytes) || address - TRAX_NULL_END < accessible) {                               \
@@ -68,10 +69,10 @@ static unsigned BURST(struct trax_chip *chip, struct trax_tm *tm, unsigned numbe
         }                                                                                                              \
       }                                                                                                                \
       loads++;                                                                                                         \
-      tp->step[at] |= (uint16_t)(TRAX_STEP_BANK | data_bank(banks, bank_mask, address) << TRAX_STEP_BANK_SHIFT);       \
+      burst->step[at] |= (uint16_t)(TRAX_STEP_BANK | data_bank(banks, bank_mask, address) << TRAX_STEP_BANK_SHIFT);    \
     } else if (address >= TRAX_LOCAL_BASE) {                                                                           \
       memcpy(&word, local + (address - TRAX_LOCAL_BASE), BYTES);                                                       \
-      tp->step[at] |= slow_local;                                                                                      \
+      burst->step[at] |= slow_local;                                                                                   \
     } else {                                                                                                           \
       goto stop;                                                                                                       \
     }                                                                                                                  \
@@ -82,17 +83,17 @@ static unsigned BURST(struct trax_chip *chip, struct trax_tm *tm, unsigned numbe
     address = (ADDRESS);                                                                                               \
     word = (VALUE);                                                                                                    \
     if (EXACTLY)                                                                                                       \
-      tp->loads[loads] = address; /* for an observer */                                                                \
+      burst->loads[loads] = address; /* for an observer */                                                             \
     if (address >= TRAX_LOCAL_BASE && !(address & (BYTES - 1))) {                                                      \
-      struct trax_fast_undo *const undo = &tp->undo[tp->undo_count++];                                                 \
+      struct trax_burst_undo *const undo = &burst->undo[burst->undo_count++];                                          \
       uint8_t *const place = local + ((address - TRAX_LOCAL_BASE) & ~3u);                                              \
       undo->address = address & ~3u;                                                                                   \
       memcpy(&undo->word, place, sizeof undo->word);                                                                   \
       memcpy(place + (address & 3), &word, BYTES);                                                                     \
     } else if (alone && store_ahead(chip, tp, address, word, BYTES)) {                                                 \
       at = AT;                                                                                                         \
-      tp->loads[loads++] = address;                                                                                    \
-      tp->step[at] |=                                                                                                  \
+      burst->loads[loads++] = address;                                                                                 \
+      burst->step[at] |=                                                                                               \
           (uint16_t)(TRAX_STEP_BANK | TRAX_STEP_SLOW | data_bank(banks, bank_mask, address) << TRAX_STEP_BANK_SHIFT);  \
     } else {                                                                                                           \
       goto stop;                                                                                                       \
@@ -125,7 +126,7 @@ static unsigned BURST(struct trax_chip *chip, struct trax_tm *tm, unsigned numbe
     if (next_pc != NOWHERE && (is_relative || (uint32_t)next_pc != PC + 4)) {                                          \
       jumps++;                                                                                                         \
       at = AT;                                                                                                         \
-      tp->step[at] |= slow_jump;                                                                                       \
+      burst->step[at] |= slow_jump;                                                                                    \
       count_deltas[inst + 1 - program->inst]--;                                                                        \
       if (is_relative) {                                                                                               \
         inst += inst->imm / 4;                                                                                         \
@@ -152,11 +153,11 @@ chunk:
 #if EXACTLY
   if (at == limit || (program->timing[index].waits & (uint32_t)tp->atomics))
     goto stop;
-  record_segment(tp, segment++, at, program->step + index, index, 1);
+  record_segment(burst, at, program->step + index, index, 1);
 #else
   if (at + TRAX_CHUNK - index % TRAX_CHUNK > limit)
     goto stop;
-  record_segment(tp, segment++, at, program->step + index, index, TRAX_CHUNK); /* also steps that are not reached */
+  record_segment(burst, at, program->step + index, index, TRAX_CHUNK); /* also steps that are not reached */
 #endif
   __extension__({ goto *places[inst->op]; });
 
@@ -164,9 +165,9 @@ stop:
   count_deltas[inst - program->inst]--;
   tp->resume = inst;
   tp->resume_pc = inst == program->no_text ? (uint32_t)resume_pc : program->timing[inst - program->inst].pc;
-  tp->burst_jumps = jumps;
-  tp->burst_lines = lines;
-  tp->load_count = loads;
+  burst->jumps = jumps;
+  burst->lines = lines;
+  burst->load_count = loads;
   return AT;
 }
 

@@ -5,12 +5,9 @@
 #include "machine/fast_path.h"
 #include "machine/text.h"
 #include "machine/units.h"
+#include "translate/burst.h"
 
-enum {
-  TRAX_BURST = 128, /* limit of a burst's instructions: a TM's bursts should fit in the host's caches */
-  TRAX_CHUNK = 32,  /* instructions of a chunk, which begins at a multiple of it */
-  TRAX_FAST_LINES = TRAX_KNOWN_LINES + 1 /* entries of `resident`; the last one stands for all further lines */
-};
+enum { TRAX_FAST_LINES = TRAX_KNOWN_LINES + 1 /* entries of `resident`; the last one stands for all further lines */ };
 
 /* The first kind of shared units that TRAX_STEP_FURTHER encodes. */
 #define TRAX_FAST_FURTHER ((unsigned)TRAX_SHARED_SPECIAL + 1)

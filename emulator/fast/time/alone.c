@@ -50,11 +50,11 @@ static bool store(struct trax_tm *tm, unsigned number, unsigned at, unsigned loa
   struct trax_tp *tp = &tm->tp[number];
   const struct trax_fast_timing *timing = &tm->chip->program.timing[trax_fast_index(tp, at)];
   if (!timing->decoded->is_store || !tm->config->memory.write_combining ||
-      (tp->run_begin != tp->run_end && !trax_tp_combines(tp, tp->loads[load], timing->decoded->bytes)))
+      (tp->run_begin != tp->run_end && !trax_tp_combines(tp, tp->burst.loads[load], timing->decoded->bytes)))
     return false;
   tp->inst = timing->decoded;
   tp->pc = timing->pc;
-  tp->address = tp->loads[load];
+  tp->address = tp->burst.loads[load];
   trax_tm_serve(tm, number, t);
   return true;
 }
@@ -74,10 +74,10 @@ bool trax_fast_run_alone(struct trax_tm *tm, uint64_t t, uint64_t end) {
   uint64_t hits = 0;
   struct used used = {0};
   for (; t < end && at < last; t++, at++) {
-    const unsigned step = tp->step[at], kind = step & TRAX_STEP_KIND;
+    const unsigned step = tp->burst.step[at], kind = step & TRAX_STEP_KIND;
     if (kind == TRAX_STEP_BANK) {
       if (step & TRAX_STEP_SLOW ? !store(tm, number, at, load, t)
-                                : !trax_cache_tags_have(tags, trax_line_of(tags, tp->loads[load])))
+                                : !trax_cache_tags_have(tags, trax_line_of(tags, tp->burst.loads[load])))
         break;
       hits += !(step & TRAX_STEP_SLOW);
       load++;

@@ -133,7 +133,7 @@ static bool classify(struct trax_tm *tm, unsigned number, uint64_t t) {
     else
       step |= (uint16_t)(TRAX_STEP_BANK | tp->address / 4 % tm->data_banks << TRAX_STEP_BANK_SHIFT);
   }
-  tm->tp[number].step[0] = step | TRAX_STEP_SLOW;
+  tm->tp[number].burst.step[0] = step | TRAX_STEP_SLOW;
   trax_fast_set_head(&tm->heads, number, 0);
   return true;
 }

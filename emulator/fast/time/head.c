@@ -11,21 +11,16 @@ static void drop_arrived(struct trax_tp *tp) {
       tp->atomics &= ~(rest & -rest);
 }
 
-/* Whether all lines of the burst are resident. burst_lines may contain lines that the burst does not execute, and is
-   ambiguous for programs of more than 64 lines: if it does not decide, the steps are checked. */
+/* Whether all lines of the burst are resident. trax_burst.lines may contain lines that the burst does not execute, and
+   is ambiguous for programs of more than 64 lines: if it does not decide, the steps are checked. */
 static bool all_resident(const struct trax_tm *tm, unsigned number, unsigned count) {
   const struct trax_tp *tp = &tm->tp[number];
   const unsigned icache = tm->icache_of[number];
-  if (!(tp->burst_lines & ~tm->resident_lines[icache]))
+  if (!(tp->burst.lines & ~tm->resident_lines[icache]))
     return true;
-  for (unsigned i = 0; i < count;) {
-    const uint8_t segment = tp->segment[i];
-    const uint32_t origin = tp->origin[segment]; /* as trax_fast_index, which wraps around */
-    do
-      if (!tm->resident[icache][tm->chip->program.line[origin + i]])
-        return false;
-    while (++i < count && tp->segment[i] == segment);
-  }
+  for (unsigned i = 0; i < count; i++)
+    if (!tm->resident[icache][tm->chip->program.line[trax_fast_index(tp, i)]])
+      return false;
   return true;
 }
 
@@ -61,8 +56,8 @@ void trax_fast_refill(struct trax_tm *tm, unsigned number) {
   if (count) {
     tm->executes_at_issue &= ~bit;
     tm->uncertain = (tm->uncertain & ~bit) | (all_resident(tm, number, count) ? 0 : bit);
-    tp->ends_slowly = tp->step[count - 1] & TRAX_STEP_SLOW;
-    tp->step[count - 1] |= TRAX_STEP_SLOW;
+    tp->ends_slowly = tp->burst.step[count - 1] & TRAX_STEP_SLOW;
+    tp->burst.step[count - 1] |= TRAX_STEP_SLOW;
     tm->heads.last[number] = (uint8_t)(count - 1);
     trax_fast_set_load(tm, number, 0);
     tm->heads.check_at[number] = (tm->busy | tm->uncertain) & bit ? 0 : NO_CHECK;
@@ -99,7 +94,7 @@ void trax_fast_export_head(struct trax_tm *tm, unsigned number) {
 void trax_fast_end_burst(struct trax_tm *tm, unsigned number, unsigned executed, unsigned issued) {
   struct trax_tp *tp = &tm->tp[number];
   tp->issued += issued;
-  tp->jumps += tp->burst_jumps;
+  tp->jumps += tp->burst.jumps;
   for (unsigned i = issued; i < executed; i++) { /* takes the steps that are not issued off the counts */
     const uint32_t index = trax_fast_index(tp, i);
     const uint32_t next =

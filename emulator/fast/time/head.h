@@ -7,7 +7,8 @@
 
 /* Returns the index of a step's instruction in trax_fast_program.inst. */
 static inline uint32_t trax_fast_index(const struct trax_tp *tp, unsigned step) {
-  return tp->origin[tp->segment[step]] + step;
+  const unsigned distance = tp->burst.distance[step];
+  return tp->burst.index[step - distance] + distance;
 }
 
 /* Returns the index of the TP's head. */
@@ -38,7 +39,7 @@ static inline void trax_fast_set_busy(struct trax_tm *tm, unsigned tp, unsigned 
 /* `load`: the number of loads of global memory before the head in its burst. */
 static inline void trax_fast_set_load(struct trax_tm *tm, unsigned tp, unsigned load) {
   tm->heads.load[tp] = (uint8_t)load;
-  tm->heads.address[tp] = tm->tp[tp].loads[load];
+  tm->heads.address[tp] = tm->tp[tp].burst.loads[load];
 }
 
 /* Executes the next burst. If its first instruction cannot be executed before its issue, the head executes at issue. */
@@ -66,10 +67,10 @@ static inline void trax_fast_execute_at_issue(struct trax_tm *tm, unsigned numbe
   struct trax_tp *tp = &tm->tp[number];
   tm->executes_at_issue |= (uint64_t)1 << number;
   tm->watched[number] = 0;
-  tp->step[0] = step | TRAX_STEP_SLOW;
-  tp->segment[0] = 0;
-  tp->origin[0] = index;
-  tp->loads[0] = address;
+  tp->burst.step[0] = step | TRAX_STEP_SLOW;
+  tp->burst.distance[0] = 0;
+  tp->burst.index[0] = index;
+  tp->burst.loads[0] = address;
   tm->heads.last[number] = 0;
   trax_fast_set_load(tm, number, 0);
   trax_fast_set_head(&tm->heads, number, 0);

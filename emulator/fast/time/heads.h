@@ -3,8 +3,9 @@
 #ifndef TRAX_FAST_HEADS_H
 #define TRAX_FAST_HEADS_H
 
+#include "translate/burst.h"
+
 #include <stdbool.h>
-#include <stdint.h>
 #include <string.h>
 #ifdef __AVX2__
 #include <immintrin.h>
@@ -21,7 +22,7 @@ enum {
   TRAX_STEP_QUEUE = 6 << 1,   /* the memory queue without a bank */
   TRAX_STEP_FURTHER = 7 << 1, /* a shared unit of another kind, whose number replaces the bank's */
   TRAX_STEP_KIND = 7 << 1,
-  TRAX_STEP_BANK_SHIFT = 4,   /* the bank of the data cache */
+  /* From TRAX_STEP_BANK_SHIFT on: the bank of the data cache. */
   TRAX_STEP_FETCH_SHIFT = 10, /* the bank of the instruction cache, in the remaining bits */
   TRAX_STEP_FETCH = 63 << TRAX_STEP_FETCH_SHIFT
 };

@@ -8,10 +8,7 @@
 #include "machine/section.h"
 #include "machine/text.h"
 #include "machine/watch.h" /* TRAX_NEVER: also of a register that becomes usable with an arrival */
-
-struct trax_fast_undo {
-  uint32_t address, word; /* a word of local memory, or of global memory if the thread is alone, before a store */
-};
+#include "translate/burst.h"
 
 /* run_begin, run_end: the run of bytes in the write-combining buffer, within one 64-byte block; equal: empty.
    asleep_...: a sleeping TP is charged when it wakes. */
@@ -42,22 +39,11 @@ struct trax_tp {
   uint64_t issued, jumps; /* instructions and taken jumps that were issued in earlier bursts */
   bool ends_slowly;       /* the last step of the current burst is slow even if another one followed */
   bool alone;             /* the current burst may store to global memory (trax_chip.alone) */
-  uint32_t load_count;    /* loads of global memory of the current burst, and stores to it */
-  uint32_t burst_jumps;   /* taken jumps of the current burst, that of its last step included */
-  uint64_t burst_lines;   /* bit line % 64: a superset of the lines of the burst's steps */
-
-  /* The steps of the burst, or the step of a head that executes at issue. The last step may be followed by others that
-     are not part of the burst. */
-  _Alignas(64) uint16_t step[TRAX_BURST + TRAX_CHUNK];
-  uint8_t segment[TRAX_BURST + TRAX_CHUNK]; /* [step]: the number of its segment */
-  uint32_t loads[TRAX_BURST + 1];           /* the addresses of the burst's loads and stores of global memory */
-  uint32_t origin[TRAX_BURST + 1];          /* [segment]: its first instruction's index minus its first step */
 
   /* The state at the beginning of the burst, for a roll back (blocks.c). */
   const struct trax_fast_inst *begin;
-  uint32_t undo_count;
   uint32_t begin_reg[TRAX_NUM_REGISTERS + 1];
-  struct trax_fast_undo undo[TRAX_BURST];
+  struct trax_burst burst; /* or the step of a head that executes at issue */
 };
 
 struct trax_tm;

@@ -1,0 +1,48 @@
+/* What a burst of the fast engine records (docs/fast-engine.md), whether it is interpreted (fast/function/burst.c) or
+   translated, and what translated bursts must know of the engine. */
+#ifndef TRAX_TRANSLATE_BURST_H
+#define TRAX_TRANSLATE_BURST_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+enum {
+  TRAX_BURST = 128, /* limit of a burst's instructions: a TM's bursts should fit in the host's caches */
+  TRAX_CHUNK = 32,  /* instructions of a chunk, which begins at a multiple of it */
+  TRAX_PIECE = 16   /* most instructions of a translated sequence */
+};
+
+/* The state of a block of global memory in the run (fast/function/blocks.h). */
+enum { TRAX_BLOCK_SHIFT = 4, TRAX_BLOCK_LOADED = 1, TRAX_BLOCK_WRITTEN, TRAX_BLOCK_SHARED, TRAX_BLOCK_HOLE };
+
+enum { TRAX_STEP_BANK_SHIFT = 4 /* a data bank's place in a step */ };
+
+struct trax_burst_undo {
+  uint32_t address, word; /* a word of local memory, or of global memory if the thread is alone, before a store */
+};
+
+/* Steps are recorded by segments: neighbouring instructions. The last step may be followed by others that are not part
+   of the burst. */
+struct trax_burst {
+  _Alignas(64) uint16_t step[TRAX_BURST + TRAX_CHUNK];
+  uint8_t distance[TRAX_BURST + TRAX_CHUNK]; /* [step]: from the first step of its segment */
+  uint32_t index[TRAX_BURST + TRAX_CHUNK];   /* [first step of a segment]: the index of its instruction */
+  uint32_t loads[TRAX_BURST + 1];            /* the addresses of the loads of global memory, and stores to it */
+  uint32_t load_count;
+  uint32_t jumps; /* taken jumps, that of the last step included */
+  uint64_t lines; /* bit line % 64: a superset of the lines of the steps */
+  uint32_t undo_count;
+  struct trax_burst_undo undo[TRAX_BURST];
+};
+
+/* What translated bursts must know. */
+struct trax_burst_facts {
+  const uint16_t *step;  /* [instruction]: its step, unless an address decides it */
+  const uint64_t *lines; /* [instruction]: a superset of its line, as trax_burst.lines */
+  uint8_t *blocks;       /* the states of blocks */
+  uint32_t load_step;    /* is added to the step of a load of global memory, with the bits bank_mask of address * 4 */
+  uint32_t bank_mask;
+  uint32_t slow_local, slow_jump; /* are added to the steps of loads of local memory, and of taken jumps */
+};
+
+#endif
