@@ -70,6 +70,7 @@ struct trax_reader {
   X(lockstep)                                                                                                          \
   X(lockstep_rays)                                                                                                     \
   X(order)                                                                                                             \
+  X(memory_check)                                                                                                      \
   X(series)                                                                                                            \
   X(page_series)                                                                                                       \
   X(memory_trace)                                                                                                      \

@@ -225,6 +225,8 @@ static const trax_option rows[] = {
      .meaning = "its TPs in each of these TMs; default all"},
     {"check-order", FIELD(explain.check_order),
      .meaning = "report the first load that may return an old value where caches are not coherent"},
+    {"check-memory", FIELD(explain.check_memory),
+     .meaning = "report accesses out of bounds or after free, uses of memory never written, and leaks"},
     {"post-mortem", .argument = "FILE", OUTPUT(post_mortem),
      .meaning = "call chains of all threads at the end of the run, as text"},
     TRAX_OPTION_GROUP("Debugger"),
