@@ -77,6 +77,15 @@ static void add_variables(struct variables *variables, Dwarf_Die *parent, int de
   } while (dwarf_siblingof(&child, &child) == 0);
 }
 
+/* In C++, unnamed objects share the places of variables that live at other times. */
+static bool is_c(Dwarf_Die *function) {
+  enum { C17 = 0x2C }; /* a language that older versions of dwarf.h lack */
+  Dwarf_Die unit;
+  const int language = dwarf_diecu(function, &unit, NULL, NULL) ? dwarf_srclang(&unit) : -1;
+  return language == DW_LANG_C89 || language == DW_LANG_C || language == DW_LANG_C99 || language == DW_LANG_C11 ||
+         language == C17;
+}
+
 size_t trax_image_variables(trax_image *image, uint32_t pc, struct trax_frame_variable **items, unsigned *base) {
   struct variables variables = {0};
   Dwarf_Die function;
@@ -84,9 +93,9 @@ size_t trax_image_variables(trax_image *image, uint32_t pc, struct trax_frame_va
   Dwarf_Op *ops;
   size_t count;
   *items = NULL;
-  if (!trax_image_function(image, pc, &function) || !dwarf_attr(&function, DW_AT_frame_base, &attribute) ||
-      dwarf_getlocation(&attribute, &ops, &count) != 0 || count != 1 || ops[0].atom < DW_OP_reg0 ||
-      ops[0].atom > DW_OP_reg31)
+  if (!trax_image_function(image, pc, &function) || !is_c(&function) ||
+      !dwarf_attr(&function, DW_AT_frame_base, &attribute) || dwarf_getlocation(&attribute, &ops, &count) != 0 ||
+      count != 1 || ops[0].atom < DW_OP_reg0 || ops[0].atom > DW_OP_reg31)
     return 0;
   *base = ops[0].atom - DW_OP_reg0;
   add_variables(&variables, &function, 0);

@@ -71,8 +71,8 @@ struct trax_frame_variable {
   bool is_array;
 };
 
-/* Finds the variables that have one place in the frame of the function at pc, also those of inlined functions. Returns
-   their number and, in *items, an array from malloc; *base: the register from which their distances count. */
+/* Finds the variables that have one place in the frame of the function at pc, if it is of C, also those of inlined
+   functions. Returns their number and, in *items, an array from malloc; *base: the register from which their distances count. */
 size_t trax_image_variables(trax_image *image, uint32_t pc, struct trax_frame_variable **items, unsigned *base);
 
 /* Returns how many compilation folders the debug information names, and sets *folders to them. They are as it says, and
