@@ -116,16 +116,19 @@ static trax_status add_symbols(struct memory_check *check, trax_error *error) {
     const struct trax_symbol *it = &symbols[i];
     if (!it->absolute && it->address >= TRAX_LOCAL_BASE && it->address + it->bytes > check->thread_local_end)
       check->thread_local_end = it->address + it->bytes;
+    uint32_t end = it->address + it->bytes;
+    if (it->absolute || it->address < check->image_begin || it->address >= check->image_end)
+      continue;
     if (strncmp(it->name, "__start_", 8) == 0) { /* objects of a section that the program takes as one array */
       char stop[256];
       snprintf(stop, sizeof stop, "__stop_%s", it->name + 8);
       const struct trax_symbol *last = trax_image_symbol(check->loaded->image, stop);
-      if (last && last->address > it->address)
-        check->symbols[kept++] = (struct memory_symbol){it->address, last->address, it->name};
+      end = last ? last->address : it->address;
+    } else if (it->type != TRAX_SYMBOL_OBJECT) {
+      continue;
     }
-    if (it->type == TRAX_SYMBOL_OBJECT && it->bytes && !it->absolute && it->address >= check->image_begin &&
-        it->bytes <= check->image_end - it->address)
-      check->symbols[kept++] = (struct memory_symbol){it->address, it->address + it->bytes, it->name};
+    if (end > it->address && end <= check->image_end)
+      check->symbols[kept++] = (struct memory_symbol){it->address, end, it->name};
   }
   if (kept)
     qsort(check->symbols, kept, sizeof *check->symbols, by_address);
@@ -162,7 +165,8 @@ static void find_heap(struct memory_check *check) {
                            *end = trax_image_symbol(check->loaded->image, "__trax_heap_end");
   if (begin && end && trax_image_symbol(check->loaded->image, "malloc") &&
       (!memory_word(check, 0, begin->address, &check->heap_begin) ||
-       !memory_word(check, 0, end->address, &check->heap_end)))
+       !memory_word(check, 0, end->address, &check->heap_end) || check->heap_begin > check->heap_end ||
+       check->heap_end > check->machine->space.size))
     check->heap_begin = check->heap_end = 0;
 }
 

@@ -7,7 +7,7 @@
 #include "program/image_internal.h"
 #include "trax/grow.h"
 
-enum { MAX_DEPTH = 64 }; /* of nested entries */
+enum { MAX_DEPTH = 64, MAX_FRAME = 1 << 30 }; /* of nested entries; of bytes */
 
 /* --- .stack_sizes: for each function its address, a word, and the size of its frame, ULEB128 --- */
 
@@ -54,7 +54,8 @@ static void add_variable(struct variables *variables, Dwarf_Die *entry) {
   if (dwarf_attr(entry, DW_AT_location, &location) && dwarf_getlocation(&location, &ops, &count) == 0 && count == 1 &&
       ops[0].atom == DW_OP_fbreg &&
       dwarf_formref_die(dwarf_attr_integrate(entry, DW_AT_type, &type_attribute), &type) &&
-      dwarf_aggregate_size(&type, &bytes) == 0 && bytes && bytes < INT32_MAX &&
+      dwarf_aggregate_size(&type, &bytes) == 0 && bytes && bytes < MAX_FRAME &&
+      ops[0].number + MAX_FRAME < 2 * (Dwarf_Word)MAX_FRAME &&
       trax_grow((void **)&variables->items, variables->count, &variables->capacity, sizeof *variables->items)) {
     const char *text = dwarf_formstring(dwarf_attr_integrate(entry, DW_AT_name, &name));
     const int32_t begin = (int32_t)(Dwarf_Sword)ops[0].number;
