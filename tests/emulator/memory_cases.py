@@ -109,10 +109,23 @@ def never_written():
                 finding if "[0]" in write else None)
     # A copy and bits that do not matter are no uses.
     yield "", "word *p = malloc(8), a[2]; memcpy(a, p, 8); sink = a[0] & 0; free(p);", None
-    yield "", ("word *p = malloc(4); OPAQUE(p); *(byte *)p = 5; BARRIER; "
-               "if ((*p & 255) == 5) sink = 1; free(p);"), None
-    yield "", ("word *p = malloc(4); OPAQUE(p); *(byte *)p = 5; BARRIER; "
-               "if ((*p & 511) == 5) sink = 1; free(p);"), BRANCH
+    # Of a word, the low byte is 5 and the rest unknown: k is a constant that the compiler does not know.
+    for k, condition, decided in (
+            (255, "(w & k) == 5", True), (511, "(w & k) == 5", False), (0xFFFFFF00, "(w | k) == k + 5", True),
+            (0xFFFFFE00, "(w | k) == k + 5", False), (24, "(w << k) == 5u << 24", True),
+            (23, "(w << k) == 5u << 23", False), (8, "(w >> k) == 7", False), (3, "((w + k) & 255) == 8", True), (3, "((w + k) & 256) == 0", False),
+            (251, "((w + k) & 255) == 0", True), (6, "((w - k) & 255) == 255", True), (5, "w == k", False),
+            (4, "w == k", True), (5, "w < k", True), (6, "w < k", False), (256, "((w * k) & 255) == 0", True),
+            (3, "((w * k) & 255) == 15", True), (3, "((w * k) & 256) == 0", False), (5, "((w ^ k) & 255) == 0", True),
+            (0, "(w & k) != 0", True), (1, "(w & 255) * k == 5", True), (1, "(int)w > (int)k", False),
+            (1, "(w > k ? w : k) != 0", True)):
+        # Each sum and product has only the bits that can change.
+        yield "", (f"word *p = malloc(4); OPAQUE(p); *(byte *)p = 5; BARRIER; word w = *p, k = {k}; OPAQUE(k); "
+                   f"OPAQUE(w); if ({condition}) sink = 1; free(p);"), not decided and BRANCH
+    for k, decided in ((0, True), (255, False)):  # a carry out of unknown bits
+        yield "", ("byte *p = calloc(4, 1), *q = malloc(1); OPAQUE(p); OPAQUE(q); *p = *q; BARRIER; "
+                   f"word w = *(word *)p, k = {k}; OPAQUE(k); OPAQUE(w); if (w + k > 255) sink = 1; free(q); "
+                   "free(p);"), not decided and BRANCH
     yield "", ("char *p = malloc(13); strcpy(p, \"twelve bytes\"); sink = strlen(p) + strcmp(p, \"twelve\"); "
                "free(p);"), None
     yield "", "char *p = malloc(6); OPAQUE(p); p[3] = 0; sink = strlen(p); free(p);", BRANCH
