@@ -113,7 +113,8 @@ def never_written():
     for k, condition, decided in (
             (255, "(w & k) == 5", True), (511, "(w & k) == 5", False), (0xFFFFFF00, "(w | k) == k + 5", True),
             (0xFFFFFE00, "(w | k) == k + 5", False), (24, "(w << k) == 5u << 24", True),
-            (23, "(w << k) == 5u << 23", False), (8, "(w >> k) == 7", False), (3, "((w + k) & 255) == 8", True), (3, "((w + k) & 256) == 0", False),
+            (23, "(w << k) == 5u << 23", False), (8, "(w >> k) == 7", False), (3, "((w + k) & 255) == 8", True),
+            (3, "((w + k) & 256) == 0", False),
             (251, "((w + k) & 255) == 0", True), (6, "((w - k) & 255) == 255", True), (5, "w == k", False),
             (4, "w == k", True), (5, "w < k", True), (6, "w < k", False), (256, "((w * k) & 255) == 0", True),
             (3, "((w * k) & 255) == 15", True), (3, "((w * k) & 256) == 0", False), (5, "((w ^ k) & 255) == 0", True),
