@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SP = 2, MAX_DEPTH = 4096 };
+enum { SP = 2, MAX_DEPTH = 4096, MOST_CONTEXTS = 1 << 20 };
 
 struct memory_event memory_event_of(const struct memory_check *check, const struct trax_span *span) {
   return (struct memory_event){.cycle = span->issue->cycle,
@@ -43,8 +43,12 @@ static void enter(struct memory_check *check, const struct trax_span *span, cons
     memory_heap_enter(check, span->thread, frame->function, event);
 }
 
+/* Returns the call chain of a call. A recursive program may have as many as calls: beyond a number, a new one is left
+   out. */
 static uint32_t context_of(struct memory_check *check, uint32_t parent, uint32_t pc) {
   const uint64_t key = (uint64_t)parent << 32 | pc;
+  if (check->context_count >= MOST_CONTEXTS && !trax_map_find(&check->context_of, sizeof(struct trax_map_entry), key))
+    return parent;
   struct trax_map_entry *entry = trax_map_put(&check->context_of, sizeof *entry, key, (uint32_t)check->context_count);
   if (!entry ||
       !trax_grow((void **)&check->contexts, check->context_count, &check->context_capacity, sizeof *check->contexts)) {

@@ -71,13 +71,14 @@ static void store(struct memory_check *check, const struct trax_span *span, uint
 
 /* A word load may reach beyond its object: in string functions behind a string; around an atomic byte or half word. */
 static bool is_partial(struct memory_check *check, const struct trax_span *span) {
+  const uint32_t tag = check->threads[span->thread].reg[span->inst.ra].tag;
   uint32_t object;
   const bool atomic = span->inst.op == TRAX_OP_LWNT;
   bool some = false;
   if (!atomic && !(span->inst.op == TRAX_OP_LW && (is_in(check, span, "strlen") || is_in(check, span, "strcmp"))))
     return false;
   for (uint32_t i = 0; i < (atomic ? 4 : 1); i++)
-    some |= memory_check_access(check, span->thread, MEMORY_NO_TAG, 0, span->issue->address + i, 1, &object) ==
+    some |= memory_check_access(check, span->thread, tag, span->inst.imm, span->issue->address + i, 1, &object) ==
             MEMORY_NOTHING;
   return some;
 }

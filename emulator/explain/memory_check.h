@@ -1,6 +1,7 @@
-/* The check of memory (docs/checking.md): what its files share. memory_check.c follows the run, memory_values.c
-   computes what is known of each value, memory_objects.c says which bytes belong to what, memory_heap.c follows the
-   heap, and memory_report.c keeps and prints what was found. */
+/* The check of memory (docs/checking.md): what its files share. memory_check.c follows the run, memory_calls.c its
+   calls and frames, memory_heap.c the heap. memory_values.c computes what is known of each value, memory_shadow.c keeps
+   what is known of each byte. memory_objects.c says which bytes belong to what, and memory_constants.c what a constant
+   points to. memory_report.c keeps and prints what was found. */
 #ifndef TRAX_EXPLAIN_MEMORY_CHECK_H
 #define TRAX_EXPLAIN_MEMORY_CHECK_H
 

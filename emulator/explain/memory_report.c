@@ -93,7 +93,7 @@ static void print_access(const struct memory_check *check, const struct memory_s
   fprintf(out, "  %-*s%s", TRAX_LABEL, "access", what);
   if (site->bytes)
     fprintf(out, " of %u byte%s", site->bytes, plural(site->bytes));
-  fprintf(out, " %s 0x%08x", site->write ? "to" : "from", site->address);
+  fprintf(out, " %s 0x%08x", !site->bytes ? "of" : site->write ? "to" : "from", site->address);
   if (symbol && symbol->type != TRAX_SYMBOL_PLAIN) {
     fputs(" (", out);
     trax_print_symbol(symbol, site->address, out);
