@@ -71,6 +71,7 @@ struct trax_reader {
   X(lockstep_rays)                                                                                                     \
   X(order)                                                                                                             \
   X(memory_check)                                                                                                      \
+  X(races)                                                                                                             \
   X(series)                                                                                                            \
   X(page_series)                                                                                                       \
   X(memory_trace)                                                                                                      \

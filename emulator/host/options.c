@@ -227,6 +227,8 @@ static const trax_option rows[] = {
      .meaning = "report the first load that may return an old value where caches are not coherent"},
     {"check-memory", FIELD(explain.check_memory),
      .meaning = "report accesses out of bounds or after free, uses of memory never written, and leaks"},
+    {"check-races", FIELD(explain.check_races),
+     .meaning = "report accesses of two threads to the same word that nothing orders"},
     {"post-mortem", .argument = "FILE", OUTPUT(post_mortem),
      .meaning = "call chains of all threads at the end of the run, as text"},
     TRAX_OPTION_GROUP("Debugger"),
