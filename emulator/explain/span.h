@@ -68,6 +68,8 @@ struct trax_reader {
   X(items)                                                                                                             \
   X(ray_kinds)                                                                                                         \
   X(order)                                                                                                             \
+  X(memory_check)                                                                                                      \
+  X(races)                                                                                                             \
   X(series)                                                                                                            \
   X(page_series)                                                                                                       \
   X(memory_trace)                                                                                                      \

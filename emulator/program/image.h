@@ -60,6 +60,21 @@ struct trax_source_line {
    valid as long as the image. */
 size_t trax_image_lines(trax_image *image, uint32_t pc, struct trax_source_line *lines, size_t capacity);
 
+/* Calls visit for every function whose frame has a size that the compiler stated (docs/abi.md, "Stack sizes"). */
+void trax_image_frames(const trax_image *image, void (*visit)(void *context, uint32_t function, uint32_t bytes),
+                       void *context);
+
+/* An automatic variable: its place as distances from a register. */
+struct trax_frame_variable {
+  const char *name; /* valid as long as the image */
+  int32_t begin, end;
+  bool is_array;
+};
+
+/* Finds the variables that have one place in the frame of the function at pc, if it is of C, also those of inlined
+   functions. Returns their number and, in *items, an array from malloc; *base: the register from which their distances count. */
+size_t trax_image_variables(trax_image *image, uint32_t pc, struct trax_frame_variable **items, unsigned *base);
+
 /* Returns how many compilation folders the debug information names, and sets *folders to them. They are as it says, and
    valid as long as the image. */
 size_t trax_image_folders(trax_image *image, const char *const **folders);

@@ -28,6 +28,8 @@ struct trax_image {
 bool trax_image_order_symbols(trax_image *image);
 /* Opens the debug information at the first call. NULL: there is none. */
 Dwarf *trax_image_dwarf(trax_image *image);
+/* Finds the entry of the function, not inlined, that contains pc. */
+bool trax_image_function(trax_image *image, uint32_t pc, Dwarf_Die *function);
 void trax_image_forget_lines(trax_image *image);
 
 #endif

@@ -225,6 +225,16 @@ size_t trax_image_lines(trax_image *image, uint32_t pc, struct trax_source_line 
   return count;
 }
 
+bool trax_image_function(trax_image *image, uint32_t pc, Dwarf_Die *function) {
+  const struct trax_scopes *scopes = scopes_of(image);
+  for (uint32_t scope = 0; scopes && (scope = scope_within(scopes, scope, pc));)
+    if (dwarf_tag(&scopes->scopes[scope].entry) == DW_TAG_subprogram) {
+      *function = scopes->scopes[scope].entry;
+      return true;
+    }
+  return false;
+}
+
 size_t trax_image_folders(trax_image *image, const char *const **folders) {
   const struct trax_scopes *scopes = scopes_of(image);
   *folders = scopes ? scopes->folders : NULL;

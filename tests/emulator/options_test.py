@@ -155,6 +155,8 @@ CASES = {
                                                                 status=1, bad=NUMBERS),  # runs are tests/emulator/gdb's
     "gdb-symbols": Case(["symbols"], exists("symbols"), bad=FILES,
                         twice="b"), "check-order": Case([], None),  # more in order_test.py
+    "check-memory": Case([], None),  # more in memory_test.py
+    "check-races": Case([], None),  # more in races_test.py
     "quiet": Case([], None), "print-config": Case([], prints("latency_cycles")), "help-config": Case(
         [], prints("chip.tms")), "help-stats": Case([], prints("thread_cycles")), "version": Case(
             [], prints(r"^trax-sim \d")), "help": Case([], prints("^usage: trax-sim")), }

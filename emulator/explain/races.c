@@ -1,0 +1,300 @@
+/* Races (docs/checking.md, "Races"): accesses of two threads to the same bytes, at least one a store, of which neither
+   happens before the other.
+
+   A thread's accesses up to a `fence w` happen before those of another thread after a `fence r`, if in between the
+   first has stored a word that the second has loaded past the cache, or incremented. Each thread has a vector clock; a
+   fence w copies it, and a store leaves the copy at its word (Flanagan and Freund, "FastTrack", PLDI 2009). The
+   compiler makes the same stores of atomic and of other ones, so nothing is said of words that some thread has accessed
+   past the cache, incremented, or accessed in a function of libatomic. */
+#include "explain/places.h"
+#include "explain/span.h"
+#include "report/place.h"
+#include "trax/grow.h"
+#include "trax/map.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { PAGE_SHIFT = 12, WORDS = 1 << (PAGE_SHIFT - 2), CELLS = 4, MOST_SITES = 1000 };
+
+/* A copy of a thread's clock, which words share. */
+struct release {
+  uint32_t uses;
+  uint32_t clock[]; /* [threads] */
+};
+
+/* An access to a word; the latest ones of different threads or kinds are kept. clock 0: none. */
+struct cell {
+  uint32_t clock, pc;
+  uint16_t thread;
+  uint8_t mask; /* of its bytes */
+  bool write;
+};
+
+struct word {
+  struct cell cells[CELLS];
+  struct release *release;
+  uint8_t next; /* the cell that is replaced next */
+  bool atomic;
+};
+
+struct thread {
+  uint32_t *clock, *seen; /* [threads]; seen: what the next `fence r` adds */
+  struct release *release;
+  uint32_t increments[TRAX_NUM_REGISTERS]; /* addresses, by the register that gets the old value; 0: none */
+  uint32_t return_pc;                      /* of the call of an atomic operation; 0: none */
+};
+
+struct site {
+  struct cell first, second;
+  uint32_t address;
+  uint64_t cycle, count;
+};
+
+struct races {
+  struct trax_reader reader;
+  const trax_machine *machine;
+  uint32_t threads, tps;
+  struct thread *thread; /* [threads] */
+  struct word **pages;
+  size_t page_count;
+  struct site *sites;
+  size_t site_count, site_capacity;
+  struct trax_map site_of; /* by the two instructions */
+};
+
+static void drop(struct release **release) {
+  if (*release && --(*release)->uses == 0)
+    free(*release);
+  *release = NULL;
+}
+
+static void join(const struct races *races, uint32_t *clock, const uint32_t *other) {
+  for (uint32_t i = 0; i < races->threads; i++)
+    clock[i] = other[i] > clock[i] ? other[i] : clock[i];
+}
+
+static struct release *copy_of(struct races *races, const uint32_t *clock) {
+  struct release *release = malloc(sizeof *release + races->threads * sizeof *clock);
+  if (!release) {
+    races->reader.explain->out_of_memory = true;
+    return NULL;
+  }
+  release->uses = 1;
+  memcpy(release->clock, clock, races->threads * sizeof *clock);
+  return release;
+}
+
+/* What a thread has loaded before a `fence w` was in memory before what it stores after it. */
+static void fence(struct races *races, uint32_t number, int32_t kind) {
+  struct thread *thread = &races->thread[number];
+  if (kind & TRAX_FENCE_R)
+    join(races, thread->clock, thread->seen);
+  if (!(kind & TRAX_FENCE_W))
+    return;
+  drop(&thread->release);
+  if ((thread->release = copy_of(races, thread->clock)))
+    join(races, thread->release->clock, thread->seen);
+  thread->clock[number]++;
+}
+
+static struct word *word_at(struct races *races, uint32_t address) {
+  struct word **page = &races->pages[address >> PAGE_SHIFT];
+  if (!*page && !(*page = calloc(WORDS, sizeof **page)))
+    races->reader.explain->out_of_memory = true;
+  return *page ? &(*page)[address / 4 % WORDS] : NULL;
+}
+
+static void note(struct races *races, const struct cell *first, const struct cell *second,
+                 const struct trax_issue *issue) {
+  const uint64_t key = (uint64_t)first->pc << 32 | second->pc;
+  const struct trax_map_entry *entry = trax_map_put(&races->site_of, sizeof *entry, key, (uint32_t)races->site_count);
+  if (!entry || !trax_grow((void **)&races->sites, races->site_count, &races->site_capacity, sizeof *races->sites)) {
+    races->reader.explain->out_of_memory = true;
+    return;
+  }
+  struct site *site = &races->sites[entry->value];
+  const bool is_new = entry->value == races->site_count;
+  races->site_count += is_new;
+  if (is_new || word_at(races, site->address)->atomic)
+    *site = (struct site){*first, *second, issue->address, issue->cycle, is_new ? 0 : site->count};
+  site->count++;
+}
+
+static void check(struct races *races, const struct trax_span *span, struct word *word, uint32_t bytes, bool write) {
+  const struct thread *thread = &races->thread[span->thread];
+  const struct cell own = {.clock = thread->clock[span->thread],
+                           .pc = span->pc,
+                           .thread = (uint16_t)span->thread,
+                           .mask = (uint8_t)(((1 << bytes) - 1) << span->issue->address % 4),
+                           .write = write};
+  struct cell *place = NULL;
+  for (unsigned i = 0; i < CELLS; i++) {
+    struct cell *it = &word->cells[i];
+    if (it->clock && it->thread != own.thread && it->mask & own.mask && (it->write || write) &&
+        it->clock > thread->clock[it->thread])
+      note(races, it, &own, span->issue);
+    if (!place && (!it->clock || (it->thread == own.thread && it->write == write && it->mask == own.mask)))
+      place = it;
+  }
+  *(place ? place : &word->cells[word->next++ % CELLS]) = own;
+}
+
+static void store(struct races *races, uint32_t thread, struct word *word) {
+  struct release *release = races->thread[thread].release;
+  if (word->release == release)
+    return;
+  drop(&word->release);
+  if ((word->release = release))
+    release->uses++;
+}
+
+static void increment(struct races *races, const struct trax_span *span, struct word *word) {
+  struct thread *thread = &races->thread[span->thread];
+  struct release *before = word->release ? copy_of(races, word->release->clock) : NULL;
+  thread->increments[span->inst.rd] = span->issue->address;
+  if (!before) {
+    store(races, span->thread, word);
+    return;
+  }
+  if (thread->release)
+    join(races, before->clock, thread->release->clock);
+  drop(&word->release);
+  word->release = before;
+}
+
+/* Follows calls of the library's atomic operations, which copy wide objects under a lock. */
+static void follow(struct races *races, const struct trax_span *span) {
+  struct thread *thread = &races->thread[span->thread];
+  struct trax_places *places = races->reader.explain->places;
+  const uint32_t next = span->issue->next_pc;
+  if (thread->return_pc == next)
+    thread->return_pc = 0;
+  if (thread->return_pc || !span->inst.rd)
+    return;
+  const struct trax_place *place = trax_places_at(places, trax_places_index(places, next));
+  if (place->symbol && !place->offset && strncmp(place->symbol, "__atomic_", 9) == 0)
+    thread->return_pc = span->pc + 4;
+}
+
+static void add_span(void *self, const struct trax_span *span) {
+  struct races *races = self;
+  const trax_op_info *op = &trax_op_table[span->inst.op];
+  if (!span->issue || races->reader.explain->out_of_memory)
+    return;
+  if (span->inst.op == TRAX_OP_FENCE) {
+    fence(races, span->thread, span->inst.imm);
+    return;
+  }
+  if (span->inst.op == TRAX_OP_JAL || span->inst.op == TRAX_OP_JALR)
+    follow(races, span);
+  struct word *word =
+      op->access_bytes && span->issue->address < TRAX_LOCAL_BASE ? word_at(races, span->issue->address) : NULL;
+  if (!word)
+    return;
+  if (op->flags & (TRAX_IS_NONTEMPORAL | TRAX_IS_ATOMIC) || races->thread[span->thread].return_pc)
+    word->atomic = true;
+  else if (!word->atomic)
+    check(races, span, word, op->access_bytes, op->flags & TRAX_IS_STORE);
+  if (op->flags & TRAX_IS_ATOMIC)
+    increment(races, span, word);
+  else if (op->flags & TRAX_IS_STORE)
+    store(races, span->thread, word);
+  else if (op->flags & TRAX_IS_NONTEMPORAL && word->release)
+    join(races, races->thread[span->thread].seen, word->release->clock);
+}
+
+static void add_arrival(void *self, const struct trax_arrival *arrival) {
+  struct races *races = self;
+  struct thread *thread = &races->thread[arrival->tm * races->tps + arrival->tp];
+  const struct word *word = thread->increments[arrival->rd] ? word_at(races, thread->increments[arrival->rd]) : NULL;
+  if (word && word->release)
+    join(races, thread->seen, word->release->clock);
+}
+
+/* --- the report --- */
+
+static void print_access(const struct races *races, const char *label, const struct cell *cell, FILE *out) {
+  fprintf(out, "  %-*s%s by thread %u (TM %u, TP %u)\n", TRAX_LABEL, label, cell->write ? "store" : "load",
+          cell->thread, cell->thread / races->tps, cell->thread % races->tps);
+  trax_print_place(trax_loaded_of(races->machine), "in", cell->pc, out);
+}
+
+static void print(const struct races *races, const struct site *site, FILE *out) {
+  const struct trax_loaded *loaded = trax_loaded_of(races->machine);
+  const struct trax_symbol *symbol = loaded ? trax_image_symbol_at(loaded->image, site->address) : NULL;
+  fprintf(out, "trax-sim: race: nothing orders two accesses to the same word\n");
+  fprintf(out, "  %-*s0x%08x", TRAX_LABEL, "word", site->address & ~3u);
+  if (symbol) {
+    fputs(" (", out);
+    trax_print_symbol(symbol, site->address & ~3u, out);
+    fputc(')', out);
+  }
+  fprintf(out, ", cycle %" PRIu64, site->cycle);
+  if (site->count > 1)
+    fprintf(out, "; %" PRIu64 " times", site->count);
+  fputc('\n', out);
+  print_access(races, "first", &site->first, out);
+  print_access(races, "second", &site->second, out);
+}
+
+static trax_status end_races(void *self, trax_error *error) {
+  struct races *races = self;
+  size_t found = 0;
+  fflush(stdout);
+  for (size_t i = 0; i < races->site_count; i++)
+    if (!word_at(races, races->sites[i].address)->atomic && ++found <= MOST_SITES)
+      print(races, &races->sites[i], stderr);
+  if (found > MOST_SITES)
+    fprintf(stderr, "trax-sim: race: %zu further sites\n", found - MOST_SITES);
+  return found ? trax_fail(error, "the program has %zu race%s (--check-races)", found, found == 1 ? "" : "s") : TRAX_OK;
+}
+
+static trax_status open_races(void *self, trax_error *error) {
+  struct races *races = self;
+  races->machine = races->reader.explain->machine;
+  races->tps = races->machine->config.chip.tps_per_tm;
+  races->threads = (uint32_t)races->machine->stats.threads;
+  races->page_count = (size_t)(races->machine->space.size >> PAGE_SHIFT);
+  if (!(races->pages = trax_explain_array(races->page_count, sizeof *races->pages, error)) ||
+      !(races->thread = trax_explain_array(races->threads, sizeof *races->thread, error)))
+    return TRAX_ERROR;
+  for (uint32_t i = 0; i < races->threads; i++) {
+    if (!(races->thread[i].clock = trax_explain_array(races->threads, sizeof(uint32_t), error)) ||
+        !(races->thread[i].seen = trax_explain_array(races->threads, sizeof(uint32_t), error)))
+      return TRAX_ERROR;
+    races->thread[i].clock[i] = 1;
+  }
+  return TRAX_OK;
+}
+
+static void close_races(void *self) {
+  struct races *races = self;
+  for (size_t i = 0; races->pages && i < races->page_count; i++) {
+    for (size_t k = 0; races->pages[i] && k < WORDS; k++)
+      drop(&races->pages[i][k].release);
+    free(races->pages[i]);
+  }
+  for (uint32_t i = 0; races->thread && i < races->threads; i++) {
+    drop(&races->thread[i].release);
+    free(races->thread[i].clock);
+    free(races->thread[i].seen);
+  }
+  free(races->pages);
+  free(races->thread);
+  free(races->sites);
+  trax_map_free(&races->site_of);
+}
+
+static bool is_wanted(const struct trax_explain_options *options) {
+  return options->check_races;
+}
+
+const struct trax_reader_kind trax_races_reader = {.bytes = sizeof(struct races),
+                                                   .is_wanted = is_wanted,
+                                                   .open = open_races,
+                                                   .span = add_span,
+                                                   .arrival = add_arrival,
+                                                   .end = end_races,
+                                                   .close = close_races};
