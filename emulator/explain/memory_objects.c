@@ -117,9 +117,10 @@ static trax_status add_symbols(struct trax_memory_check *check, trax_error *erro
     if (!it->absolute && it->address >= TRAX_LOCAL_BASE && it->address + it->bytes > check->thread_local_end)
       check->thread_local_end = it->address + it->bytes;
     uint32_t end = it->address + it->bytes;
-    if (it->absolute || it->address < check->image_begin || it->address >= check->image_end)
+    const bool is_section = strncmp(it->name, "__start_", 8) == 0; /* whose objects are one array to the program */
+    if ((it->absolute && !is_section) || it->address < check->image_begin || it->address >= check->image_end)
       continue;
-    if (strncmp(it->name, "__start_", 8) == 0) { /* objects of a section that the program takes as one array */
+    if (is_section) {
       char stop[256];
       snprintf(stop, sizeof stop, "__stop_%s", it->name + 8);
       const struct trax_symbol *last = trax_image_symbol(check->loaded->image, stop);
