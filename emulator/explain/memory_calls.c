@@ -8,11 +8,11 @@
 
 enum { SP = 2, MAX_DEPTH = 4096, MOST_CONTEXTS = 1 << 20 };
 
-struct memory_event memory_event_of(const struct memory_check *check, const struct trax_span *span) {
-  return (struct memory_event){.cycle = span->issue->cycle,
-                               .thread = span->thread,
-                               .pc = span->pc,
-                               .context = check->threads[span->thread].context};
+struct trax_memory_event trax_memory_event_of(const struct trax_memory_check *check, const struct trax_span *span) {
+  return (struct trax_memory_event){.cycle = span->issue->cycle,
+                                    .thread = span->thread,
+                                    .pc = span->pc,
+                                    .context = check->threads[span->thread].context};
 }
 
 /* A stack in local memory begins at 0 and grows down, so 0 is above all other addresses. */
@@ -21,31 +21,32 @@ static bool is_below(uint32_t stack_pointer, uint32_t other) {
 }
 
 /* The bytes of the frame below `high` become undefined. */
-static void open_frame(struct memory_check *check, uint32_t thread, uint32_t low, uint32_t high) {
+static void open_frame(struct trax_memory_check *check, uint32_t thread, uint32_t low, uint32_t high) {
   uint32_t begin, end;
-  memory_stack_of(check, thread, &begin, &end);
+  trax_memory_stack_of(check, thread, &begin, &end);
   if (is_below(high, begin) || is_below(end, high) || !is_below(low, high))
     return;
   low = is_below(low, begin) ? begin : low;
-  memory_define(check, thread, low, high - low, true);
+  trax_memory_define(check, thread, low, high - low, true);
 }
 
-static void enter(struct memory_check *check, const struct trax_span *span, const struct memory_event *event) {
-  struct memory_thread *thread = &check->threads[span->thread];
-  const struct memory_frame *frame =
-      (const struct memory_frame *)trax_map_find(&check->functions, sizeof *frame, span->issue->next_pc);
+static void enter(struct trax_memory_check *check, const struct trax_span *span,
+                  const struct trax_memory_event *event) {
+  struct trax_memory_thread *thread = &check->threads[span->thread];
+  const struct trax_memory_frame *frame =
+      (const struct trax_memory_frame *)trax_map_find(&check->functions, sizeof *frame, span->issue->next_pc);
   const uint32_t stack_pointer = thread->reg[SP].bits;
   const int32_t bytes = frame ? frame->bytes : -1;
   thread->low = bytes < 0 ? MEMORY_NO_FRAME : stack_pointer - (uint32_t)bytes;
   if (bytes > 0)
     open_frame(check, span->thread, thread->low, stack_pointer);
   if (frame && frame->function && !thread->function)
-    memory_heap_enter(check, span->thread, frame->function, event);
+    trax_memory_heap_enter(check, span->thread, frame->function, event);
 }
 
 /* Returns the call chain of a call. A recursive program may have as many as calls: beyond a number, a new one is left
    out. */
-static uint32_t context_of(struct memory_check *check, uint32_t parent, uint32_t pc) {
+static uint32_t context_of(struct trax_memory_check *check, uint32_t parent, uint32_t pc) {
   const uint64_t key = (uint64_t)parent << 32 | pc;
   if (check->context_count >= MOST_CONTEXTS && !trax_map_find(&check->context_of, sizeof(struct trax_map_entry), key))
     return parent;
@@ -56,30 +57,30 @@ static uint32_t context_of(struct memory_check *check, uint32_t parent, uint32_t
     return 0;
   }
   if (entry->value == check->context_count)
-    check->contexts[check->context_count++] = (struct memory_context){parent, pc};
+    check->contexts[check->context_count++] = (struct trax_memory_context){parent, pc};
   return entry->value;
 }
 
-void memory_call(struct memory_check *check, const struct trax_span *span) {
-  struct memory_thread *thread = &check->threads[span->thread];
-  const struct memory_event event = memory_event_of(check, span);
+void trax_memory_call(struct trax_memory_check *check, const struct trax_span *span) {
+  struct trax_memory_thread *thread = &check->threads[span->thread];
+  const struct trax_memory_event event = trax_memory_event_of(check, span);
   if (thread->depth < MAX_DEPTH &&
       trax_grow((void **)&thread->calls, thread->depth, &thread->capacity, sizeof *thread->calls)) {
     thread->calls[thread->depth++] =
-        (struct memory_call){span->pc + 4, thread->reg[SP].bits, thread->context, thread->low};
+        (struct trax_memory_call){span->pc + 4, thread->reg[SP].bits, thread->context, thread->low};
     thread->context = context_of(check, thread->context, span->pc);
   }
   enter(check, span, &event);
 }
 
-static void leave(struct memory_thread *thread) {
+static void leave(struct trax_memory_thread *thread) {
   thread->depth--;
   thread->context = thread->calls[thread->depth].context;
   thread->low = thread->calls[thread->depth].low;
 }
 
-void memory_jump(struct memory_check *check, const struct trax_span *span) {
-  struct memory_thread *thread = &check->threads[span->thread];
+void trax_memory_jump(struct trax_memory_check *check, const struct trax_span *span) {
+  struct trax_memory_thread *thread = &check->threads[span->thread];
   const uint32_t next = span->issue->next_pc, stack_pointer = thread->reg[SP].bits;
   if (span->inst.op == TRAX_OP_JALR) {
     while (thread->depth && is_below(thread->calls[thread->depth - 1].stack_pointer, stack_pointer))
@@ -88,18 +89,18 @@ void memory_jump(struct memory_check *check, const struct trax_span *span) {
         thread->calls[thread->depth - 1].stack_pointer == stack_pointer)
       leave(thread);
     if (thread->function && thread->return_pc == next && thread->stack_pointer == stack_pointer)
-      memory_heap_leave(check, span->thread);
+      trax_memory_heap_leave(check, span->thread);
   }
   const struct trax_place *place = trax_places_at(check->reader.explain->places, span->index);
   const bool is_loop = place->symbol && span->pc - place->offset == next; /* to the function's own beginning */
-  if (!is_loop && trax_map_find(&check->functions, sizeof(struct memory_frame), next)) { /* a tail call */
-    const struct memory_event event = memory_event_of(check, span);
+  if (!is_loop && trax_map_find(&check->functions, sizeof(struct trax_memory_frame), next)) { /* a tail call */
+    const struct trax_memory_event event = trax_memory_event_of(check, span);
     enter(check, span, &event);
   }
 }
 
-void memory_move_stack(struct memory_check *check, uint32_t thread) {
-  struct memory_thread *it = &check->threads[thread];
+void trax_memory_move_stack(struct trax_memory_check *check, uint32_t thread) {
+  struct trax_memory_thread *it = &check->threads[thread];
   const uint32_t now = it->reg[SP].bits;
   if (it->low == MEMORY_NO_FRAME || !is_below(now, it->low))
     return;
@@ -108,15 +109,16 @@ void memory_move_stack(struct memory_check *check, uint32_t thread) {
 }
 
 static void add_frame(void *context, uint32_t function, uint32_t bytes) {
-  struct memory_check *check = context;
-  struct memory_frame *frame = (struct memory_frame *)trax_map_put(&check->functions, sizeof *frame, function, 0);
+  struct trax_memory_check *check = context;
+  struct trax_memory_frame *frame =
+      (struct trax_memory_frame *)trax_map_put(&check->functions, sizeof *frame, function, 0);
   if (!frame)
     check->reader.explain->out_of_memory = true;
   else if (frame->bytes < (int32_t)bytes)
     frame->bytes = (int32_t)bytes;
 }
 
-trax_status memory_calls_open(struct memory_check *check, trax_error *error) {
+trax_status trax_memory_calls_open(struct trax_memory_check *check, trax_error *error) {
   static const char *const names[] = {"malloc", "calloc", "realloc", "aligned_alloc", "free"};
   size_t count;
   context_of(check, 0, 0); /* that of the program's start */
@@ -127,8 +129,8 @@ trax_status memory_calls_open(struct memory_check *check, trax_error *error) {
   for (size_t i = 0; i < count; i++)
     if (symbols[i].type == TRAX_SYMBOL_FUNCTION) {
       const size_t before = check->functions.count;
-      struct memory_frame *frame =
-          (struct memory_frame *)trax_map_put(&check->functions, sizeof *frame, symbols[i].address, 0);
+      struct trax_memory_frame *frame =
+          (struct trax_memory_frame *)trax_map_put(&check->functions, sizeof *frame, symbols[i].address, 0);
       if (!frame)
         return trax_fail(error, "out of memory for the check of memory");
       if (check->functions.count > before)

@@ -10,45 +10,46 @@
 enum { SP = 2 };
 
 /* The heap's own functions go where others must not. */
-static void note(struct memory_check *check, const struct trax_span *span, enum memory_finding finding,
+static void note(struct trax_memory_check *check, const struct trax_span *span, enum trax_memory_finding finding,
                  uint32_t address, uint32_t bytes, bool write, uint32_t object) {
-  const struct memory_event event = memory_event_of(check, span);
+  const struct trax_memory_event event = trax_memory_event_of(check, span);
   if (check->threads[span->thread].function == MEMORY_OTHER)
-    memory_note(check, finding, &event, address, bytes, write, object);
+    trax_memory_note(check, finding, &event, address, bytes, write, object);
 }
 
 /* Reports that undefined bits have an effect, and takes them as defined from now on. */
-static void note_undefined(struct memory_check *check, const struct trax_span *span, enum memory_finding finding,
-                           struct memory_value *value) {
-  note(check, span, finding, value->from, 4, false, memory_block_at(check, value->from));
+static void note_undefined(struct trax_memory_check *check, const struct trax_span *span,
+                           enum trax_memory_finding finding, struct trax_memory_value *value) {
+  note(check, span, finding, value->from, 4, false, trax_memory_block_at(check, value->from));
   value->undefined = 0;
 }
 
-static bool is_in(const struct memory_check *check, const struct trax_span *span, const char *function) {
+static bool is_in(const struct trax_memory_check *check, const struct trax_span *span, const char *function) {
   const char *symbol = trax_places_at(check->reader.explain->places, span->index)->symbol;
   return symbol && strcmp(symbol, function) == 0;
 }
 
 /* --- accesses --- */
 
-static struct memory_value load(const struct memory_check *check, const struct trax_span *span, uint32_t bytes) {
+static struct trax_memory_value load(const struct trax_memory_check *check, const struct trax_span *span,
+                                     uint32_t bytes) {
   const uint32_t address = span->issue->address;
-  struct memory_value value = {.bits = span->issue->result, .from = address};
+  struct trax_memory_value value = {.bits = span->issue->result, .from = address};
   for (uint32_t i = 0; i < bytes; i++)
-    value.undefined |= (uint32_t)memory_undefined_byte(check, span->thread, address + i) << 8 * i;
+    value.undefined |= (uint32_t)trax_memory_undefined_byte(check, span->thread, address + i) << 8 * i;
   if ((span->inst.op == TRAX_OP_LB && value.undefined & 0x80) ||
       (span->inst.op == TRAX_OP_LH && value.undefined & 0x8000))
     value.undefined |= ~0u << 8 * bytes;
   if (bytes == 4 && !value.undefined)
-    value.tag = memory_tag_at(check, span->thread, address);
+    value.tag = trax_memory_tag_at(check, span->thread, address);
   if (value.tag == MEMORY_PRIVATE)
     value.tag = MEMORY_NO_TAG;
   return value;
 }
 
-static void store(struct memory_check *check, const struct trax_span *span, uint32_t bytes,
-                  const struct memory_value *value) {
-  struct memory_thread *thread = &check->threads[span->thread];
+static void store(struct trax_memory_check *check, const struct trax_span *span, uint32_t bytes,
+                  const struct trax_memory_value *value) {
+  struct trax_memory_thread *thread = &check->threads[span->thread];
   const uint32_t address = span->issue->address;
   uint32_t tag = bytes == 4 ? value->tag : MEMORY_NO_TAG;
   uint8_t *undefined;
@@ -59,8 +60,8 @@ static void store(struct memory_check *check, const struct trax_span *span, uint
     undefined = thread->local_undefined + (address - TRAX_LOCAL_BASE);
     thread->local_tags[address % TRAX_LOCAL_SIZE / 4] = tag;
   } else {
-    struct memory_page *page = check->pages[address >> MEMORY_PAGE_SHIFT];
-    if (!page && (!(value->undefined || tag) || !(page = memory_page_of(check, address))))
+    struct trax_memory_page *page = check->pages[address >> MEMORY_PAGE_SHIFT];
+    if (!page && (!(value->undefined || tag) || !(page = trax_memory_page_of(check, address))))
       return;
     undefined = page->undefined + address % MEMORY_PAGE;
     page->tags[address % MEMORY_PAGE / 4] = tag;
@@ -70,7 +71,7 @@ static void store(struct memory_check *check, const struct trax_span *span, uint
 }
 
 /* A word load may reach beyond its object: in string functions behind a string; around an atomic byte or half word. */
-static bool is_partial(struct memory_check *check, const struct trax_span *span) {
+static bool is_partial(struct trax_memory_check *check, const struct trax_span *span) {
   const uint32_t tag = check->threads[span->thread].reg[span->inst.ra].tag;
   uint32_t object;
   const bool atomic = span->inst.op == TRAX_OP_LWNT;
@@ -78,27 +79,27 @@ static bool is_partial(struct memory_check *check, const struct trax_span *span)
   if (!atomic && !(span->inst.op == TRAX_OP_LW && (is_in(check, span, "strlen") || is_in(check, span, "strcmp"))))
     return false;
   for (uint32_t i = 0; i < (atomic ? 4 : 1); i++)
-    some |= memory_check_access(check, span->thread, tag, span->inst.imm, span->issue->address + i, 1, &object) ==
+    some |= trax_memory_check_access(check, span->thread, tag, span->inst.imm, span->issue->address + i, 1, &object) ==
             MEMORY_NOTHING;
   return some;
 }
 
-static void access(struct memory_check *check, const struct trax_span *span, const trax_op_info *op) {
-  struct memory_thread *thread = &check->threads[span->thread];
-  struct memory_value *base = &thread->reg[span->inst.ra];
+static void access(struct trax_memory_check *check, const struct trax_span *span, const trax_op_info *op) {
+  struct trax_memory_thread *thread = &check->threads[span->thread];
+  struct trax_memory_value *base = &thread->reg[span->inst.ra];
   const uint32_t address = span->issue->address, bytes = op->access_bytes;
   const bool write = op->flags & (TRAX_IS_STORE | TRAX_IS_ATOMIC);
   uint32_t object;
   if (base->undefined)
     note_undefined(check, span, MEMORY_ADDRESS, base);
   if (!thread->function) {
-    const enum memory_finding finding =
-        memory_check_access(check, span->thread, base->tag, span->inst.imm, address, bytes, &object);
+    const enum trax_memory_finding finding =
+        trax_memory_check_access(check, span->thread, base->tag, span->inst.imm, address, bytes, &object);
     if (finding && !is_partial(check, span))
       note(check, span, finding, address, bytes, write, object);
   }
   if (op->flags & TRAX_IS_STORE) {
-    struct memory_value value = thread->reg[span->inst.rb];
+    struct trax_memory_value value = thread->reg[span->inst.rb];
     value.bits = span->issue->result;
     store(check, span, bytes, &value);
     thread->recent[thread->stores % MEMORY_RECENT].address = address;
@@ -110,20 +111,21 @@ static void access(struct memory_check *check, const struct trax_span *span, con
 
 /* --- traps --- */
 
-static void check_output(struct memory_check *check, const struct trax_span *span, uint32_t address, uint32_t bytes) {
+static void check_output(struct trax_memory_check *check, const struct trax_span *span, uint32_t address,
+                         uint32_t bytes) {
   uint32_t object;
   for (uint32_t i = 0; i < bytes; i++) {
     uint8_t byte;
-    if (!memory_byte(check, span->thread, address + i, &byte))
+    if (!trax_memory_byte(check, span->thread, address + i, &byte))
       return;
-    const enum memory_finding finding =
-        memory_check_access(check, span->thread, MEMORY_NO_TAG, 0, address + i, 1, &object);
+    const enum trax_memory_finding finding =
+        trax_memory_check_access(check, span->thread, MEMORY_NO_TAG, 0, address + i, 1, &object);
     if (finding) {
       note(check, span, finding, address + i, 1, false, object);
       return;
     }
-    if (memory_undefined_byte(check, span->thread, address + i)) {
-      struct memory_value value = {.undefined = 0xFF, .from = address + i};
+    if (trax_memory_undefined_byte(check, span->thread, address + i)) {
+      struct trax_memory_value value = {.undefined = 0xFF, .from = address + i};
       note_undefined(check, span, MEMORY_OUTPUT, &value);
       return;
     }
@@ -131,36 +133,37 @@ static void check_output(struct memory_check *check, const struct trax_span *spa
 }
 
 /* The number of a host call has been replaced by its result, so it is taken from the thread's own stores. */
-static uint32_t host_call_number(const struct memory_thread *thread, uint32_t block) {
+static uint32_t host_call_number(const struct trax_memory_thread *thread, uint32_t block) {
   for (unsigned i = 1; i <= MEMORY_RECENT && i <= thread->stores; i++)
     if (thread->recent[(thread->stores - i) % MEMORY_RECENT].address == block)
       return thread->recent[(thread->stores - i) % MEMORY_RECENT].value;
   return TRAX_HOST_READ;
 }
 
-static void host_call(struct memory_check *check, const struct trax_span *span, uint32_t block) {
+static void host_call(struct trax_memory_check *check, const struct trax_span *span, uint32_t block) {
   const uint32_t number = host_call_number(&check->threads[span->thread], block);
   uint32_t address = 0, bytes = 0;
-  if (!memory_word(check, span->thread, block + 8, &address) || !memory_word(check, span->thread, block + 12, &bytes))
+  if (!trax_memory_word(check, span->thread, block + 8, &address) ||
+      !trax_memory_word(check, span->thread, block + 12, &bytes))
     return;
-  memory_define(check, span->thread, block, 4, false);
+  trax_memory_define(check, span->thread, block, 4, false);
   if (number == TRAX_HOST_WRITE)
     check_output(check, span, address, bytes);
   else if (number == TRAX_HOST_READ)
-    memory_define(check, span->thread, address, bytes, false);
+    trax_memory_define(check, span->thread, address, bytes, false);
   else if (number == TRAX_HOST_SEEK || number == TRAX_HOST_STAT || number == TRAX_HOST_FSTAT)
-    memory_define(check, span->thread, address, number == TRAX_HOST_SEEK ? 8 : 4 * TRAX_STAT_WORDS, false);
+    trax_memory_define(check, span->thread, address, number == TRAX_HOST_SEEK ? 8 : 4 * TRAX_STAT_WORDS, false);
 }
 
-static void trap(struct memory_check *check, const struct trax_span *span) {
-  struct memory_value *operand = &check->threads[span->thread].reg[span->inst.ra];
+static void trap(struct trax_memory_check *check, const struct trax_span *span) {
+  struct trax_memory_value *operand = &check->threads[span->thread].reg[span->inst.ra];
   const int32_t code = span->inst.imm;
   if (operand->undefined & (code == TRAX_TRAP_PUTC ? 0xFF : ~0u))
     note_undefined(check, span, MEMORY_OUTPUT, operand);
   uint32_t length = 0;
   uint8_t byte;
   if (code == TRAX_TRAP_PUTS) {
-    while (memory_byte(check, span->thread, operand->bits + length, &byte) && byte)
+    while (trax_memory_byte(check, span->thread, operand->bits + length, &byte) && byte)
       length++;
     check_output(check, span, operand->bits, length + 1);
   } else if (code == TRAX_TRAP_HOST) {
@@ -170,10 +173,10 @@ static void trap(struct memory_check *check, const struct trax_span *span) {
 
 /* --- the reader --- */
 
-static void branch(struct memory_check *check, const struct trax_span *span) {
-  struct memory_thread *thread = &check->threads[span->thread];
-  struct memory_value *a = &thread->reg[span->inst.ra], *b = &thread->reg[span->inst.rb];
-  if (!memory_branch_is_undefined(thread, span->inst))
+static void branch(struct trax_memory_check *check, const struct trax_span *span) {
+  struct trax_memory_thread *thread = &check->threads[span->thread];
+  struct trax_memory_value *a = &thread->reg[span->inst.ra], *b = &thread->reg[span->inst.rb];
+  if (!trax_memory_branch_is_undefined(thread, span->inst))
     return;
   /* strcmp compares whole words before it looks for the end in them. */
   if (!((a->undefined | b->undefined) & 0xFF) && is_in(check, span, "strcmp"))
@@ -183,56 +186,56 @@ static void branch(struct memory_check *check, const struct trax_span *span) {
 }
 
 static void add_span(void *self, const struct trax_span *span) {
-  struct memory_check *check = self;
+  struct trax_memory_check *check = self;
   const trax_op_info *op = &trax_op_table[span->inst.op];
   if (!span->issue || check->reader.explain->out_of_memory)
     return;
-  struct memory_thread *thread = &check->threads[span->thread];
+  struct trax_memory_thread *thread = &check->threads[span->thread];
   const uint32_t stack_pointer = thread->reg[SP].bits;
   if (op->access_bytes) {
     access(check, span, op);
   } else if (span->inst.op == TRAX_OP_JAL || span->inst.op == TRAX_OP_JALR) {
-    struct memory_value *target = &thread->reg[span->inst.ra];
+    struct trax_memory_value *target = &thread->reg[span->inst.ra];
     if (span->inst.op == TRAX_OP_JALR && target->undefined)
       note_undefined(check, span, MEMORY_ADDRESS, target);
     if (span->inst.rd)
-      thread->reg[span->inst.rd] = (struct memory_value){.bits = span->issue->result};
+      thread->reg[span->inst.rd] = (struct trax_memory_value){.bits = span->issue->result};
     if (span->inst.rd && span->issue->next_pc != span->pc + 4) /* else a call of a weak function that is not defined */
-      memory_call(check, span);
+      trax_memory_call(check, span);
     else if (!span->inst.rd)
-      memory_jump(check, span);
+      trax_memory_jump(check, span);
   } else if (op->flags & TRAX_IS_BRANCH) {
     branch(check, span);
   } else if (span->inst.op == TRAX_OP_TRAP) {
     trap(check, span);
   } else if (op->flags & TRAX_WRITES_RD && span->inst.rd) {
-    thread->reg[span->inst.rd] = memory_result(check, thread, span);
+    thread->reg[span->inst.rd] = trax_memory_result(check, thread, span);
   }
   if (thread->reg[SP].bits != stack_pointer)
-    memory_move_stack(check, span->thread);
+    trax_memory_move_stack(check, span->thread);
 }
 
 static void add_arrival(void *self, const struct trax_arrival *arrival) {
-  struct memory_check *check = self;
+  struct trax_memory_check *check = self;
   if (arrival->rd)
     check->threads[arrival->tm * check->tps + arrival->tp].reg[arrival->rd].bits = arrival->value;
 }
 
 static trax_status end(void *self, trax_error *error) {
-  struct memory_check *check = self;
+  struct trax_memory_check *check = self;
   if (check->loaded && check->machine->status == TRAX_OK && check->heap_end &&
-      memory_find_leaks(check, error) != TRAX_OK)
+      trax_memory_find_leaks(check, error) != TRAX_OK)
     return TRAX_ERROR;
   if (!check->site_count)
     return TRAX_OK;
   fflush(stdout);
-  memory_print(check, stderr);
+  trax_memory_print(check, stderr);
   return trax_fail(error, "the program has %zu error%s of memory (--check-memory)", check->site_count,
                    check->site_count == 1 ? "" : "s");
 }
 
 static trax_status open_check(void *self, trax_error *error) {
-  struct memory_check *check = self;
+  struct trax_memory_check *check = self;
   check->machine = check->reader.explain->machine;
   check->loaded = trax_loaded_of(check->machine);
   check->tps = check->machine->config.chip.tps_per_tm;
@@ -242,12 +245,13 @@ static trax_status open_check(void *self, trax_error *error) {
     return TRAX_ERROR;
   for (uint64_t i = 0; i < check->machine->stats.threads; i++)
     check->threads[i].low = MEMORY_NO_FRAME;
-  return memory_objects_open(check, error) == TRAX_OK && memory_calls_open(check, error) == TRAX_OK ? TRAX_OK
-                                                                                                    : TRAX_ERROR;
+  return trax_memory_objects_open(check, error) == TRAX_OK && trax_memory_calls_open(check, error) == TRAX_OK
+             ? TRAX_OK
+             : TRAX_ERROR;
 }
 
 static void close_check(void *self) {
-  struct memory_check *check = self;
+  struct trax_memory_check *check = self;
   for (uint64_t i = 0; check->threads && i < check->machine->stats.threads; i++)
     free(check->threads[i].calls);
   free(check->threads);
@@ -256,14 +260,14 @@ static void close_check(void *self) {
   trax_map_free(&check->functions);
   trax_map_free(&check->context_of);
   trax_map_free(&check->site_of);
-  memory_objects_close(check);
+  trax_memory_objects_close(check);
 }
 
 static bool is_wanted(const struct trax_explain_options *options) {
   return options->check_memory;
 }
 
-const struct trax_reader_kind trax_memory_check_reader = {.bytes = sizeof(struct memory_check),
+const struct trax_reader_kind trax_memory_check_reader = {.bytes = sizeof(struct trax_memory_check),
                                                           .is_wanted = is_wanted,
                                                           .open = open_check,
                                                           .span = add_span,

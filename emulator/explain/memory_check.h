@@ -10,10 +10,10 @@
 #include "trax/map.h"
 
 /* What is known of a register or a word besides its bits. */
-struct memory_value {
+struct trax_memory_value {
   uint32_t bits;
   uint32_t undefined; /* bits that depend on memory that was never written */
-  uint32_t tag;       /* the object of a pointer, of memory_check.objects; MEMORY_NO_TAG or MEMORY_MIXED */
+  uint32_t tag;       /* the object of a pointer, of trax_memory_check.objects; MEMORY_NO_TAG or MEMORY_MIXED */
   uint32_t from;      /* if bits are undefined: the address from which they were loaded */
 };
 
@@ -21,7 +21,7 @@ struct memory_value {
    heap by which the heap keeps account. Later tags are objects. */
 enum { MEMORY_NO_TAG, MEMORY_MIXED, MEMORY_PRIVATE, MEMORY_FIRST_OBJECT };
 
-enum memory_object_kind {
+enum trax_memory_object_kind {
   MEMORY_HALF,   /* no object: `begin` is the upper half of an address that is not complete yet */
   MEMORY_GLOBAL, /* of the program's symbols */
   MEMORY_LOCAL,  /* an automatic variable, of the debug information */
@@ -30,52 +30,52 @@ enum memory_object_kind {
 };
 
 /* When, where and by whom something was done. */
-struct memory_event {
+struct trax_memory_event {
   uint64_t cycle;
   uint32_t thread, pc, context; /* context: the call chain, of memory_check.contexts */
 };
 
-struct memory_object {
-  enum memory_object_kind kind;
+struct trax_memory_object {
+  enum trax_memory_object_kind kind;
   uint32_t begin, end;         /* what a pointer to the object may access */
   const char *name;            /* of all but blocks */
   uint32_t own_begin, own_end; /* of these: the object that is named, without what a constant may mean as well */
   bool freed, reached;         /* of a block; reached: the search for leaks has found a pointer to it */
-  struct memory_event allocation, release;
+  struct trax_memory_event allocation, release;
 };
 
 enum { MEMORY_PAGE_SHIFT = 12, MEMORY_PAGE = 1 << MEMORY_PAGE_SHIFT };
 
 /* What is known of a page of global memory; without one, all is defined. */
-struct memory_page {
+struct trax_memory_page {
   uint8_t undefined[MEMORY_PAGE];   /* bits */
   uint32_t tags[MEMORY_PAGE / 4];   /* of whole words */
   uint32_t blocks[MEMORY_PAGE / 4]; /* the block that had the word last; 0: none */
 };
 
-enum memory_function { MEMORY_OTHER, MEMORY_MALLOC, MEMORY_CALLOC, MEMORY_REALLOC, MEMORY_ALIGNED, MEMORY_FREE };
+enum trax_memory_function { MEMORY_OTHER, MEMORY_MALLOC, MEMORY_CALLOC, MEMORY_REALLOC, MEMORY_ALIGNED, MEMORY_FREE };
 
-struct memory_call {
+struct trax_memory_call {
   uint32_t return_pc, stack_pointer;
   uint32_t context, low; /* of the caller */
 };
 
 enum { MEMORY_RECENT = 8, MEMORY_NO_FRAME = 1 };
 
-struct memory_thread {
-  struct memory_value reg[TRAX_NUM_REGISTERS];
+struct trax_memory_thread {
+  struct trax_memory_value reg[TRAX_NUM_REGISTERS];
   uint8_t local[TRAX_LOCAL_SIZE], local_undefined[TRAX_LOCAL_SIZE]; /* local memory as the checker knows it */
   uint32_t local_tags[TRAX_LOCAL_SIZE / 4];
   uint32_t low; /* the lower end of the current frame, or MEMORY_NO_FRAME: unknown */
   uint32_t context;
-  struct memory_call *calls;
+  struct trax_memory_call *calls;
   size_t depth, capacity;
   /* The call of a function of the heap that the thread is in; MEMORY_OTHER: none. */
-  enum memory_function function;
+  enum trax_memory_function function;
   uint32_t return_pc, stack_pointer;
-  struct memory_value arguments[2];
+  struct trax_memory_value arguments[2];
   uint32_t block; /* that it frees; 0: none */
-  struct memory_event event;
+  struct trax_memory_event event;
   struct {
     uint32_t address, value;
   } recent[MEMORY_RECENT]; /* stores of words, for the number of a host call */
@@ -94,117 +94,121 @@ struct memory_thread {
   X(INVALID_FREE, "what is freed is not the beginning of a block")                                                     \
   X(LEAK, "a block is lost: no pointer to it is left, and it was not freed")
 #define ID(NAME, TEXT) MEMORY_##NAME,
-enum memory_finding { MEMORY_NOTHING, MEMORY_FINDINGS(ID) };
+enum trax_memory_finding { MEMORY_NOTHING, MEMORY_FINDINGS(ID) };
 #undef ID
 
-struct memory_site {
-  enum memory_finding finding;
-  struct memory_event event; /* the first */
+struct trax_memory_site {
+  enum trax_memory_finding finding;
+  struct trax_memory_event event; /* the first */
   uint32_t address, bytes;
   bool write;
   uint32_t object;       /* 0: unknown */
   uint64_t count, total; /* of leaks: blocks, bytes */
 };
 
-struct memory_symbol {
+struct trax_memory_symbol {
   uint32_t begin, end;
   const char *name;
 };
 
-struct memory_frame { /* what is known of a function at its first instruction */
+struct trax_memory_frame { /* what is known of a function at its first instruction */
   struct trax_map_entry entry;
   int32_t bytes; /* of its frame; -1: unknown */
-  enum memory_function function;
+  enum trax_memory_function function;
 };
 
-struct memory_check {
+struct trax_memory_check {
   struct trax_reader reader;
   const trax_machine *machine;
   struct trax_loaded *loaded;
   uint32_t tps;
-  struct memory_thread *threads;
-  struct memory_page **pages;
+  struct trax_memory_thread *threads;
+  struct trax_memory_page **pages;
   size_t page_count;
-  struct memory_object *objects; /* by tag */
+  struct trax_memory_object *objects; /* by tag */
   size_t object_count, object_capacity;
-  struct trax_map object_of;     /* of constants: the key says which */
-  struct memory_symbol *symbols; /* of objects in global memory, in the order of addresses */
+  struct trax_map object_of;          /* of constants: the key says which */
+  struct trax_memory_symbol *symbols; /* of objects in global memory, in the order of addresses */
   size_t symbol_count;
   uint8_t *padding; /* a bit for each byte from image_begin to image_end that belongs to no object */
   uint32_t image_begin, image_end, heap_begin, heap_end, thread_local_end;
-  struct trax_map functions;    /* struct memory_frame by address */
+  struct trax_map functions;    /* struct trax_memory_frame by address */
   struct trax_map variables_of; /* by a function's address: in `variables` */
-  struct memory_variables {
+  struct trax_memory_variables {
     struct trax_frame_variable *items;
     size_t count;
     unsigned base; /* the register from which their offsets count */
   } * variables;
   size_t variables_count, variables_capacity;
-  struct memory_context {
+  struct trax_memory_context {
     uint32_t parent, pc;
   } * contexts;
   size_t context_count, context_capacity;
   struct trax_map context_of;
-  struct memory_site *sites;
+  struct trax_memory_site *sites;
   size_t site_count, site_capacity;
   struct trax_map site_of;
 };
 
 /* --- memory_values.c --- */
 /* What is known of the result of an instruction that accesses no memory. */
-struct memory_value memory_result(struct memory_check *check, const struct memory_thread *thread,
-                                  const struct trax_span *span);
+struct trax_memory_value trax_memory_result(struct trax_memory_check *check, const struct trax_memory_thread *thread,
+                                            const struct trax_span *span);
 /* Whether undefined bits decide a conditional branch. */
-bool memory_branch_is_undefined(const struct memory_thread *thread, trax_inst inst);
+bool trax_memory_branch_is_undefined(const struct trax_memory_thread *thread, trax_inst inst);
 
 /* --- memory_calls.c --- */
-trax_status memory_calls_open(struct memory_check *check, trax_error *error);
-struct memory_event memory_event_of(const struct memory_check *check, const struct trax_span *span);
-void memory_call(struct memory_check *check, const struct trax_span *span);
+trax_status trax_memory_calls_open(struct trax_memory_check *check, trax_error *error);
+struct trax_memory_event trax_memory_event_of(const struct trax_memory_check *check, const struct trax_span *span);
+void trax_memory_call(struct trax_memory_check *check, const struct trax_span *span);
 /* Of jumps that write no register: returns, longjmp, tail calls. */
-void memory_jump(struct memory_check *check, const struct trax_span *span);
+void trax_memory_jump(struct trax_memory_check *check, const struct trax_span *span);
 /* After an instruction that has changed the stack pointer. */
-void memory_move_stack(struct memory_check *check, uint32_t thread);
+void trax_memory_move_stack(struct trax_memory_check *check, uint32_t thread);
 
 /* --- memory_objects.c --- */
-trax_status memory_objects_open(struct memory_check *check, trax_error *error);
-void memory_objects_close(struct memory_check *check);
-uint32_t memory_object_add(struct memory_check *check, const struct memory_object *object);
+trax_status trax_memory_objects_open(struct trax_memory_check *check, trax_error *error);
+void trax_memory_objects_close(struct trax_memory_check *check);
+uint32_t trax_memory_object_add(struct trax_memory_check *check, const struct trax_memory_object *object);
 /* Checks an access by a pointer with a tag; imm: of the instruction. *object: what it misses, or 0. */
-enum memory_finding memory_check_access(struct memory_check *check, uint32_t thread, uint32_t tag, int32_t imm,
-                                        uint32_t address, uint32_t bytes, uint32_t *object);
+enum trax_memory_finding trax_memory_check_access(struct trax_memory_check *check, uint32_t thread, uint32_t tag,
+                                                  int32_t imm, uint32_t address, uint32_t bytes, uint32_t *object);
 /* The lower end of the memory of a thread's stack, and its upper end, which may be 0. */
-void memory_stack_of(const struct memory_check *check, uint32_t thread, uint32_t *begin, uint32_t *end);
+void trax_memory_stack_of(const struct trax_memory_check *check, uint32_t thread, uint32_t *begin, uint32_t *end);
 
 /* --- memory_constants.c --- */
 /* The tag of an upper half; of a constant address; of a constant distance from a register in a frame. */
-uint32_t memory_tag_of_half(struct memory_check *check, uint32_t half);
-uint32_t memory_tag_of_address(struct memory_check *check, uint32_t address);
-uint32_t memory_tag_of_frame(struct memory_check *check, uint32_t pc, unsigned base, int32_t offset, uint32_t address);
+uint32_t trax_memory_tag_of_half(struct trax_memory_check *check, uint32_t half);
+uint32_t trax_memory_tag_of_address(struct trax_memory_check *check, uint32_t address);
+uint32_t trax_memory_tag_of_frame(struct trax_memory_check *check, uint32_t pc, unsigned base, int32_t offset,
+                                  uint32_t address);
 
 /* --- memory_shadow.c --- */
 /* The tag of a word. */
-uint32_t memory_tag_at(const struct memory_check *check, uint32_t thread, uint32_t address);
-struct memory_page *memory_page_of(struct memory_check *check, uint32_t address); /* NULL: out of memory */
+uint32_t trax_memory_tag_at(const struct trax_memory_check *check, uint32_t thread, uint32_t address);
+struct trax_memory_page *trax_memory_page_of(struct trax_memory_check *check,
+                                             uint32_t address); /* NULL: out of memory */
 /* The bytes from an address on become undefined, or defined. */
-void memory_define(struct memory_check *check, uint32_t thread, uint32_t address, uint32_t bytes, bool undefined);
+void trax_memory_define(struct trax_memory_check *check, uint32_t thread, uint32_t address, uint32_t bytes,
+                        bool undefined);
 /* The undefined bits of a byte. */
-uint8_t memory_undefined_byte(const struct memory_check *check, uint32_t thread, uint32_t address);
+uint8_t trax_memory_undefined_byte(const struct trax_memory_check *check, uint32_t thread, uint32_t address);
 /* A byte of the program's memory as the thread sees it; false: there is none. */
-bool memory_byte(const struct memory_check *check, uint32_t thread, uint32_t address, uint8_t *byte);
-bool memory_word(const struct memory_check *check, uint32_t thread, uint32_t address, uint32_t *word);
+bool trax_memory_byte(const struct trax_memory_check *check, uint32_t thread, uint32_t address, uint8_t *byte);
+bool trax_memory_word(const struct trax_memory_check *check, uint32_t thread, uint32_t address, uint32_t *word);
 
 /* --- memory_heap.c --- */
 /* The latest block at an address; 0: none. */
-uint32_t memory_block_at(const struct memory_check *check, uint32_t address);
-void memory_heap_enter(struct memory_check *check, uint32_t thread, enum memory_function function,
-                       const struct memory_event *event);
-void memory_heap_leave(struct memory_check *check, uint32_t thread);
-trax_status memory_find_leaks(struct memory_check *check, trax_error *error);
+uint32_t trax_memory_block_at(const struct trax_memory_check *check, uint32_t address);
+void trax_memory_heap_enter(struct trax_memory_check *check, uint32_t thread, enum trax_memory_function function,
+                            const struct trax_memory_event *event);
+void trax_memory_heap_leave(struct trax_memory_check *check, uint32_t thread);
+trax_status trax_memory_find_leaks(struct trax_memory_check *check, trax_error *error);
 
 /* --- memory_report.c --- */
-void memory_note(struct memory_check *check, enum memory_finding finding, const struct memory_event *event,
-                 uint32_t address, uint32_t bytes, bool write, uint32_t object);
-void memory_print(const struct memory_check *check, FILE *out);
+void trax_memory_note(struct trax_memory_check *check, enum trax_memory_finding finding,
+                      const struct trax_memory_event *event, uint32_t address, uint32_t bytes, bool write,
+                      uint32_t object);
+void trax_memory_print(const struct trax_memory_check *check, FILE *out);
 
 #endif

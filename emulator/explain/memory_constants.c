@@ -6,7 +6,7 @@
 enum { NEAR = 16 }; /* A compiler may count from a constant that lies so far outside of an object. */
 
 /* Returns the tag of a key, or 0 after it has given the key the next one. */
-static struct trax_map_entry *entry_of(struct memory_check *check, uint32_t kind, uint32_t value) {
+static struct trax_map_entry *entry_of(struct trax_memory_check *check, uint32_t kind, uint32_t value) {
   struct trax_map_entry *entry =
       trax_map_put(&check->object_of, sizeof *entry, (uint64_t)kind << 32 | value, UINT32_MAX);
   if (!entry)
@@ -14,23 +14,23 @@ static struct trax_map_entry *entry_of(struct memory_check *check, uint32_t kind
   return entry;
 }
 
-uint32_t memory_tag_of_half(struct memory_check *check, uint32_t half) {
+uint32_t trax_memory_tag_of_half(struct trax_memory_check *check, uint32_t half) {
   if (half > check->image_end + 0x8000 || half + 0x8000 < check->image_begin)
     return MEMORY_NO_TAG;
   struct trax_map_entry *entry = entry_of(check, UINT32_MAX, half);
   if (entry && entry->value == UINT32_MAX)
-    entry->value = memory_object_add(check, &(struct memory_object){.kind = MEMORY_HALF, .begin = half});
+    entry->value = trax_memory_object_add(check, &(struct trax_memory_object){.kind = MEMORY_HALF, .begin = half});
   return entry ? entry->value : MEMORY_NO_TAG;
 }
 
-static bool is_read_only(const struct memory_check *check, uint32_t address) {
+static bool is_read_only(const struct trax_memory_check *check, uint32_t address) {
   return check->machine->space.restrictions[address / TRAX_GRANULE] & TRAX_RESTRICT_WRITE;
 }
 
 /* Finds what an address in code may mean: the object that begins there, or one that it lies in or near to. An object
    that ends there may be meant as well. */
-static bool find_global(const struct memory_check *check, uint32_t address, struct memory_object *object) {
-  const struct memory_symbol *symbols = check->symbols;
+static bool find_global(const struct trax_memory_check *check, uint32_t address, struct trax_memory_object *object) {
+  const struct trax_memory_symbol *symbols = check->symbols;
   size_t after = 0, high = check->symbol_count; /* the first that begins behind the address */
   while (after < high) {
     const size_t middle = (after + high) / 2;
@@ -41,13 +41,13 @@ static bool find_global(const struct memory_check *check, uint32_t address, stru
   }
   if (!after || address >= symbols[after - 1].end)
     return false;
-  const struct memory_symbol *main = &symbols[after - 1], *before = main;
-  *object = (struct memory_object){.kind = MEMORY_GLOBAL,
-                                   .begin = main->begin,
-                                   .end = main->end,
-                                   .name = main->name,
-                                   .own_begin = main->begin,
-                                   .own_end = main->end};
+  const struct trax_memory_symbol *main = &symbols[after - 1], *before = main;
+  *object = (struct trax_memory_object){.kind = MEMORY_GLOBAL,
+                                        .begin = main->begin,
+                                        .end = main->end,
+                                        .name = main->name,
+                                        .own_begin = main->begin,
+                                        .own_end = main->end};
   const bool exact = address == main->begin;
   if (is_read_only(check, address)) { /* with constants between objects that have no names */
     object->begin = exact ? 0 : object->begin;
@@ -63,19 +63,19 @@ static bool find_global(const struct memory_check *check, uint32_t address, stru
   return true;
 }
 
-uint32_t memory_tag_of_address(struct memory_check *check, uint32_t address) {
-  struct memory_object object;
+uint32_t trax_memory_tag_of_address(struct trax_memory_check *check, uint32_t address) {
+  struct trax_memory_object object;
   if (address - check->image_begin >= check->image_end - check->image_begin)
     return MEMORY_NO_TAG;
   struct trax_map_entry *entry = entry_of(check, 0, address);
   if (entry && entry->value == UINT32_MAX)
-    entry->value = find_global(check, address, &object) ? memory_object_add(check, &object) : MEMORY_NO_TAG;
+    entry->value = find_global(check, address, &object) ? trax_memory_object_add(check, &object) : MEMORY_NO_TAG;
   return entry ? entry->value : MEMORY_NO_TAG;
 }
 
 /* --- automatic variables --- */
 
-static const struct memory_variables *variables_at(struct memory_check *check, uint32_t pc) {
+static const struct trax_memory_variables *variables_at(struct trax_memory_check *check, uint32_t pc) {
   const struct trax_symbol *symbol = check->loaded ? trax_image_symbol_at(check->loaded->image, pc) : NULL;
   if (!symbol)
     return NULL;
@@ -87,7 +87,7 @@ static const struct memory_variables *variables_at(struct memory_check *check, u
     if (!trax_grow((void **)&check->variables, check->variables_count, &check->variables_capacity,
                    sizeof *check->variables))
       return NULL;
-    struct memory_variables *variables = &check->variables[check->variables_count++];
+    struct trax_memory_variables *variables = &check->variables[check->variables_count++];
     variables->count = trax_image_variables(check->loaded->image, pc, &variables->items, &variables->base);
   }
   return &check->variables[entry->value];
@@ -95,8 +95,8 @@ static const struct memory_variables *variables_at(struct memory_check *check, u
 
 /* The same as find_global in a frame, whose variables may overlap if they live at different times. What has no name may
    lie in the place of a variable too. It is rarely larger than an array. */
-static bool find_local(const struct memory_variables *variables, int32_t offset, uint32_t address,
-                       struct memory_object *object) {
+static bool find_local(const struct trax_memory_variables *variables, int32_t offset, uint32_t address,
+                       struct trax_memory_object *object) {
   const struct trax_frame_variable *main = NULL;
   for (size_t i = 0; i < variables->count; i++) {
     const struct trax_frame_variable *it = &variables->items[i];
@@ -115,22 +115,23 @@ static bool find_local(const struct memory_variables *variables, int32_t offset,
       end = it->end > end ? it->end : end;
     }
   }
-  *object = (struct memory_object){.kind = MEMORY_LOCAL,
-                                   .begin = address + (uint32_t)(begin - offset),
-                                   .end = address + (uint32_t)(end - offset),
-                                   .name = main->name,
-                                   .own_begin = address + (uint32_t)(main->begin - offset),
-                                   .own_end = address + (uint32_t)(main->end - offset)};
+  *object = (struct trax_memory_object){.kind = MEMORY_LOCAL,
+                                        .begin = address + (uint32_t)(begin - offset),
+                                        .end = address + (uint32_t)(end - offset),
+                                        .name = main->name,
+                                        .own_begin = address + (uint32_t)(main->begin - offset),
+                                        .own_end = address + (uint32_t)(main->end - offset)};
   return true;
 }
 
-uint32_t memory_tag_of_frame(struct memory_check *check, uint32_t pc, unsigned base, int32_t offset, uint32_t address) {
-  struct memory_object object;
+uint32_t trax_memory_tag_of_frame(struct trax_memory_check *check, uint32_t pc, unsigned base, int32_t offset,
+                                  uint32_t address) {
+  struct trax_memory_object object;
   struct trax_map_entry *entry = entry_of(check, pc, address);
   if (entry && entry->value == UINT32_MAX) {
-    const struct memory_variables *variables = variables_at(check, pc);
+    const struct trax_memory_variables *variables = variables_at(check, pc);
     entry->value = variables && variables->base == base && find_local(variables, offset, address, &object)
-                       ? memory_object_add(check, &object)
+                       ? trax_memory_object_add(check, &object)
                        : MEMORY_NO_TAG;
   }
   return entry ? entry->value : MEMORY_NO_TAG;

@@ -8,36 +8,37 @@
 
 enum { RA = 1, SP = 2, FP = 3, A0 = 4, S0 = 20, S11 = 31 };
 
-uint32_t memory_block_at(const struct memory_check *check, uint32_t address) {
-  const struct memory_page *page =
+uint32_t trax_memory_block_at(const struct trax_memory_check *check, uint32_t address) {
+  const struct trax_memory_page *page =
       address >= check->heap_begin && address < check->heap_end ? check->pages[address >> MEMORY_PAGE_SHIFT] : NULL;
   return page ? page->blocks[address % MEMORY_PAGE / 4] : MEMORY_NO_TAG;
 }
 
 /* Returns the live block that a call frees; 0: none, which is reported. */
-static uint32_t freed_block(struct memory_check *check, const struct memory_thread *thread,
-                            const struct memory_event *event) {
-  const struct memory_value pointer = thread->arguments[0];
+static uint32_t freed_block(struct trax_memory_check *check, const struct trax_memory_thread *thread,
+                            const struct trax_memory_event *event) {
+  const struct trax_memory_value pointer = thread->arguments[0];
   uint32_t block = pointer.tag;
   if (block < MEMORY_FIRST_OBJECT || check->objects[block].kind == MEMORY_HALF)
-    block = memory_block_at(check, pointer.bits);
-  const struct memory_object *it = block ? &check->objects[block] : NULL;
+    block = trax_memory_block_at(check, pointer.bits);
+  const struct trax_memory_object *it = block ? &check->objects[block] : NULL;
   if (it && it->kind == MEMORY_BLOCK && it->begin == pointer.bits && !it->freed)
     return block;
-  memory_note(check, it && it->freed ? MEMORY_DOUBLE_FREE : MEMORY_INVALID_FREE, event, pointer.bits, 0, true, block);
+  trax_memory_note(check, it && it->freed ? MEMORY_DOUBLE_FREE : MEMORY_INVALID_FREE, event, pointer.bits, 0, true,
+                   block);
   return MEMORY_NO_TAG;
 }
 
-static void release(struct memory_check *check, uint32_t block, const struct memory_event *event) {
+static void release(struct trax_memory_check *check, uint32_t block, const struct trax_memory_event *event) {
   if (!block)
     return;
   check->objects[block].freed = true;
   check->objects[block].release = *event;
 }
 
-void memory_heap_enter(struct memory_check *check, uint32_t thread, enum memory_function function,
-                       const struct memory_event *event) {
-  struct memory_thread *it = &check->threads[thread];
+void trax_memory_heap_enter(struct trax_memory_check *check, uint32_t thread, enum trax_memory_function function,
+                            const struct trax_memory_event *event) {
+  struct trax_memory_thread *it = &check->threads[thread];
   it->function = function;
   it->return_pc = it->reg[RA].bits;
   it->stack_pointer = it->reg[SP].bits;
@@ -52,20 +53,21 @@ void memory_heap_enter(struct memory_check *check, uint32_t thread, enum memory_
 }
 
 /* A block that the heap has handed out: its first bytes up to `defined` have values. */
-static void add_block(struct memory_check *check, uint32_t thread, uint32_t address, uint32_t bytes, uint32_t defined) {
-  struct memory_thread *it = &check->threads[thread];
+static void add_block(struct trax_memory_check *check, uint32_t thread, uint32_t address, uint32_t bytes,
+                      uint32_t defined) {
+  struct trax_memory_thread *it = &check->threads[thread];
   if (bytes > check->heap_end - address)
     return;
-  const uint32_t block = memory_object_add(check, &(struct memory_object){.kind = MEMORY_BLOCK,
-                                                                          .begin = address,
-                                                                          .end = address + bytes,
-                                                                          .own_begin = address,
-                                                                          .own_end = address + bytes,
-                                                                          .allocation = it->event});
+  const uint32_t block = trax_memory_object_add(check, &(struct trax_memory_object){.kind = MEMORY_BLOCK,
+                                                                                    .begin = address,
+                                                                                    .end = address + bytes,
+                                                                                    .own_begin = address,
+                                                                                    .own_end = address + bytes,
+                                                                                    .allocation = it->event});
   if (defined < bytes)
-    memory_define(check, thread, address + defined, bytes - defined, true);
+    trax_memory_define(check, thread, address + defined, bytes - defined, true);
   for (uint32_t word = address; block && (word < address + bytes || word == address); word += 4) {
-    struct memory_page *page = memory_page_of(check, word);
+    struct trax_memory_page *page = trax_memory_page_of(check, word);
     if (!page)
       return;
     page->blocks[word % MEMORY_PAGE / 4] = block;
@@ -73,9 +75,9 @@ static void add_block(struct memory_check *check, uint32_t thread, uint32_t addr
   it->reg[A0].tag = block;
 }
 
-void memory_heap_leave(struct memory_check *check, uint32_t thread) {
-  struct memory_thread *it = &check->threads[thread];
-  const enum memory_function function = it->function;
+void trax_memory_heap_leave(struct trax_memory_check *check, uint32_t thread) {
+  struct trax_memory_thread *it = &check->threads[thread];
+  const enum trax_memory_function function = it->function;
   const uint32_t result = it->reg[A0].bits, first = it->arguments[0].bits, second = it->arguments[1].bits;
   it->function = MEMORY_OTHER;
   if (function == MEMORY_FREE)
@@ -98,15 +100,15 @@ void memory_heap_leave(struct memory_check *check, uint32_t thread) {
 /* --- leaks --- */
 
 struct search {
-  struct memory_check *check;
+  struct trax_memory_check *check;
   uint32_t *found; /* blocks whose contents are still to be searched */
   size_t count, capacity;
   bool exhausted;
 };
 
 static void follow(struct search *search, uint32_t word) {
-  const uint32_t block = memory_block_at(search->check, word);
-  struct memory_object *it = block ? &search->check->objects[block] : NULL;
+  const uint32_t block = trax_memory_block_at(search->check, word);
+  struct trax_memory_object *it = block ? &search->check->objects[block] : NULL;
   if (!it || it->freed || it->reached)
     return;
   it->reached = true;
@@ -120,14 +122,15 @@ static void follow(struct search *search, uint32_t word) {
 static void follow_all(struct search *search, uint32_t thread, uint32_t begin, uint32_t end) {
   uint32_t word;
   for (uint32_t at = (begin + 3) & ~3u; at - 1 < end - 1 && end - at >= 4; at += 4)
-    if (memory_tag_at(search->check, thread, at) != MEMORY_PRIVATE && memory_word(search->check, thread, at, &word))
+    if (trax_memory_tag_at(search->check, thread, at) != MEMORY_PRIVATE &&
+        trax_memory_word(search->check, thread, at, &word))
       follow(search, word);
 }
 
 static void follow_thread(struct search *search, uint32_t thread) {
-  const struct memory_thread *it = &search->check->threads[thread];
+  const struct trax_memory_thread *it = &search->check->threads[thread];
   uint32_t begin, end;
-  memory_stack_of(search->check, thread, &begin, &end);
+  trax_memory_stack_of(search->check, thread, &begin, &end);
   follow(search, it->reg[FP].bits);
   for (unsigned reg = S0; reg <= S11; reg++)
     follow(search, it->reg[reg].bits);
@@ -139,7 +142,7 @@ static void follow_thread(struct search *search, uint32_t thread) {
     follow_all(search, thread, it->low, end);
 }
 
-trax_status memory_find_leaks(struct memory_check *check, trax_error *error) {
+trax_status trax_memory_find_leaks(struct trax_memory_check *check, trax_error *error) {
   struct search search = {.check = check};
   size_t count;
   const struct trax_load_segment *segments = trax_image_segments(check->loaded->image, &count);
@@ -152,16 +155,16 @@ trax_status memory_find_leaks(struct memory_check *check, trax_error *error) {
   for (uint32_t thread = 0; thread < check->machine->stats.threads; thread++)
     follow_thread(&search, thread);
   while (search.count) {
-    const struct memory_object it = check->objects[search.found[--search.count]];
+    const struct trax_memory_object it = check->objects[search.found[--search.count]];
     follow_all(&search, it.allocation.thread, it.begin, it.end);
   }
   free(search.found);
   for (uint32_t i = MEMORY_FIRST_OBJECT; i < check->object_count; i++) {
-    const struct memory_object *it = &check->objects[i];
+    const struct trax_memory_object *it = &check->objects[i];
     /* The library's table of functions for the end is not freed. */
     const struct trax_symbol *by = trax_image_symbol_at(check->loaded->image, it->allocation.pc);
     if (it->kind == MEMORY_BLOCK && !it->freed && !it->reached && !(by && strcmp(by->name, "__cxa_atexit") == 0))
-      memory_note(check, MEMORY_LEAK, &it->allocation, it->begin, it->end - it->begin, false, i);
+      trax_memory_note(check, MEMORY_LEAK, &it->allocation, it->begin, it->end - it->begin, false, i);
   }
   return search.exhausted ? trax_fail(error, "out of memory for the search for leaks") : TRAX_OK;
 }

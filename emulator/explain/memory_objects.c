@@ -10,7 +10,7 @@ enum {
   FAR_IMM = 0x1000 /* an immediate that is rather an address than a member of a structure */
 };
 
-uint32_t memory_object_add(struct memory_check *check, const struct memory_object *object) {
+uint32_t trax_memory_object_add(struct trax_memory_check *check, const struct trax_memory_object *object) {
   if (!trax_grow((void **)&check->objects, check->object_count, &check->object_capacity, sizeof *check->objects)) {
     check->reader.explain->out_of_memory = true;
     return MEMORY_NO_TAG;
@@ -21,24 +21,24 @@ uint32_t memory_object_add(struct memory_check *check, const struct memory_objec
 
 /* --- places --- */
 
-void memory_stack_of(const struct memory_check *check, uint32_t thread, uint32_t *begin, uint32_t *end) {
+void trax_memory_stack_of(const struct trax_memory_check *check, uint32_t thread, uint32_t *begin, uint32_t *end) {
   const uint32_t bytes = check->loaded ? check->loaded->stack_bytes : 0;
   *end = bytes ? (uint32_t)check->machine->space.size - thread * (bytes + TRAX_STACK_GUARD) : 0;
   *begin = bytes ? *end - bytes : check->thread_local_end;
 }
 
 /* Whether an access may have been meant for an object that was known by a constant only, which may also be a number. */
-static bool is_plausible(const struct memory_check *check, uint32_t thread, const struct memory_object *object,
-                         uint32_t address) {
+static bool is_plausible(const struct trax_memory_check *check, uint32_t thread,
+                         const struct trax_memory_object *object, uint32_t address) {
   uint32_t begin, end;
   if (object->kind == MEMORY_GLOBAL)
     return address >= check->image_begin && address < check->image_end;
-  memory_stack_of(check, thread, &begin, &end);
+  trax_memory_stack_of(check, thread, &begin, &end);
   return object->kind != MEMORY_LOCAL || (object->begin >= begin && address >= begin && address - 1 < end - 1);
 }
 
 /* In a stack in global memory, which other threads may use too: whether the frame of its thread has ended. */
-static bool is_below_frame(const struct memory_check *check, uint32_t thread, uint32_t address) {
+static bool is_below_frame(const struct trax_memory_check *check, uint32_t thread, uint32_t address) {
   const uint32_t bytes = check->loaded ? check->loaded->stack_bytes : 0;
   if (bytes && address >= check->loaded->memory_end && address < check->machine->space.size)
     thread = ((uint32_t)check->machine->space.size - 1 - address) / (bytes + TRAX_STACK_GUARD);
@@ -47,26 +47,26 @@ static bool is_below_frame(const struct memory_check *check, uint32_t thread, ui
   return address - 1 < check->threads[thread].low - 1;
 }
 
-static uint32_t block_before(const struct memory_check *check, uint32_t address) {
+static uint32_t block_before(const struct trax_memory_check *check, uint32_t address) {
   for (uint32_t word = address / 4, i = 0; i < LOOK_BACK && word * 4 >= check->heap_begin; word--, i++) {
-    const struct memory_page *page = check->pages[word * 4 >> MEMORY_PAGE_SHIFT];
+    const struct trax_memory_page *page = check->pages[word * 4 >> MEMORY_PAGE_SHIFT];
     if (page && page->blocks[word % (MEMORY_PAGE / 4)])
       return page->blocks[word % (MEMORY_PAGE / 4)];
   }
   return MEMORY_NO_TAG;
 }
 
-static enum memory_finding check_byte(const struct memory_check *check, uint32_t thread, uint32_t address,
-                                      uint32_t *object) {
+static enum trax_memory_finding check_byte(const struct trax_memory_check *check, uint32_t thread, uint32_t address,
+                                           uint32_t *object) {
   if (is_below_frame(check, thread, address))
     return MEMORY_FRAME;
   if (address >= check->heap_begin && address < check->heap_end) {
-    const struct memory_page *page = check->pages[address >> MEMORY_PAGE_SHIFT];
+    const struct trax_memory_page *page = check->pages[address >> MEMORY_PAGE_SHIFT];
     const uint32_t block = page ? page->blocks[address % MEMORY_PAGE / 4] : 0;
     *object = block ? block : block_before(check, address);
     if (!block)
       return *object ? MEMORY_OUTSIDE : MEMORY_NOWHERE;
-    const struct memory_object *it = &check->objects[block];
+    const struct trax_memory_object *it = &check->objects[block];
     return address - it->begin >= it->end - it->begin ? MEMORY_OUTSIDE : it->freed ? MEMORY_FREED : MEMORY_NOTHING;
   }
   const uint32_t at = address - check->image_begin;
@@ -74,15 +74,15 @@ static enum memory_finding check_byte(const struct memory_check *check, uint32_t
                                                                                             : MEMORY_NOTHING;
 }
 
-enum memory_finding memory_check_access(struct memory_check *check, uint32_t thread, uint32_t tag, int32_t imm,
-                                        uint32_t address, uint32_t bytes, uint32_t *object) {
+enum trax_memory_finding trax_memory_check_access(struct trax_memory_check *check, uint32_t thread, uint32_t tag,
+                                                  int32_t imm, uint32_t address, uint32_t bytes, uint32_t *object) {
   *object = MEMORY_NO_TAG;
   if (tag >= MEMORY_FIRST_OBJECT && check->objects[tag].kind == MEMORY_HALF)
-    tag = memory_tag_of_address(check, check->objects[tag].begin + (uint32_t)imm);
+    tag = trax_memory_tag_of_address(check, check->objects[tag].begin + (uint32_t)imm);
   else if (tag >= MEMORY_FIRST_OBJECT && check->objects[tag].kind == MEMORY_GLOBAL && imm >= FAR_IMM)
     tag = MEMORY_NO_TAG;
   if (tag >= MEMORY_FIRST_OBJECT) {
-    const struct memory_object *it = &check->objects[tag];
+    const struct trax_memory_object *it = &check->objects[tag];
     *object = tag;
     if (it->freed)
       return MEMORY_FREED;
@@ -91,7 +91,7 @@ enum memory_finding memory_check_access(struct memory_check *check, uint32_t thr
       return MEMORY_OUTSIDE;
   }
   for (uint32_t i = 0; i < bytes; i++) {
-    const enum memory_finding finding = check_byte(check, thread, address + i, object);
+    const enum trax_memory_finding finding = check_byte(check, thread, address + i, object);
     if (finding)
       return finding;
   }
@@ -101,13 +101,13 @@ enum memory_finding memory_check_access(struct memory_check *check, uint32_t thr
 /* --- the program's objects --- */
 
 static int by_address(const void *a, const void *b) {
-  const struct memory_symbol *one = a, *other = b;
+  const struct trax_memory_symbol *one = a, *other = b;
   if (one->begin != other->begin)
     return one->begin < other->begin ? -1 : 1;
   return (one->end > other->end) - (one->end < other->end);
 }
 
-static trax_status add_symbols(struct memory_check *check, trax_error *error) {
+static trax_status add_symbols(struct trax_memory_check *check, trax_error *error) {
   size_t count, kept = 0;
   const struct trax_symbol *symbols = trax_image_symbols(check->loaded->image, &count);
   if (!(check->symbols = trax_explain_array(count, sizeof *check->symbols, error)))
@@ -117,9 +117,10 @@ static trax_status add_symbols(struct memory_check *check, trax_error *error) {
     if (!it->absolute && it->address >= TRAX_LOCAL_BASE && it->address + it->bytes > check->thread_local_end)
       check->thread_local_end = it->address + it->bytes;
     uint32_t end = it->address + it->bytes;
-    if (it->absolute || it->address < check->image_begin || it->address >= check->image_end)
+    const bool is_section = strncmp(it->name, "__start_", 8) == 0; /* whose objects are one array to the program */
+    if ((it->absolute && !is_section) || it->address < check->image_begin || it->address >= check->image_end)
       continue;
-    if (strncmp(it->name, "__start_", 8) == 0) { /* objects of a section that the program takes as one array */
+    if (is_section) {
       char stop[256];
       snprintf(stop, sizeof stop, "__stop_%s", it->name + 8);
       const struct trax_symbol *last = trax_image_symbol(check->loaded->image, stop);
@@ -128,13 +129,13 @@ static trax_status add_symbols(struct memory_check *check, trax_error *error) {
       continue;
     }
     if (end > it->address && end <= check->image_end)
-      check->symbols[kept++] = (struct memory_symbol){it->address, end, it->name};
+      check->symbols[kept++] = (struct trax_memory_symbol){it->address, end, it->name};
   }
   if (kept)
     qsort(check->symbols, kept, sizeof *check->symbols, by_address);
   for (size_t i = 0; i < kept; i++) /* of those that overlap, such as aliases, the whole */
     if (check->symbol_count && check->symbols[i].begin < check->symbols[check->symbol_count - 1].end) {
-      struct memory_symbol *last = &check->symbols[check->symbol_count - 1];
+      struct trax_memory_symbol *last = &check->symbols[check->symbol_count - 1];
       last->end = check->symbols[i].end > last->end ? check->symbols[i].end : last->end;
     } else {
       check->symbols[check->symbol_count++] = check->symbols[i];
@@ -143,11 +144,11 @@ static trax_status add_symbols(struct memory_check *check, trax_error *error) {
 }
 
 /* Marks the padding before the objects of a writable segment: fewer bytes than the next object is aligned to. */
-static void mark_padding(struct memory_check *check, const struct trax_load_segment *segment) {
+static void mark_padding(struct trax_memory_check *check, const struct trax_load_segment *segment) {
   const uint32_t segment_end = segment->address + segment->memory_bytes;
   uint32_t end = 0; /* of the object before; 0: none */
   for (size_t i = 0; i < check->symbol_count; i++) {
-    const struct memory_symbol *it = &check->symbols[i];
+    const struct trax_memory_symbol *it = &check->symbols[i];
     if (it->begin < segment->address || it->begin >= segment_end)
       continue;
     if (end && it->begin - end < (it->begin & -it->begin) && it->begin - end < 64)
@@ -160,36 +161,36 @@ static void mark_padding(struct memory_check *check, const struct trax_load_segm
     check->padding[at / 8] |= (uint8_t)(1 << at % 8);
 }
 
-static void find_heap(struct memory_check *check) {
+static void find_heap(struct trax_memory_check *check) {
   const struct trax_symbol *begin = trax_image_symbol(check->loaded->image, "__trax_heap"),
                            *end = trax_image_symbol(check->loaded->image, "__trax_heap_end");
   if (begin && end && trax_image_symbol(check->loaded->image, "malloc") &&
-      (!memory_word(check, 0, begin->address, &check->heap_begin) ||
-       !memory_word(check, 0, end->address, &check->heap_end) || check->heap_begin > check->heap_end ||
+      (!trax_memory_word(check, 0, begin->address, &check->heap_begin) ||
+       !trax_memory_word(check, 0, end->address, &check->heap_end) || check->heap_begin > check->heap_end ||
        check->heap_end > check->machine->space.size))
     check->heap_begin = check->heap_end = 0;
 }
 
-static trax_status add_buffers(struct memory_check *check) {
+static trax_status add_buffers(struct trax_memory_check *check) {
   for (size_t i = 0; i < check->loaded->buffer_count; i++) {
     const struct trax_bound_buffer *it = &check->loaded->buffers[i];
     const struct trax_symbol *symbol = trax_image_symbol(check->loaded->image, it->symbol);
-    struct memory_page *page = symbol ? memory_page_of(check, symbol->address) : NULL;
+    struct trax_memory_page *page = symbol ? trax_memory_page_of(check, symbol->address) : NULL;
     if (page)
       page->tags[symbol->address % MEMORY_PAGE / 4] =
-          memory_object_add(check, &(struct memory_object){.kind = MEMORY_BUFFER,
-                                                           .begin = it->address,
-                                                           .end = it->address + it->bytes,
-                                                           .name = it->symbol,
-                                                           .own_begin = it->address,
-                                                           .own_end = it->address + it->bytes});
+          trax_memory_object_add(check, &(struct trax_memory_object){.kind = MEMORY_BUFFER,
+                                                                     .begin = it->address,
+                                                                     .end = it->address + it->bytes,
+                                                                     .name = it->symbol,
+                                                                     .own_begin = it->address,
+                                                                     .own_end = it->address + it->bytes});
   }
   return TRAX_OK;
 }
 
-trax_status memory_objects_open(struct memory_check *check, trax_error *error) {
+trax_status trax_memory_objects_open(struct trax_memory_check *check, trax_error *error) {
   for (uint32_t i = 0; i < MEMORY_FIRST_OBJECT; i++)
-    memory_object_add(check, &(struct memory_object){0});
+    trax_memory_object_add(check, &(struct trax_memory_object){0});
   check->thread_local_end = TRAX_LOCAL_BASE;
   if (!check->loaded)
     return TRAX_OK;
@@ -209,7 +210,7 @@ trax_status memory_objects_open(struct memory_check *check, trax_error *error) {
   return add_buffers(check);
 }
 
-void memory_objects_close(struct memory_check *check) {
+void trax_memory_objects_close(struct trax_memory_check *check) {
   for (size_t i = 0; check->pages && i < check->page_count; i++)
     free(check->pages[i]);
   for (size_t i = 0; i < check->variables_count; i++)

@@ -8,8 +8,9 @@
 
 enum { MOST_SITES = 1000, MOST_CALLERS = 16 };
 
-void memory_note(struct memory_check *check, enum memory_finding finding, const struct memory_event *event,
-                 uint32_t address, uint32_t bytes, bool write, uint32_t object) {
+void trax_memory_note(struct trax_memory_check *check, enum trax_memory_finding finding,
+                      const struct trax_memory_event *event, uint32_t address, uint32_t bytes, bool write,
+                      uint32_t object) {
   const uint64_t key = ((uint64_t)event->context << 32 | event->pc) ^ (uint64_t)finding << 60;
   struct trax_map_entry *entry = trax_map_put(&check->site_of, sizeof *entry, key, (uint32_t)check->site_count);
   if (!entry) {
@@ -21,23 +22,23 @@ void memory_note(struct memory_check *check, enum memory_finding finding, const 
       check->reader.explain->out_of_memory = true;
       return;
     }
-    check->sites[check->site_count++] = (struct memory_site){.finding = finding,
-                                                             .event = *event,
-                                                             .address = address,
-                                                             .bytes = bytes,
-                                                             .write = write,
-                                                             .object = object == MEMORY_MIXED ? 0 : object};
+    check->sites[check->site_count++] = (struct trax_memory_site){.finding = finding,
+                                                                  .event = *event,
+                                                                  .address = address,
+                                                                  .bytes = bytes,
+                                                                  .write = write,
+                                                                  .object = object == MEMORY_MIXED ? 0 : object};
   }
   check->sites[entry->value].count++;
   check->sites[entry->value].total += bytes;
 }
 
-static void print_thread(const struct memory_check *check, const struct memory_event *event, FILE *out) {
+static void print_thread(const struct trax_memory_check *check, const struct trax_memory_event *event, FILE *out) {
   fprintf(out, "  %-*s%u (TM %u, TP %u), cycle %" PRIu64 "\n", TRAX_LABEL, "thread", event->thread,
           event->thread / check->tps, event->thread % check->tps, event->cycle);
 }
 
-static void print_chain(const struct memory_check *check, const char *label, const struct memory_event *event,
+static void print_chain(const struct trax_memory_check *check, const char *label, const struct trax_memory_event *event,
                         FILE *out) {
   trax_print_place(check->loaded, label, event->pc, out);
   unsigned callers = 0;
@@ -64,8 +65,8 @@ static void print_distance(uint32_t address, uint32_t begin, uint32_t end, FILE 
     fprintf(out, "%u byte%s before ", begin - address, plural(begin - address));
 }
 
-static void print_object(const struct memory_check *check, const struct memory_site *site, FILE *out) {
-  const struct memory_object *it = &check->objects[site->object];
+static void print_object(const struct trax_memory_check *check, const struct trax_memory_site *site, FILE *out) {
+  const struct trax_memory_object *it = &check->objects[site->object];
   fprintf(out, "  %-*s", TRAX_LABEL, "object");
   if (site->bytes || site->finding == MEMORY_INVALID_FREE)
     print_distance(site->address, it->own_begin, it->own_end, out);
@@ -82,7 +83,7 @@ static void print_object(const struct memory_check *check, const struct memory_s
   }
 }
 
-static void print_access(const struct memory_check *check, const struct memory_site *site, FILE *out) {
+static void print_access(const struct trax_memory_check *check, const struct trax_memory_site *site, FILE *out) {
   const struct trax_symbol *symbol = check->loaded ? trax_image_symbol_at(check->loaded->image, site->address) : NULL;
   const char *what = site->finding == MEMORY_OUTPUT    ? "output"
                      : site->finding == MEMORY_BRANCH  ? "value"
@@ -104,7 +105,7 @@ static void print_access(const struct memory_check *check, const struct memory_s
   fputc('\n', out);
 }
 
-static void print_site(const struct memory_check *check, const struct memory_site *site, FILE *out) {
+static void print_site(const struct trax_memory_check *check, const struct trax_memory_site *site, FILE *out) {
   static const char *const texts[] = {"",
 #define TEXT(NAME, TEXT) TEXT,
                                       MEMORY_FINDINGS(TEXT)
@@ -125,7 +126,7 @@ static void print_site(const struct memory_check *check, const struct memory_sit
     print_object(check, site, out);
 }
 
-void memory_print(const struct memory_check *check, FILE *out) {
+void trax_memory_print(const struct trax_memory_check *check, FILE *out) {
   for (size_t i = 0; i < check->site_count && i < MOST_SITES; i++)
     print_site(check, &check->sites[i], out);
   if (check->site_count > MOST_SITES)

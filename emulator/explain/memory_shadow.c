@@ -4,22 +4,23 @@
 #include <stdlib.h>
 #include <string.h>
 
-struct memory_page *memory_page_of(struct memory_check *check, uint32_t address) {
-  struct memory_page **page = &check->pages[address >> MEMORY_PAGE_SHIFT];
+struct trax_memory_page *trax_memory_page_of(struct trax_memory_check *check, uint32_t address) {
+  struct trax_memory_page **page = &check->pages[address >> MEMORY_PAGE_SHIFT];
   if (!*page && !(*page = calloc(1, sizeof **page)))
     check->reader.explain->out_of_memory = true;
   return *page;
 }
 
-uint32_t memory_tag_at(const struct memory_check *check, uint32_t thread, uint32_t address) {
+uint32_t trax_memory_tag_at(const struct trax_memory_check *check, uint32_t thread, uint32_t address) {
   if (address >= TRAX_LOCAL_BASE)
     return check->threads[thread].local_tags[address % TRAX_LOCAL_SIZE / 4];
-  const struct memory_page *page =
+  const struct trax_memory_page *page =
       address < check->machine->space.size ? check->pages[address >> MEMORY_PAGE_SHIFT] : NULL;
   return page ? page->tags[address % MEMORY_PAGE / 4] : MEMORY_NO_TAG;
 }
 
-void memory_define(struct memory_check *check, uint32_t thread, uint32_t address, uint32_t bytes, bool undefined) {
+void trax_memory_define(struct trax_memory_check *check, uint32_t thread, uint32_t address, uint32_t bytes,
+                        bool undefined) {
   const int bits = undefined ? 0xFF : 0;
   if (address >= TRAX_LOCAL_BASE) {
     memset(check->threads[thread].local_undefined + (address - TRAX_LOCAL_BASE), bits,
@@ -28,22 +29,23 @@ void memory_define(struct memory_check *check, uint32_t thread, uint32_t address
   }
   for (uint32_t part; bytes && address < check->machine->space.size; address += part, bytes -= part) {
     const uint32_t at = address % MEMORY_PAGE;
-    struct memory_page *page = undefined ? memory_page_of(check, address) : check->pages[address >> MEMORY_PAGE_SHIFT];
+    struct trax_memory_page *page =
+        undefined ? trax_memory_page_of(check, address) : check->pages[address >> MEMORY_PAGE_SHIFT];
     part = bytes < MEMORY_PAGE - at ? bytes : MEMORY_PAGE - at;
     if (page)
       memset(page->undefined + at, bits, part);
   }
 }
 
-uint8_t memory_undefined_byte(const struct memory_check *check, uint32_t thread, uint32_t address) {
+uint8_t trax_memory_undefined_byte(const struct trax_memory_check *check, uint32_t thread, uint32_t address) {
   if (address >= TRAX_LOCAL_BASE)
     return check->threads[thread].local_undefined[address - TRAX_LOCAL_BASE];
-  const struct memory_page *page =
+  const struct trax_memory_page *page =
       address < check->machine->space.size ? check->pages[address >> MEMORY_PAGE_SHIFT] : NULL;
   return page ? page->undefined[address % MEMORY_PAGE] : 0;
 }
 
-bool memory_byte(const struct memory_check *check, uint32_t thread, uint32_t address, uint8_t *byte) {
+bool trax_memory_byte(const struct trax_memory_check *check, uint32_t thread, uint32_t address, uint8_t *byte) {
   if (address < TRAX_LOCAL_BASE && trax_space_check(&check->machine->space, address, 1, false) != TRAX_FAULT_NONE)
     return false;
   *byte = address >= TRAX_LOCAL_BASE ? check->threads[thread].local[address - TRAX_LOCAL_BASE]
@@ -51,10 +53,10 @@ bool memory_byte(const struct memory_check *check, uint32_t thread, uint32_t add
   return true;
 }
 
-bool memory_word(const struct memory_check *check, uint32_t thread, uint32_t address, uint32_t *word) {
+bool trax_memory_word(const struct trax_memory_check *check, uint32_t thread, uint32_t address, uint32_t *word) {
   uint8_t bytes[4];
   for (uint32_t i = 0; i < 4; i++)
-    if (!memory_byte(check, thread, address + i, &bytes[i]))
+    if (!trax_memory_byte(check, thread, address + i, &bytes[i]))
       return false;
   memcpy(word, bytes, sizeof *word);
   return true;

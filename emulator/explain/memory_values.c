@@ -3,7 +3,7 @@
    USENIX 2005. */
 #include "explain/memory_check.h"
 
-typedef struct memory_value value;
+typedef struct trax_memory_value value;
 
 /* The bits from the lowest one on. */
 static uint32_t upwards(uint32_t bits) {
@@ -32,7 +32,7 @@ static bool equality_is_undefined(value a, value b) {
   return undefined && !((a.bits ^ b.bits) & ~undefined);
 }
 
-bool memory_branch_is_undefined(const struct memory_thread *thread, trax_inst inst) {
+bool trax_memory_branch_is_undefined(const struct trax_memory_thread *thread, trax_inst inst) {
   const value a = thread->reg[inst.ra], b = thread->reg[inst.rb];
   switch (inst.op) {
   case TRAX_OP_BEQ:
@@ -116,12 +116,12 @@ static uint32_t undefined_of(trax_inst inst, value a, value b, value old) {
 
 /* --- pointers --- */
 
-static bool is_inside(const struct memory_check *check, uint32_t tag, uint32_t bits) {
-  const struct memory_object *object = &check->objects[tag];
+static bool is_inside(const struct trax_memory_check *check, uint32_t tag, uint32_t bits) {
+  const struct trax_memory_object *object = &check->objects[tag];
   return object->kind != MEMORY_HALF && bits - object->begin <= object->end - object->begin;
 }
 
-static uint32_t tag_of_sum(const struct memory_check *check, uint32_t a, uint32_t b) {
+static uint32_t tag_of_sum(const struct trax_memory_check *check, uint32_t a, uint32_t b) {
   if (!a || !b)
     return a | b;
   if (a == MEMORY_MIXED || b == MEMORY_MIXED)
@@ -131,17 +131,17 @@ static uint32_t tag_of_sum(const struct memory_check *check, uint32_t a, uint32_
   return block_a == block_b ? MEMORY_MIXED : block_a ? a : b;
 }
 
-static uint32_t tag_of(struct memory_check *check, const struct trax_span *span, value a, value b, value old) {
+static uint32_t tag_of(struct trax_memory_check *check, const struct trax_span *span, value a, value b, value old) {
   const trax_inst inst = span->inst;
   const uint32_t result = span->issue->result;
   switch (inst.op) {
   case TRAX_OP_LUI:
-    return memory_tag_of_half(check, result);
+    return trax_memory_tag_of_half(check, result);
   case TRAX_OP_ADDI:
     if (a.tag >= MEMORY_FIRST_OBJECT && check->objects[a.tag].kind == MEMORY_HALF)
-      return memory_tag_of_address(check, check->objects[a.tag].begin + (uint32_t)inst.imm);
+      return trax_memory_tag_of_address(check, check->objects[a.tag].begin + (uint32_t)inst.imm);
     if ((inst.ra == 2 || inst.ra == 3) && inst.rd != 2)
-      return memory_tag_of_frame(check, span->pc, inst.ra, inst.imm, result);
+      return trax_memory_tag_of_frame(check, span->pc, inst.ra, inst.imm, result);
     return a.tag;
   case TRAX_OP_ADD:
     if (inst.ra == 2 || inst.rb == 2 || inst.ra == 3 || inst.rb == 3)
@@ -171,8 +171,8 @@ static uint32_t tag_of(struct memory_check *check, const struct trax_span *span,
   }
 }
 
-struct memory_value memory_result(struct memory_check *check, const struct memory_thread *thread,
-                                  const struct trax_span *span) {
+struct trax_memory_value trax_memory_result(struct trax_memory_check *check, const struct trax_memory_thread *thread,
+                                            const struct trax_span *span) {
   const trax_inst inst = span->inst;
   const unsigned flags = trax_op_table[inst.op].flags;
   const value old = thread->reg[inst.rd];
