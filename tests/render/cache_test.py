@@ -15,7 +15,14 @@ import time
 
 BIN, SOURCE = os.path.abspath(sys.argv[1]), os.path.dirname(os.path.abspath(__file__))
 failures = 0
-backgrounds = 0
+TINY = """#include <trax.h>
+struct trax_buffer scene, image;
+int main(void) {
+  if (trax_thread() == 0)
+    for (unsigned i = 0; i < image.size / 4; i++)
+      ((unsigned *)image.data)[i] = 0xFF000000u + i + (scene.size == 0);
+}
+"""
 
 
 def fail(text):
@@ -69,7 +76,7 @@ def damages(entry, whole, other):
     for place in (4, len(whole) // 2, len(whole) - 20):
         yield f"bit flipped at {place}", put(whole[:place] + bytes([whole[place] ^ 4]) + whole[place + 1:])
     yield "zeros", put(bytes(len(whole)))
-    yield "zeros at its end", put(whole[:4096] + bytes(len(whole) - 4096))
+    yield "zeros at its end", put(whole[:1024] + bytes(len(whole) - 1024))
     yield "longer", put(whole + b"\0")
     yield "text", put(b"not a program\n" * 100)
     yield "another program", put(open(f"{BIN}/../lib/trax/trax-raytracer.elf", "rb").read())
@@ -93,46 +100,55 @@ def remove(entry):
 
 
 def healing():
+    """Of a program that is compiled in no time."""
     global picture
-    if render("cache").returncode != 0:
+    shutil.copytree(f"{BIN}/../lib/trax/raytracer", "tiny")
+    with open("tiny/main.c", "w") as file:
+        file.write(TINY)
+    cache, tiny = "healed", ["--source", "tiny"]
+    if render(cache, *tiny).returncode != 0:
         fail("the first picture")
     picture = pixels()
-    clean("cache", 1)
-    entry, = glob.glob("cache/*.elf")
+    clean(cache, 1)
+    entry, = glob.glob(f"{cache}/*.elf")
     with open(entry, "rb") as file:
         whole = file.read()
-    if render("other", "--background", "000000").returncode != 0:
+    if render("other", *tiny, "--background", "000000").returncode != 0:
         fail("another picture")
     with open(glob.glob("other/*.elf")[0], "rb") as file:
         other = file.read()
     for name, make in damages(entry, whole, other):
         remove(entry)
         make()
-        expect(render("cache"), name, "was damaged, and is made anew")
+        expect(render(cache, *tiny), name, "was damaged, and is made anew")
         with open(entry, "rb") as file:
             if file.read() != whole:
                 fail(f"{name}: the program made anew is another one")
-        for left in glob.glob("cache/*.elf.*"):
+        for left in glob.glob(f"{cache}/*.elf.*"):
             if name != "a folder with a file" or glob.glob(f"{left}/*.was/file") == []:
                 fail(f"{name}: left {left}")
             shutil.rmtree(left)
-        clean("cache", 1)
+        clean(cache, 1)
     with open(entry, "wb") as file:
         file.write(whole[:100])
-    ended = render("cache", "--quiet")
+    ended = render(cache, *tiny, "--quiet")
     if ended.returncode or ended.stderr or ended.stdout:
         fail(f"--quiet tells of a damaged program: {ended}")
     header = entry[:-3] + "h"
     remove(entry)
     os.remove(header)
     os.mkdir(header)
-    expect(render("cache"), "a folder for the constants")
-    clean("cache", 1)
+    expect(render(cache, *tiny), "a folder for the constants")
+    clean(cache, 1)
 
 
 def together():
     """Processes that find the same damage, or make the same program, do not disturb each other, even if one of them
     fails."""
+    global picture
+    if render("cache").returncode != 0:
+        fail("the picture of the whole program")
+    picture = pixels()
     entry, = glob.glob("cache/*.elf")
     for turn in range(2):
         with open(entry, "wb") as file:

@@ -109,9 +109,7 @@ has_features '"shadows","materials"' || fail "box: $(cat special/manifest.json)"
 both "$source/box.obj" $view --size 32x18 --engine reference --config 1x32
 both "$source/box.obj" $view --size 40x30 --no-shadows
 has_features '"materials"' || fail "box without shadows: $(cat special/manifest.json)"
-both "$source/box.obj" $view --size 20x30 --samples 3
 both "$source/box.obj" $view --size 20x30 --samples 4 --no-shadows --ambient 0 --background 102030
-both "$source/box.obj" $view --size 20x30 --smooth
 both "$source/box.obj" $view --size 20x30 --smooth --samples 2
 both triangle.obj --size 30x20
 "$bin/trax-scene" "$source/box.obj" --smooth -o smooth.trax || fail "trax-scene --smooth"
