@@ -153,8 +153,9 @@ static trax_status no_material(const struct trax_mesh *mesh, const char *name, t
   char names[300] = "";
   size_t used = 0;
   const char *nearest = trax_nearest_name(name, mesh->material_count, material_name, mesh);
-  if (nearest)
-    return trax_fail(error, "no material is named '%s'; did you mean %s?", name, nearest);
+  if (nearest || mesh->material_count == 0)
+    return trax_fail(error, "no material is named '%s'%s%s%s", name, nearest ? "; did you mean " : "",
+                     nearest ? nearest : "", nearest ? "?" : "");
   for (uint32_t m = 0; m < mesh->material_count && used < sizeof names; m++)
     used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", m ? ", " : "", mesh->materials[m].name);
   return trax_fail(error, "no material is named '%s'; there %s %s%s", name, mesh->material_count == 1 ? "is" : "are",

@@ -377,6 +377,27 @@ class Progress(unittest.TestCase):
                          self.on_a_terminal("--quiet", "--progress-total", "100000000", "forever.elf", seconds=0.5))
         os.remove("items.c")
 
+    def test_summary(self):
+        """The line at the end, on a terminal alone."""
+        for words, expected in (((), r"trax-sim: \d+ cycles, [\d.e-]+ ms\r\n"), (("--quiet",), ""),
+                                (("--stats", "s.json", "--report", "-", "--profile", "r.txt"),
+                                 r"trax-sim: \d+ cycles, [\d.e-]+ ms; wrote s.json, r.txt\r\n"),
+                                (("--engine", "functional"), r"trax-sim: \d+ instructions\r\n"),
+                                (("--stats", "/dev/full"), r"trax-sim: .*error: .*\r\n")):
+            master, slave = pty.openpty()
+            subprocess.run([SIM, *words, "exit3.elf"], stdout=subprocess.DEVNULL, stderr=slave, timeout=60)
+            os.close(slave)
+            written = b""
+            try:
+                while data := os.read(master, 4096):
+                    written += data
+            except OSError:  # nobody has the other end any more
+                pass
+            os.close(master)
+            self.assertRegex(written.decode().rpartition("\r\033[K")[2], f"^{expected}$")
+        for name in ("s.json", "r.txt"):
+            os.remove(name)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -416,6 +416,8 @@ REFUSED = [
 REFUSED_WORDS = (
     ([], "no experiment"),
     (["table9"], '"table9" is neither an experiment'),
+    (["scnes"], "nor a folder of scenes; did you mean scenes?"),
+    (["--quik", "scenes"], "unrecognized arguments: --quik; did you mean --quick?"),
     (["table2", "--size", "1"], "--size 1: expected"),
     (["table2", "--program", "x"], "--program x: allowed"),
     (["table2", "--jobs", "0"], "--jobs 0"),

@@ -33,6 +33,9 @@ native="--engine native --view $source/box.view"
 refuse 'no mesh' "$render"
 refuse 'no mesh' "$render" -o x.png
 refuse 'no picture given' "$render" "$box"
+refuse 'nofile.obj: cannot be read: No such file' "$render" "$box" nofile.obj
+refuse 'expected generate:forest' "$render" generate:forst
+refuse 'did you mean fast' "$render" "$box" --engine fst
 refuse 'x.png: is written twice, by --output and by --cost-picture' "$render" "$box" -o x.png --cost-picture x.png
 refuse 'x.json: is written twice, by --stats and by --explore' "$render" "$box" -o x.png --stats x.json --explore x.json
 refuse 'unknown option --siez; did you mean --size?' "$render" "$box" -o x.png --siez 10x10

@@ -247,21 +247,23 @@ class Files(Scratch):
 
     def test_page_alone(self):
         page = Run(self.folder / "a.html")
+        self.assertTrue({"rest", "all"}.isdisjoint(page.kinds))
         self.assertEqual((page.profile, page.kinds, page.picture, page.costs),
                          tuple(getattr(self.runs["a"], name) for name in ("profile", "kinds", "picture", "costs")))
         found = compare(page, self.runs["a"], FIGURES)[0]
         self.assertTrue(is_empty(found))
 
     def test_folded(self):
-        made = read_folded("start;main;shade;shade.h:108;issued 7\nstart;main;issued 2\na;b.h:3;issued 1\n", "f")
-        self.assertEqual(made, {"functions": {"shade": {"issued": 7}, "main": {"issued": 2}, "a": {"issued": 1}},
-                                "lines": {"shade.h:108": {"issued": 7}, "(no line)": {"issued": 2},
+        made = read_folded("start;main;shade;shade.h:108;issued 7\nstart;main;issued 2\na;b.h:3;issued 1\nc.h:9;issued 4\n", "f")
+        self.assertEqual(made, {"functions": {"shade": {"issued": 7}, "main": {"issued": 2}, "a": {"issued": 1},
+                                              "c.h:9": {"issued": 4}},
+                                "lines": {"shade.h:108": {"issued": 7}, "(no line)": {"issued": 6},
                                           "b.h:3": {"issued": 1}}})
 
     def test_every_filter_of_png(self):
         chance, width, height = random.Random(7), 13, 10
         for step, kind in ((3, 2), (4, 6), (1, 0)):
-            rows = [bytes(chance.randrange(256) for _ in range(width * step)) for _ in range(height)]
+            rows = [bytes(chance.randrange(4) for _ in range(width * step)) for _ in range(height)]
             packed, above = b"", bytes(width * step)
             for number, row in enumerate(rows):
                 filter_ = number % 5

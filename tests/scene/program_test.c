@@ -137,6 +137,7 @@ static void test_refusals(void **state) {
       {{good, "-o", scene, "--diffuse", "a=0,0,1.5"}, "--diffuse: 'a=0,0,1.5'"},
       {{good, "-o", scene, "--diffuse", "a=0,0,1"}, "no material is named 'a'"},
       {{good, "-o", scene, "--material", "a=tin"}, "--material: 'a=tin' is not [NAME=]lambert"},
+      {{good, "-o", scene, "--material", "mirorr"}, "did you mean mirror?"},
       {{good, "-o", scene, "--material", "a=mirror"}, "no material is named 'a'"},
       {{good, "-o", scene, "--texture-size", "100"}, "--texture-size: '100' is not a power of two up to 4096"},
       {{good, "-o", scene, "--texture-size", "8192"}, "--texture-size: '8192' is not"},
