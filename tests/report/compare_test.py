@@ -254,7 +254,8 @@ class Files(Scratch):
         self.assertTrue(is_empty(found))
 
     def test_folded(self):
-        made = read_folded("start;main;shade;shade.h:108;issued 7\nstart;main;issued 2\na;b.h:3;issued 1\nc.h:9;issued 4\n", "f")
+        made = read_folded("start;main;shade;shade.h:108;issued 7\nstart;main;issued 2\na;b.h:3;issued 1\n"
+                           "c.h:9;issued 4\n", "f")
         self.assertEqual(made, {"functions": {"shade": {"issued": 7}, "main": {"issued": 2}, "a": {"issued": 1},
                                               "c.h:9": {"issued": 4}},
                                 "lines": {"shade.h:108": {"issued": 7}, "(no line)": {"issued": 6},
