@@ -38,6 +38,7 @@ test_packages=(
   flake8                                                                  # the style of Python
   python3-cffi python3-numpy python3-pandas python3-pytest python3-pip    # the package for Python
   'chromium|chromium-browser'                                             # the evaluation's page in a browser
+  mkdocs mkdocs-material                                                  # the pages as a site; PyYAML comes with them
   clangd-19 clang-tidy-19 meson                                           # recipes of docs/compiler.md
   csmith libcsmith-dev gcc-multilib libc6-dev-i386                        # random programs, and a host of 32 bits
   qemu-user lld-19 gcc-12-source libclang-rt-19-dev                        # longer checks: code quality, gcc's torture, fuzzers

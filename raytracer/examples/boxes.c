@@ -2,7 +2,12 @@
 #include <math.h>
 #include <trax.h>
 
-enum { WIDTH = 160, HEIGHT = 90, BOXES = 26 };
+#ifdef EVENING
+enum { WIDTH = 400, HEIGHT = 225 };
+#else
+enum { WIDTH = 160, HEIGHT = 90 };
+#endif
+enum { BOXES = 26 };
 
 struct vector {
   float x, y, z;
@@ -24,7 +29,6 @@ static const struct box boxes[BOXES] = {
     STREET(1.65f, 0.3f, 0.6f, 0.5f, 0.9f, 0.3f)};
 
 static const struct vector eye = {-4.0f, 3.6f, 6.0f};
-static const struct vector light = {0.48f, 0.76f, 0.44f}; // the direction to it, of length 1
 
 #ifdef INTRINSICS
 #include "intrinsics.h"
@@ -64,6 +68,11 @@ static const struct box *trace(struct vector o, struct vector d, float *distance
   return nearest;
 }
 
+#ifdef EVENING
+#include "evening.h"
+#else
+static const struct vector light = {0.48f, 0.76f, 0.44f}; // the direction to it, of length 1
+
 static unsigned colour_of(unsigned pixel) {
   float x = ((float)(pixel % WIDTH) + 0.5f) * (1.2f / WIDTH) - 0.6f;
   float y = 0.3375f - ((float)(pixel / WIDTH) + 0.5f) * (0.675f / HEIGHT);
@@ -95,6 +104,7 @@ static unsigned colour_of(unsigned pixel) {
   unsigned level = (unsigned)(255 * fminf(fmaxf(grey, 0), 1));
   return level | level << 8 | level << 16 | 0xff000000; // R, G, B, A
 }
+#endif
 
 int main(void) {
   for (unsigned pixel; (pixel = trax_atomic_inc(&next_pixel)) < WIDTH * HEIGHT;) {

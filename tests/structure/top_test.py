@@ -7,9 +7,9 @@ Only what git tracks counts. Without git or its folder the test is skipped."""
 import subprocess
 import sys
 
-FOLDERS = "cmake docs emulator isa llvm-target raytracer runtime tests .ci .githooks".split()
-FILES = ("CHANGELOG.md CITATION.cff CMakeLists.txt CMakePresets.json CONTRIBUTING.md LICENSE README.md VERSION demo.sh "
-         "setup.sh test.sh .clang-format .flake8 .gitignore").split()
+FOLDERS = "cmake docs emulator isa llvm-target raytracer runtime tests .ci .githooks .github".split()
+FILES = ("CHANGELOG.md CITATION.cff CMakeLists.txt CMakePresets.json CONTRIBUTING.md Containerfile LICENSE README.md "
+         "VERSION demo.sh setup.sh test.sh .clang-format .dockerignore .flake8 .gitignore").split()
 
 try:
     listed = subprocess.run(["git", "-C", sys.argv[1], "ls-files", "-z"], capture_output=True, text=True)

@@ -25,11 +25,14 @@ from png_files import read_png  # noqa: E402
 PAGES = ("docs/tutorial.md", "docs/extending.md")
 
 
-def same_picture(folder, source):
-    """The picture of the page shows what the program makes."""
-    made, shown = (read_png(path.read_bytes()) for path in (folder / "boxes.png", source / "docs/tutorial.png"))
-    if made != shown:
-        raise Failure("docs/tutorial.png is not the picture that the tutorial's program makes")
+PICTURES = {"boxes.png": "docs/tutorial.png", "evening.png": "docs/tutorial-evening.png"}
+
+
+def same_pictures(folder, source):
+    """The pictures of the page show what the program makes."""
+    for made, shown in PICTURES.items():
+        if read_png((folder / made).read_bytes()) != read_png((source / shown).read_bytes()):
+            raise Failure(f"{shown} is not the picture that the tutorial's program makes")
 
 
 def run(*command, **options):
@@ -139,9 +142,10 @@ def main():
             if errors:
                 raise Failure(f"the commands wrote to standard error:\n{errors[-2000:]}")
             if options.update:
-                shutil.copy(root / "out/tutorial/boxes.png", source / "docs" / "tutorial.png")
+                for made, shown in PICTURES.items():
+                    shutil.copy(root / "out/tutorial" / made, source / shown)
             new, compared = compare("".join(texts), every, printed, options.update)
-            same_picture(root / "out" / "tutorial", source)
+            same_pictures(root / "out" / "tutorial", source)
             check_parts(every, source)
             check_figure(source, new)
             check_changes(source, build, scratch)
