@@ -31,15 +31,32 @@ static size_t touch(const char *text) {
   return text ? strlen(text) : 0;
 }
 
+static void add_frame(void *context, uint32_t function, uint32_t bytes) {
+  *(size_t *)context += function + bytes;
+}
+
+static size_t look_up_variables(trax_image *image, uint32_t pc) {
+  struct trax_frame_variable *items;
+  unsigned base;
+  size_t sum = 0;
+  const size_t count = trax_image_variables(image, pc, &items, &base);
+  for (size_t i = 0; i < count; i++)
+    sum += touch(items[i].name);
+  free(items);
+  return sum;
+}
+
 static size_t look_up_symbols(trax_image *image) {
   struct trax_source_line lines[8];
   size_t count, sum = 0;
+  trax_image_frames(image, add_frame, &sum);
   const struct trax_symbol *symbols = trax_image_symbols(image, &count);
   for (size_t i = 0; i < count && i < 64; i++) {
     sum += touch(symbols[i].name);
     const size_t frames = trax_image_lines(image, symbols[i].address, lines, 8);
     for (size_t frame = 0; frame < frames; frame++)
       sum += touch(lines[frame].function) + touch(lines[frame].file);
+    sum += look_up_variables(image, symbols[i].address);
     const struct trax_symbol *symbol = trax_image_symbol_at(image, symbols[i].address + 1);
     sum += symbol ? touch(symbol->name) : 0;
   }
