@@ -18,6 +18,7 @@ import os
 import pathlib
 import random
 import shutil
+import stat
 import subprocess
 import sys
 import tempfile
@@ -79,6 +80,12 @@ def case(binaries, good, kind, number, seed, whole=None):
     return with_message(fault, result) if fault else None, folder, words, result.returncode
 
 
+def special(folder, names):
+    """Pipes and devices, which cannot be copied."""
+    return [name for name in names if not any(
+        test(os.lstat(os.path.join(folder, name)).st_mode) for test in (stat.S_ISREG, stat.S_ISDIR, stat.S_ISLNK))]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--bin", type=pathlib.Path, required=True)
@@ -127,7 +134,7 @@ def main():
                     if fault:
                         failed += 1
                         kept = keep / folder.name
-                        shutil.copytree(folder, kept, dirs_exist_ok=True)
+                        shutil.copytree(folder, kept, symlinks=True, ignore=special, dirs_exist_ok=True)
                         command = " ".join(map(str, words))
                         print(f"FAILED: {kind} {number}: {fault}\n  {command}\n  kept in {kept}", flush=True)
                     shutil.rmtree(folder, ignore_errors=True)
