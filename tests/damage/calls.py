@@ -131,7 +131,8 @@ def calls(binaries, good, number, seed):
     command += [str(good / "calls.elf"), str(rng.getrandbits(31)), str(count)]
     result = run(binaries, command, folder)
     fault = None
-    if result.returncode not in (0, 1, 124) or CRASHED.search(result.stderr) or result.returncode == 1 and not result.stderr:
+    silent = result.returncode == 1 and not result.stderr
+    if result.returncode not in (0, 1, 124) or CRASHED.search(result.stderr) or silent:
         fault = with_message(f"status {result.returncode}", result)
     elif listing(outside) != before or {path.name for path in folder.iterdir()} != {"in", "outside"}:
         fault = with_message("something outside was written", result)
