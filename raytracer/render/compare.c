@@ -160,10 +160,10 @@ trax_status compare(const struct trax_picture *picture, const struct job *job, b
   return compare_hits(job, agrees, error);
 }
 
-trax_status trace_rays(const struct job *job, const struct trax_picture *picture, trax_error *error) {
+trax_status trace_rays(const struct job *job, int scaled, const struct trax_picture *picture, trax_error *error) {
   struct step step = {.line = job->progress, .name = "trace of the rays"};
   struct trax_render_run run = {.progress = show_step, .progress_context = &step, .interrupt = &trax_signal};
-  const trax_status status = trax_ray_trace_write(job->options->ray_trace, job->frame, picture, &run, error);
+  const trax_status status = trax_ray_trace_write(job->options->ray_trace, job->frame, scaled, picture, &run, error);
   trax_progress_line_clear(job->progress);
   return status;
 }

@@ -17,6 +17,6 @@ trax_status measure_hits(const struct job *job, trax_error *error);
 trax_status write_hits(const struct job *job, trax_error *error);
 
 /* --ray-trace; picture: of the same frame by another engine, or NULL. */
-trax_status trace_rays(const struct job *job, const struct trax_picture *picture, trax_error *error);
+trax_status trace_rays(const struct job *job, int scaled, const struct trax_picture *picture, trax_error *error);
 
 #endif

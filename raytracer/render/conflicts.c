@@ -12,9 +12,58 @@ bool options_rendered(const struct options *options) {
          trax_explain_wanted(&options->explain);
 }
 
+/* Options that need a picture, a view or shading; NULL: none was given. */
+static const char *against_rays(const struct options *options) {
+  const struct camera_options *camera = &options->camera;
+  const struct trax_frame_options *frame = &options->frame;
+  const struct {
+    bool given;
+    const char *name;
+  } others[] = {{options->output, "--output"},
+                {options->layers, "--layers"},
+                {options->frames > 1, "--frames"},
+                {options->id_picture, "--id-picture"},
+                {options->progress_png, "--progress-png"},
+                {options->view, "--view"},
+                {camera->eye.given || camera->look_at.given || camera->up.given || camera->light_count,
+                 "--eye, --look-at, --up or --light"},
+                {camera->fov > 0 || camera->orbit[0] != 0 || camera->orbit[1] != 0, "--fov or --orbit"},
+                {options->write_view, "--write-view"},
+                {frame->samples > 1 || frame->paths || frame->occlusion || frame->floats,
+                 "--samples, --paths, --occlusion or --float"},
+                {options->build.smooth || frame->one_sided || !frame->shadows, "--smooth, --one-sided or --no-shadows"},
+                {options->explain.explore, "--explore"},
+                {options->ray_trace, "--ray-trace"},
+                {options->cost_picture || options->cost_values, "--cost-picture or --cost-values"},
+                {options->hits, "--hits"},
+                {options->program, "--program"},
+                {options->no_specialise, "--no-specialise"},
+                {options->frame.mark_rays, "--mark-rays"},
+                {options->sampled, "--sampled"},
+                {options->engine > ENGINE_REFERENCE, "--engine native, embree or exact"}};
+  for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+    if (others[i].given)
+      return others[i].name;
+  return NULL;
+}
+
+static trax_status check_rays(const struct options *options, trax_error *error) {
+  const char *other = against_rays(options);
+  if (!options->rays && (options->ray_results || options->ray_order != TRAX_RAYS_FOUND))
+    return trax_fail(error, "%s without --rays", options->ray_results ? "--ray-results" : "--ray-order");
+  if (options->rays && other)
+    return trax_fail(error, "--rays traces the rays of a file on the emulator, so there is no picture: not with %s",
+                     other);
+  if (options->prepare && (options->ray_results || options->compare))
+    return trax_fail(error, "--prepare traces nothing, so there is nothing to write or compare");
+  return TRAX_OK;
+}
+
 trax_status options_check(const struct options *options, trax_error *error) {
   if (options->mesh_count == 0)
     return trax_fail(error, "no mesh given; trax-render --help shows how");
+  if (check_rays(options, error) != TRAX_OK)
+    return TRAX_ERROR;
   if (options->prepare && (options->output || options->stats || options->ray_cycles || options->compare ||
                            options->hits || options->id_picture || options->ray_trace || options->cost_picture ||
                            options->cost_values || trax_explain_wanted(&options->explain)))
@@ -22,7 +71,7 @@ trax_status options_check(const struct options *options, trax_error *error) {
   if (options->prepare && options->progress_png)
     return trax_fail(error, "--prepare renders nothing, so there is nothing to show");
   if (!options_rendered(options) &&
-      !(options->hits || options->ray_trace || options->id_picture || options->write_view)) {
+      !(options->rays || options->hits || options->ray_trace || options->id_picture || options->write_view)) {
     for (size_t i = 0; i < options->mesh_count; i++) /* a missing mesh is the greater mistake */
       if (trax_mesh_check(options->meshes[i], error) != TRAX_OK)
         return TRAX_ERROR;

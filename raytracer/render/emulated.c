@@ -3,6 +3,7 @@
 #include "installation.h"
 #include "layers.h"
 #include "prepare.h"
+#include "rays.h"
 #include "sampled.h"
 #include "steps.h"
 #include "trax/message.h"
@@ -82,6 +83,8 @@ static trax_status emulated_config(trax_config *config, const struct options *op
   uint64_t bytes = 0;
   if (frame)
     bytes += frame->scene->size + frame->params_size + trax_frame_image_bytes(frame);
+  if (frame && frame->rays)
+    bytes += (sizeof(struct trax_input_ray) + sizeof(struct trax_ray_hit)) * (uint64_t)frame->rays->count;
   if (frame && options->layers)
     bytes += trax_record_bytes(frame->params) + MOST_THREADS * RECORDING_STACK;
   uint64_t mib = (bytes >> 20) + 3; /* the rest is for the program and the buffers' guards */
@@ -259,6 +262,8 @@ static trax_status render_loaded(struct trax_picture *picture, const struct job 
                              options->cost ? options->cost : "cycles", error);
   if (status == TRAX_OK)
     status = run_loaded(picture, job, program, machine, writes_costs ? &costs : NULL, &doubt, error);
+  if (status == TRAX_OK && job->rays)
+    status = trax_rays_take(job->rays, machine, error);
   if (status == TRAX_OK && !options->quiet && !options->layers)
     print_machine(machine, doubt);
   if (status == TRAX_OK && options->stats)

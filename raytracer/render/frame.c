@@ -24,7 +24,9 @@ static void scale_floats(float *values, size_t count, int exponent) {
 }
 
 /* Rounding to subnormals keeps the order of coordinates, so boxes stay exact. Boxes on the grid scale with the grid. */
-static void scale_scene(struct trax_scene *scene, int exponent) {
+void trax_scale_scene(struct trax_scene *scene, int exponent) {
+  if (exponent == 0)
+    return;
   struct trax_scene_header *header = scene->bytes;
   scale_floats(header->bounds_min, 3, exponent);
   scale_floats(header->bounds_max, 3, exponent);
@@ -75,7 +77,7 @@ trax_status trax_normalise(struct trax_scene *scene, struct trax_view *view, int
     return TRAX_OK;
   /* No further down than necessary, because details of a large scene would lose bits. */
   *exponent = (magnitude > GREATEST_EXPONENT ? GREATEST_EXPONENT : 0) - magnitude;
-  scale_scene(scene, *exponent);
+  trax_scale_scene(scene, *exponent);
   trax_scale_view(view, *exponent);
   return TRAX_OK;
 }
@@ -92,7 +94,7 @@ trax_status trax_normalise(struct trax_scene *scene, struct trax_view *view, int
    the grid's (2) in place of one subtraction: 4 more;
    32 is above the sum. As the margin is added to a ray's origin, it must be no less than that coordinate's rounding:
    hence the doubling and the second term. */
-static float box_margin(const struct trax_scene_header *header, const float eye[3]) {
+float trax_box_margin(const struct trax_scene_header *header, const float eye[3]) {
   double distance = 0, magnitude = greatest(greatest(greatest(0, header->bounds_min), header->bounds_max), eye);
   for (int i = 0; i < 3; i++) {
     double low = header->bounds_min[i], high = header->bounds_max[i];
@@ -215,7 +217,7 @@ trax_status trax_frame_init(struct trax_frame *frame, const struct trax_scene *s
   if (scene->normals)
     params->normals_distance = sections[TRAX_SCENE_NORMALS].offset - sections[TRAX_SCENE_TRIANGLES].offset;
   params->features = features;
-  params->box_margin = box_margin(scene->header, view->eye);
+  params->box_margin = trax_box_margin(scene->header, view->eye);
   if (set_grid(params, scene, error) != TRAX_OK) {
     trax_frame_release(frame);
     return TRAX_ERROR;

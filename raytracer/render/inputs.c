@@ -138,6 +138,8 @@ trax_status inputs_load(struct inputs *inputs, const struct options *options, tr
                         trax_error *error) {
   *inputs = (struct inputs){0};
   trax_status status = load_scene(inputs, options, progress, error);
+  if (options->rays)
+    return status;
   if (status == TRAX_OK)
     status = load_view(inputs, options, error);
   if (status == TRAX_OK)

@@ -6,6 +6,7 @@
 #include "layers.h"
 #include "live.h"
 #include "options.h"
+#include "rays_run.h"
 #include "render.h"
 #include "trax/message.h"
 #include "trax/output.h"
@@ -65,7 +66,7 @@ static trax_status render_view(const struct options *options, struct inputs *inp
     *scaled += exponent;
     status = init_frame(&frame, options, &inputs->scene, view, error);
   }
-  const struct job job = {options, &frame, progress, live};
+  const struct job job = {.options = options, .frame = &frame, .progress = progress, .live = live};
   if (status == TRAX_OK && options->hits)
     status = measure_hits(&job, error);
   if (status == TRAX_OK && options_rendered(options))
@@ -74,7 +75,7 @@ static trax_status render_view(const struct options *options, struct inputs *inp
   if (status == TRAX_OK && picture.layers)
     trax_layers_finish(&picture, &frame, *scaled);
   if (status == TRAX_OK && options->ray_trace)
-    status = trace_rays(&job, picture.pixels ? &picture : NULL, error);
+    status = trace_rays(&job, *scaled, picture.pixels ? &picture : NULL, error);
   if (status == TRAX_OK && output)
     status = trax_picture_write(&picture, output, error);
   if (status == TRAX_OK && !options->quiet)
@@ -97,6 +98,12 @@ static trax_status render(const struct options *options, trax_progress_line *pro
   struct trax_view view;
   int scaled = 0;
   trax_status status = inputs_load(&inputs, options, progress, error);
+  if (options->rays) {
+    if (status == TRAX_OK)
+      status = run_rays(options, &inputs.scene, progress, agrees, error);
+    inputs_release(&inputs);
+    return status;
+  }
   if (status == TRAX_OK && options->write_view) {
     inputs_view(&view, &inputs, options, 0);
     status = trax_view_write(&view, options->write_view, error);

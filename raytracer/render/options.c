@@ -8,6 +8,8 @@
 
 /* The names of enum engine. */
 static const char *const engines[] = {"fast", "reference", "native", "embree", "exact", NULL};
+/* Those of enum trax_ray_order. */
+static const char *const ray_orders[] = {"found", "morton", "treelet", "random", NULL};
 
 #define FIELD(member) TRAX_OPTION_FIELD(struct options, member)
 #define PARSED(function, member) .parse = (function), .offset = offsetof(struct options, member)
@@ -88,6 +90,15 @@ static const trax_option rows[] = {
     {"normals", .argument = "WHICH", PARSED(trax_take_normals, build), .choices = trax_normals_words,
      .meaning = "file: --smooth by the meshes' own normals, computed where there are none (default);\n"
                 "smooth: by computed ones; flat: no --smooth"},
+    TRAX_OPTION_GROUP("Rays instead of a picture"),
+    {"rays", .argument = "FILE", FIELD(rays), .file = TRAX_OPTION_INPUT,
+     .meaning = "traces the rays of a binary file that --ray-trace wrote; with --compare exit status 1 if a\n"
+                "result is not the file's"},
+    {"ray-order", .argument = "ORDER", FIELD(ray_order), .choices = ray_orders,
+     .meaning = "found (default): as in the file; morton: by origin and direction; treelet: by the first\n"
+                "treelet of the data cache's size that a ray enters; random"},
+    {"ray-results", .argument = "FILE", OUTPUT(ray_results, NULL),
+     .meaning = "the same rays with the run's results, in the order of the file"},
     TRAX_OPTION_GROUP("Shading"),
     {"paths", .argument = "DEPTH", NUMBER(frame.paths, 1, TRAX_RENDER_MAX_DEPTH),
      .meaning = "path tracing: light over up to DEPTH surfaces, 1 to 64; needs many samples"},

@@ -2,6 +2,7 @@
 #ifndef TRAX_RENDER_OPTIONS_H
 #define TRAX_RENDER_OPTIONS_H
 
+#include "rays.h"
 #include "render.h"
 #include "trax/explain.h"
 #include "trax/options.h"
@@ -39,11 +40,13 @@ struct options {
   const char *write_view; /* NULL: not wanted */
   const char *id_picture; /* the same */
   const char *stats, *ray_cycles, *keep, *program;
-  const char *ray_trace; /* every ray; NULL: not wanted */
-  const char *hits;      /* figures as JSON; NULL: not wanted */
-  const char *source;    /* of the specialised program; NULL: the installation's */
-  const char *cache;     /* of specialised programs; NULL: the user's */
-  const char *cost;      /* what --cost-picture and --cost-values show */
+  const char *ray_trace;          /* every ray; NULL: not wanted */
+  const char *rays, *ray_results; /* files of rays; NULL: pixels are rendered; not wanted */
+  enum trax_ray_order ray_order;
+  const char *hits;   /* figures as JSON; NULL: not wanted */
+  const char *source; /* of the specialised program; NULL: the installation's */
+  const char *cache;  /* of specialised programs; NULL: the user's */
+  const char *cost;   /* what --cost-picture and --cost-values show */
   const char *cost_picture, *cost_values;
   struct trax_explain_options explain;
   struct setting *settings; /* keys are copies */

@@ -10,6 +10,8 @@ static const struct trax_manifest_buffer buffers[] = {{"scene", .file = "scene.t
                                                       {"plain_triangles", .file = "triangles.bin"},
                                                       {"params", .file = "params.bin"},
                                                       {"image", .output = "image.raw"},
+                                                      {"rays", .file = "rays.bin"},
+                                                      {"hits", .output = "hits.bin"},
                                                       {"paths", .bytes_per_thread = TRAX_PATH_BYTES}};
 enum { BUFFERS = sizeof buffers / sizeof *buffers };
 
@@ -76,10 +78,12 @@ static json_t *code_of(const struct trax_program *program) {
 trax_status prepare_write(const char *folder, const struct trax_frame *frame, const struct trax_program *program,
                           trax_machine *machine, trax_error *error) {
   const bool floats = frame->params->features & TRAX_FEATURE_BIT(FLOATS);
-  json_t *root =
-      json_pack("{so* so so s{ss si si ss}}", "code", code_of(program), "features", features_of(frame), "view",
-                view_of(&frame->view), "picture", "buffer", "image", "width", (int)frame->params->width, "height",
-                (int)frame->params->height, "layout", floats ? "rgb float32" : "rgba uint8");
+  json_t *root = json_pack("{so* so}", "code", code_of(program), "features", features_of(frame));
+  if (root && !frame->rays)
+    json_object_update_new(root,
+                           json_pack("{so s{ss si si ss}}", "view", view_of(&frame->view), "picture", "buffer", "image",
+                                     "width", (int)frame->params->width, "height", (int)frame->params->height, "layout",
+                                     floats ? "rgb float32" : "rgba uint8"));
   char *more = root ? json_dumps(root, 0) : NULL;
   json_decref(root);
   if (!more)

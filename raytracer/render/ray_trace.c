@@ -1,6 +1,7 @@
 /* Rays arrive one after another, in the order of the program's slots, and are written at once. */
 #include "ray_trace.h"
 
+#include "ray_file.h"
 #include "trax/access.h"
 #include "trax/output.h"
 
@@ -11,7 +12,7 @@
 struct tracer {
   struct trax_visit_counter counter; /* of the ray; first: the log's functions get its address */
   const struct trax_scene *scene;
-  void (*put)(FILE *out, const struct tracer *tracer, const struct trax_traced_ray *ray);
+  void (*put)(FILE *out, const struct trax_ray_record *ray);
   trax_output output;
 };
 
@@ -19,15 +20,7 @@ static void end_slot(struct trax_access_log *log, uint32_t slot, uint32_t rays) 
   (void)log, (void)slot, (void)rays;
 }
 
-static void end_ray(struct trax_access_log *log, const struct trax_traced_ray *ray) {
-  struct tracer *tracer = (struct tracer *)log;
-  trax_visit_count(log);
-  tracer->put(tracer->output.file, tracer, ray);
-  tracer->counter.nodes = tracer->counter.triangles = 0;
-}
-
-/* Its number in the meshes, as --id-picture shows it less 1; in scenes without these numbers its place in the file. */
-static uint32_t triangle_number(const struct trax_scene *scene, uint32_t offset) {
+uint32_t trax_ray_triangle(const struct trax_scene *scene, uint32_t offset) {
   if (!offset)
     return TRAX_NO_TRIANGLE;
   const uint32_t number =
@@ -43,69 +36,64 @@ static const char *const kind_names[TRAX_RAY_KIND_COUNT] = {
 #undef NAME
 };
 
-static uint8_t *put_number(uint8_t *to, uint32_t value, unsigned bytes) {
-  for (unsigned i = 0; i < bytes; i++)
-    *to++ = (uint8_t)(value >> 8 * i);
-  return to;
-}
-
-static uint8_t *put_float(uint8_t *to, float value) {
-  uint32_t bits;
-  memcpy(&bits, &value, sizeof bits);
-  return put_number(to, bits, 4);
-}
-
-static void put_binary(FILE *out, const struct tracer *tracer, const struct trax_traced_ray *ray) {
-  uint8_t record[TRAX_RAY_TRACE_RECORD], *to = record;
-  for (int axis = 0; axis < 3; axis++)
-    to = put_float(to, ray->origin[axis]);
-  for (int axis = 0; axis < 3; axis++)
-    to = put_float(to, ray->direction[axis]);
-  to = put_float(to, 0);
-  to = put_float(to, ray->farthest);
-  to = put_number(to, ray->pixel & 0xFFFF, 2);
-  to = put_number(to, ray->pixel >> 16, 2);
-  to = put_number(to, ray->sample, 2);
-  to = put_number(to, ray->kind, 1);
-  to = put_number(to, ray->found, 1);
-  to = put_number(to, triangle_number(tracer->scene, ray->triangle), 4);
-  to = put_float(to, ray->triangle ? ray->distance : 0);
-  to = put_float(to, ray->triangle ? ray->weight1 : 0);
-  to = put_float(to, ray->triangle ? ray->weight2 : 0);
-  to = put_number(to, tracer->counter.nodes, 4);
-  put_number(to, tracer->counter.triangles, 4);
-  fwrite(record, sizeof record, 1, out);
-}
-
-static void put_csv(FILE *out, const struct tracer *tracer, const struct trax_traced_ray *ray) {
-  fprintf(out, "%u,%u,%u,%s,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,0,%.9g,%u,", ray->pixel & 0xFFFF, ray->pixel >> 16,
-          ray->sample, kind_names[ray->kind], (double)ray->origin[0], (double)ray->origin[1], (double)ray->origin[2],
-          (double)ray->direction[0], (double)ray->direction[1], (double)ray->direction[2], (double)ray->farthest,
-          ray->found);
+static struct trax_ray_record record_of(const struct tracer *tracer, const struct trax_traced_ray *ray) {
+  struct trax_ray_record record = {.end = ray->farthest,
+                                   .x = (uint16_t)ray->pixel,
+                                   .y = (uint16_t)(ray->pixel >> 16),
+                                   .sample = (uint16_t)ray->sample,
+                                   .kind = (uint8_t)ray->kind,
+                                   .hit = (uint8_t)ray->found,
+                                   .triangle = trax_ray_triangle(tracer->scene, ray->triangle),
+                                   .nodes = tracer->counter.nodes,
+                                   .triangles = tracer->counter.triangles};
+  memcpy(record.origin, ray->origin, sizeof record.origin);
+  memcpy(record.direction, ray->direction, sizeof record.direction);
   if (ray->triangle)
-    fprintf(out, "%u,%.9g,%.9g,%.9g,", triangle_number(tracer->scene, ray->triangle), (double)ray->distance,
-            (double)ray->weight1, (double)ray->weight2);
+    record.distance = ray->distance, record.weight1 = ray->weight1, record.weight2 = ray->weight2;
+  return record;
+}
+
+static void put_binary(FILE *out, const struct trax_ray_record *ray) {
+  fwrite(ray, sizeof *ray, 1, out);
+}
+
+static void put_csv(FILE *out, const struct trax_ray_record *ray) {
+  fprintf(out, "%u,%u,%u,%s,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,0,%.9g,%u,", ray->x, ray->y, ray->sample,
+          kind_names[ray->kind], (double)ray->origin[0], (double)ray->origin[1], (double)ray->origin[2],
+          (double)ray->direction[0], (double)ray->direction[1], (double)ray->direction[2], (double)ray->end, ray->hit);
+  if (ray->triangle != TRAX_NO_TRIANGLE)
+    fprintf(out, "%u,%.9g,%.9g,%.9g,", ray->triangle, (double)ray->distance, (double)ray->weight1,
+            (double)ray->weight2);
   else
     fputs(",,,,", out);
-  fprintf(out, "%u,%u\n", tracer->counter.nodes, tracer->counter.triangles);
+  fprintf(out, "%u,%u\n", ray->nodes, ray->triangles);
 }
 
-static void put_header(struct tracer *tracer, const struct trax_render_params *params, bool csv) {
-  if (csv) {
+static void put_header(struct tracer *tracer, const struct trax_render_params *params, int exponent, bool csv) {
+  const struct trax_ray_file_header header = {.magic = TRAX_RAY_FILE_MAGIC,
+                                              .record_bytes = sizeof(struct trax_ray_record),
+                                              .width = params->width,
+                                              .height = params->height,
+                                              .samples = params->samples,
+                                              .exponent = exponent,
+                                              .exact = params->features >> TRAX_FEATURE_EXACT & 1};
+  if (csv)
     fputs("x,y,sample,kind,origin_x,origin_y,origin_z,direction_x,direction_y,direction_z,begin,end,hit,triangle,"
           "distance,weight1,weight2,nodes,triangles\n",
           tracer->output.file);
-    return;
-  }
-  uint8_t header[TRAX_RAY_TRACE_HEADER] = "traxray1", *to = header + 8;
-  to = put_number(to, TRAX_RAY_TRACE_RECORD, 4);
-  to = put_number(to, params->width, 4);
-  to = put_number(to, params->height, 4);
-  put_number(to, params->samples, 4);
-  fwrite(header, sizeof header, 1, tracer->output.file);
+  else
+    fwrite(&header, sizeof header, 1, tracer->output.file);
 }
 
 /* --- the trace --- */
+
+static void end_ray(struct trax_access_log *log, const struct trax_traced_ray *ray) {
+  struct tracer *tracer = (struct tracer *)log;
+  trax_visit_count(log);
+  const struct trax_ray_record record = record_of(tracer, ray);
+  tracer->put(tracer->output.file, &record);
+  tracer->counter.nodes = tracer->counter.triangles = 0;
+}
 
 static trax_status trace(struct tracer *tracer, const struct trax_frame *frame, const struct trax_picture *picture,
                          struct trax_render_run *run, trax_error *error) {
@@ -120,8 +108,8 @@ static trax_status trace(struct tracer *tracer, const struct trax_frame *frame, 
   return status;
 }
 
-trax_status trax_ray_trace_write(const char *path, const struct trax_frame *frame, const struct trax_picture *picture,
-                                 struct trax_render_run *run, trax_error *error) {
+trax_status trax_ray_trace_write(const char *path, const struct trax_frame *frame, int exponent,
+                                 const struct trax_picture *picture, struct trax_render_run *run, trax_error *error) {
   const bool csv = trax_output_has_ending(path, "csv");
   struct tracer *tracer = calloc(1, sizeof *tracer);
   if (!tracer)
@@ -133,7 +121,7 @@ trax_status trax_ray_trace_write(const char *path, const struct trax_frame *fram
   tracer->put = csv ? put_csv : put_binary;
   trax_status status = trax_output_open(&tracer->output, path, error);
   if (status == TRAX_OK) {
-    put_header(tracer, frame->params, csv);
+    put_header(tracer, frame->params, exponent, csv);
     status = trace(tracer, frame, picture, run, error);
     if (status == TRAX_OK)
       status = trax_output_commit(&tracer->output, error);

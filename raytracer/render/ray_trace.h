@@ -4,11 +4,14 @@
 
 #include "render.h"
 
-enum { TRAX_RAY_TRACE_HEADER = 32, TRAX_RAY_TRACE_RECORD = 64 }; /* bytes of the binary trace */
+/* Writes it to path: CSV if that ends in .csv, else binary (ray_file.h). exponent: the scene was scaled by 2^exponent.
+   picture: the same of another engine, NULL: none. It fails if that differs from the twin's picture, because then the
+   program traced other rays. */
+trax_status trax_ray_trace_write(const char *path, const struct trax_frame *frame, int exponent,
+                                 const struct trax_picture *picture, struct trax_render_run *run, trax_error *error);
 
-/* Writes it to path: CSV if that ends in .csv, else binary. picture: the same of another engine, NULL: none. It fails
-   if that differs from the twin's picture, because then the program traced other rays. */
-trax_status trax_ray_trace_write(const char *path, const struct trax_frame *frame, const struct trax_picture *picture,
-                                 struct trax_render_run *run, trax_error *error);
+/* The number in the meshes of the triangle at an offset in the scene, as --id-picture shows it less 1; in scenes
+   without these numbers its place in the file. TRAX_NO_TRIANGLE of offset 0. */
+uint32_t trax_ray_triangle(const struct trax_scene *scene, uint32_t offset);
 
 #endif

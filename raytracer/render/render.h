@@ -39,7 +39,8 @@ struct trax_frame {
   struct trax_render_params *params; /* with what render_params.h has behind it; from malloc */
   uint32_t params_size;              /* bytes */
   const struct trax_scene *scene;
-  struct trax_view view; /* Embree's picture takes lights, depth and reach from these, not from the parameters */
+  const struct trax_rays *rays; /* the slots are these, not pixels (rays.h); NULL: they are pixels */
+  struct trax_view view;        /* Embree's picture takes lights, depth and reach from these, not from the parameters */
   struct trax_frame_options options;
 };
 
@@ -52,8 +53,12 @@ struct trax_frame {
    no scale suffices, as for a light farther away than 2^40 times the scene's size. */
 trax_status trax_normalise(struct trax_scene *scene, struct trax_view *view, int *exponent, trax_error *error);
 
-/* Scales the view by 2^exponent, for a scene that was scaled before. */
+/* Scale by 2^exponent: a view whose scene was scaled before, and a scene. */
 void trax_scale_view(struct trax_view *view, int exponent);
+void trax_scale_scene(struct trax_scene *scene, int exponent);
+
+/* The margin by which the traversal widens boxes, for rays that begin at the eye or nearer to the scene. */
+float trax_box_margin(const struct trax_scene_header *header, const float eye[3]);
 
 /* scene and view as trax_normalise left them; scene must outlive the frame. */
 trax_status trax_frame_init(struct trax_frame *frame, const struct trax_scene *scene, const struct trax_view *view,

@@ -1,7 +1,7 @@
 /* The picture as the emulated machine renders it. */
 #include "layers.h"
 #include "plain_scene.h"
-#include "render.h"
+#include "rays.h"
 #include "trax/explain.h"
 
 #include <string.h>
@@ -11,7 +11,7 @@ static trax_status take_picture(struct trax_picture *picture, const struct trax_
   const int exit_status = trax_machine_exit_status(machine);
   if (exit_status != 0)
     return trax_fail(error, "the program ended with status %d", exit_status);
-  if (options->run.slots)
+  if (options->run.slots || frame->rays) /* whose hits are taken by trax_rays_take */
     return TRAX_OK;
   const uint8_t *bytes;
   uint32_t size;
@@ -105,6 +105,8 @@ trax_status trax_simulated_load(trax_machine *machine, const struct trax_frame *
   /* A program whose constants are all folded has no params. */
   if (status == TRAX_OK && trax_program_has(machine, "params"))
     status = trax_machine_bind(machine, "params", frame->params, frame->params_size, error);
+  if (status == TRAX_OK && frame->rays)
+    return trax_rays_bind(machine, frame->rays, error);
   if (status == TRAX_OK)
     status = trax_machine_bind(machine, "image", NULL, trax_frame_image_bytes(frame), error);
   if (status == TRAX_OK && trax_program_has(machine, "paths"))

@@ -70,7 +70,12 @@ static const char *const ingredients[] = {
 
 /* --- the constants --- */
 
-/* The text of the file of constants. They are words, so that every bit and every field is kept. */
+static const char *main_of(const struct trax_frame *frame) {
+  return frame->rays ? "rays.c" : "main.c";
+}
+
+/* The text of the file of constants, with the name of the source, so that the key depends on it. The constants are
+   words, so that every bit and every field is kept. */
 static char *constants_text(const struct trax_frame *frame, unsigned queues) {
   /* The part behind the parameters that every picture has. */
   const bool path = frame->params->features & TRAX_PATH_FEATURES;
@@ -87,10 +92,10 @@ static char *constants_text(const struct trax_frame *frame, unsigned queues) {
     return NULL;
   const uint32_t depth = frame->scene->header->max_depth ? frame->scene->header->max_depth : 1;
   fprintf(out,
-          "/* One picture's constants; device/run.h says what they are. */\n"
+          "/* Constants of %s; device/run.h says what they are. */\n"
           "#include \"trax/render_params.h\"\n\n"
           "#define TRAX_SPECIALISED_FEATURES 0x%Xu /*",
-          frame->params->features);
+          main_of(frame), frame->params->features);
   for (unsigned feature = 0; feature < TRAX_FEATURE_COUNT; feature++)
     if (frame->params->features >> feature & 1)
       fprintf(out, " %s", trax_feature_name(feature));
@@ -236,7 +241,8 @@ struct places {
 /* The inputs that all compilation attempts share. */
 struct recipe {
   const char *root, *source;
-  bool own; /* the source is the installation's */
+  const char *main; /* the file in it that is compiled */
+  bool own;         /* the source is the installation's */
   const struct cache_work *work;
   const struct flags *flags;
   const volatile int *interrupt;
@@ -273,7 +279,7 @@ static trax_status make_command(struct command *command, const struct recipe *re
                                 trax_error *error) {
   command->count = 0;
   if (!join_path(command->clang, recipe->root, "bin/trax-clang", "") ||
-      !join_path(command->source, recipe->source, "main.c", ""))
+      !join_path(command->source, recipe->source, recipe->main, ""))
     return trax_fail(error, "%s: the path is too long", recipe->source);
   add_word(command, command->clang);
   for (size_t i = 0; i < recipe->flags->count; i++)
@@ -384,6 +390,8 @@ static trax_status note_or_error(const struct trax_frame *frame, const struct tr
                                  const char *note, trax_error *error) {
   if (options->record)
     return trax_fail(error, "there is no program that records: %s", note);
+  if (frame->rays)
+    return trax_fail(error, "--rays: there is no program for it: %s", note);
   if (options->source)
     return trax_fail(error, "--source %s: there is no program: %s", options->source, note);
   if (frame->params->features & TRAX_FEATURE_BIT(RAY_KINDS))
@@ -428,9 +436,15 @@ trax_status trax_program_specialise(struct trax_program *program, const struct t
     status = cache_begin(&work, cache, key, &reason);
     if (status == TRAX_OK) {
       status = trax_write_file(work.header, constants, strlen(constants), &reason);
+      const struct recipe recipe = {.root = options->root,
+                                    .source = source,
+                                    .main = main_of(frame),
+                                    .own = !options->source,
+                                    .work = &work,
+                                    .flags = &flags,
+                                    .interrupt = options->interrupt};
       if (status == TRAX_OK)
-        status = build(&(struct recipe){options->root, source, !options->source, &work, &flags, options->interrupt},
-                       frame, icache_bytes, &reason);
+        status = build(&recipe, frame, icache_bytes, &reason);
       if (status == TRAX_OK)
         status = cache_commit(&work, cache, key, options->transient, &reason);
       cache_end(&work);

@@ -9,7 +9,8 @@ struct job {
   const struct options *options;
   const struct trax_frame *frame;
   trax_progress_line *progress;
-  struct live *live; /* NULL without --progress-png */
+  struct live *live;      /* NULL without --progress-png */
+  struct trax_rays *rays; /* of the frame, which get their hits; NULL: the frame is a picture */
 };
 
 struct step {
