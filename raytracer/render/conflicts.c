@@ -54,7 +54,7 @@ static trax_status check_rays(const struct options *options, trax_error *error) 
   if (options->rays && other)
     return trax_fail(error, "--rays traces the rays of a file on the emulator, so there is no picture: not with %s",
                      other);
-  if (options->prepare && (options->ray_results || options->compare))
+  if (options->rays && options->prepare && (options->ray_results || options->compare))
     return trax_fail(error, "--prepare traces nothing, so there is nothing to write or compare");
   return TRAX_OK;
 }
