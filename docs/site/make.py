@@ -11,6 +11,7 @@ of mkdocs, is an error.
 and adds their pages. --serve PORT serves the finished site on this host: the search needs a server."""
 
 import argparse
+import contextlib
 import functools
 import html.parser
 import http.server
@@ -253,6 +254,19 @@ def build(out, repository, runs):
         shutil.move(folder / "site", out)
 
 
+def is_replaceable(out):
+    """Whether a folder is absent, empty or a site."""
+    return not out.exists() or out.is_dir() and (not any(out.iterdir()) or (out / "search/search_index.json").exists())
+
+
+def serve(folder, port):
+    handler = functools.partial(http.server.SimpleHTTPRequestHandler, directory=folder)
+    with http.server.ThreadingHTTPServer(("127.0.0.1", port), handler) as server:
+        print(f"site: http://127.0.0.1:{port}/", flush=True)
+        with contextlib.suppress(KeyboardInterrupt):
+            server.serve_forever()
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("-o", "--output", type=pathlib.Path, default=SOURCE / "build/site",
@@ -264,20 +278,18 @@ def main():
     if not is_installed():
         print("make.py: error: the site needs Debian's packages mkdocs and mkdocs-material", file=sys.stderr)
         return 1
-    if options.output.exists() and any(options.output.iterdir()) and not (options.output / "search").exists():
+    if not is_replaceable(options.output):
         print(f"make.py: error: {options.output} is not a site, and is not replaced", file=sys.stderr)
         return 1
     try:
         build(options.output.resolve(), options.repository and options.repository.rstrip("/"),
               options.runs and options.runs.resolve())
-    except Failure as failure:
+        print(f"site: {options.output}")
+        if options.serve:
+            serve(options.output, options.serve)
+    except (Failure, OSError, subprocess.CalledProcessError) as failure:
         print(f"make.py: error: {failure}", file=sys.stderr)
         return 1
-    print(f"site: {options.output}")
-    if options.serve:
-        handler = functools.partial(http.server.SimpleHTTPRequestHandler, directory=options.output)
-        print(f"site: http://127.0.0.1:{options.serve}/", flush=True)
-        http.server.ThreadingHTTPServer(("127.0.0.1", options.serve), handler).serve_forever()
     return 0
 
 

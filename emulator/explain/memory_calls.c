@@ -79,14 +79,22 @@ static void leave(struct trax_memory_thread *thread) {
   thread->low = thread->calls[thread->depth].low;
 }
 
+/* Whether a jump leads into the midst of another function, as that of longjmp does. */
+static bool leads_into_function(const struct trax_memory_check *check, const struct trax_span *span) {
+  struct trax_places *places = check->reader.explain->places;
+  const struct trax_place *from = trax_places_at(places, span->index),
+                          *to = trax_places_at(places, trax_places_index(places, span->issue->next_pc));
+  return to->symbol && to->offset && to->symbol != from->symbol;
+}
+
 void trax_memory_jump(struct trax_memory_check *check, const struct trax_span *span) {
   struct trax_memory_thread *thread = &check->threads[span->thread];
   const uint32_t next = span->issue->next_pc, stack_pointer = thread->reg[SP].bits;
   if (span->inst.op == TRAX_OP_JALR) {
     while (thread->depth && is_below(thread->calls[thread->depth - 1].stack_pointer, stack_pointer))
       leave(thread);
-    if (thread->depth && thread->calls[thread->depth - 1].return_pc == next &&
-        thread->calls[thread->depth - 1].stack_pointer == stack_pointer)
+    if (thread->depth && thread->calls[thread->depth - 1].stack_pointer == stack_pointer &&
+        (thread->calls[thread->depth - 1].return_pc == next || leads_into_function(check, span)))
       leave(thread);
     if (thread->function && thread->return_pc == next && thread->stack_pointer == stack_pointer)
       trax_memory_heap_leave(check, span->thread);

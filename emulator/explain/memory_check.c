@@ -61,7 +61,8 @@ static void store(struct trax_memory_check *check, const struct trax_span *span,
     thread->local_tags[address % TRAX_LOCAL_SIZE / 4] = tag;
   } else {
     struct trax_memory_page *page = check->pages[address >> MEMORY_PAGE_SHIFT];
-    if (!page && (!(value->undefined || tag) || !(page = trax_memory_page_of(check, address))))
+    if (!page && ((!value->undefined && !tag && !check->fresh[address >> MEMORY_PAGE_SHIFT]) ||
+                  !(page = trax_memory_page_of(check, address))))
       return;
     undefined = page->undefined + address % MEMORY_PAGE;
     page->tags[address % MEMORY_PAGE / 4] = tag;
@@ -106,6 +107,11 @@ static void access(struct trax_memory_check *check, const struct trax_span *span
     thread->recent[thread->stores++ % MEMORY_RECENT].value = value.bits;
   } else if (span->inst.rd) {
     thread->reg[span->inst.rd] = load(check, span, bytes);
+    if (thread->read.bytes && address == thread->read.block) {
+      const uint32_t result = span->issue->result; /* a number of bytes, or negative */
+      trax_memory_define(check, span->thread, thread->read.address, result <= thread->read.bytes ? result : 0, false);
+      thread->read.bytes = 0;
+    }
   }
 }
 
@@ -150,7 +156,7 @@ static void host_call(struct trax_memory_check *check, const struct trax_span *s
   if (number == TRAX_HOST_WRITE)
     check_output(check, span, address, bytes);
   else if (number == TRAX_HOST_READ)
-    trax_memory_define(check, span->thread, address, bytes, false);
+    check->threads[span->thread].read = (struct trax_memory_read){block, address, bytes};
   else if (number == TRAX_HOST_SEEK || number == TRAX_HOST_STAT || number == TRAX_HOST_FSTAT)
     trax_memory_define(check, span->thread, address, number == TRAX_HOST_SEEK ? 8 : 4 * TRAX_STAT_WORDS, false);
 }
@@ -241,7 +247,8 @@ static trax_status open_check(void *self, trax_error *error) {
   check->tps = check->machine->config.chip.tps_per_tm;
   check->page_count = (size_t)(check->machine->space.size >> MEMORY_PAGE_SHIFT);
   if (!(check->threads = trax_explain_array(check->machine->stats.threads, sizeof *check->threads, error)) ||
-      !(check->pages = trax_explain_array(check->page_count, sizeof *check->pages, error)))
+      !(check->pages = trax_explain_array(check->page_count, sizeof *check->pages, error)) ||
+      !(check->fresh = trax_explain_array(check->page_count, sizeof *check->fresh, error)))
     return TRAX_ERROR;
   for (uint64_t i = 0; i < check->machine->stats.threads; i++)
     check->threads[i].low = MEMORY_NO_FRAME;

@@ -46,7 +46,8 @@ struct trax_memory_object {
 
 enum { MEMORY_PAGE_SHIFT = 12, MEMORY_PAGE = 1 << MEMORY_PAGE_SHIFT };
 
-/* What is known of a page of global memory; without one, all is defined. */
+/* What is known of a page of global memory. Without one, all is defined, or the page is fresh: nothing was written to
+   it since it became a part of a block. */
 struct trax_memory_page {
   uint8_t undefined[MEMORY_PAGE];   /* bits */
   uint32_t tags[MEMORY_PAGE / 4];   /* of whole words */
@@ -80,6 +81,9 @@ struct trax_memory_thread {
     uint32_t address, value;
   } recent[MEMORY_RECENT]; /* stores of words, for the number of a host call */
   unsigned stores;
+  struct trax_memory_read {
+    uint32_t block, address, bytes;
+  } read; /* the latest TRAX_HOST_READ, whose result the thread has not loaded yet; bytes 0: none */
 };
 
 #define MEMORY_FINDINGS(X)                                                                                             \
@@ -124,6 +128,7 @@ struct trax_memory_check {
   uint32_t tps;
   struct trax_memory_thread *threads;
   struct trax_memory_page **pages;
+  uint32_t *fresh; /* [page_count]: the block of a fresh page; 0: it is not fresh */
   size_t page_count;
   struct trax_memory_object *objects; /* by tag */
   size_t object_count, object_capacity;
@@ -184,6 +189,11 @@ uint32_t trax_memory_tag_of_frame(struct trax_memory_check *check, uint32_t pc, 
                                   uint32_t address);
 
 /* --- memory_shadow.c --- */
+/* The latest block at an address; 0: none. */
+uint32_t trax_memory_block_at(const struct trax_memory_check *check, uint32_t address);
+/* [begin, end) becomes a block, of which the bytes from `undefined` on are undefined. */
+void trax_memory_set_block(struct trax_memory_check *check, uint32_t block, uint32_t begin, uint32_t undefined,
+                           uint32_t end);
 /* The tag of a word. */
 uint32_t trax_memory_tag_at(const struct trax_memory_check *check, uint32_t thread, uint32_t address);
 struct trax_memory_page *trax_memory_page_of(struct trax_memory_check *check,
@@ -198,8 +208,6 @@ bool trax_memory_byte(const struct trax_memory_check *check, uint32_t thread, ui
 bool trax_memory_word(const struct trax_memory_check *check, uint32_t thread, uint32_t address, uint32_t *word);
 
 /* --- memory_heap.c --- */
-/* The latest block at an address; 0: none. */
-uint32_t trax_memory_block_at(const struct trax_memory_check *check, uint32_t address);
 void trax_memory_heap_enter(struct trax_memory_check *check, uint32_t thread, enum trax_memory_function function,
                             const struct trax_memory_event *event);
 void trax_memory_heap_leave(struct trax_memory_check *check, uint32_t thread);

@@ -8,12 +8,6 @@
 
 enum { RA = 1, SP = 2, FP = 3, A0 = 4, S0 = 20, S11 = 31 };
 
-uint32_t trax_memory_block_at(const struct trax_memory_check *check, uint32_t address) {
-  const struct trax_memory_page *page =
-      address >= check->heap_begin && address < check->heap_end ? check->pages[address >> MEMORY_PAGE_SHIFT] : NULL;
-  return page ? page->blocks[address % MEMORY_PAGE / 4] : MEMORY_NO_TAG;
-}
-
 /* Returns the live block that a call frees; 0: none, which is reported. */
 static uint32_t freed_block(struct trax_memory_check *check, const struct trax_memory_thread *thread,
                             const struct trax_memory_event *event) {
@@ -64,14 +58,8 @@ static void add_block(struct trax_memory_check *check, uint32_t thread, uint32_t
                                                                                     .own_begin = address,
                                                                                     .own_end = address + bytes,
                                                                                     .allocation = it->event});
-  if (defined < bytes)
-    trax_memory_define(check, thread, address + defined, bytes - defined, true);
-  for (uint32_t word = address; block && (word < address + bytes || word == address); word += 4) {
-    struct trax_memory_page *page = trax_memory_page_of(check, word);
-    if (!page)
-      return;
-    page->blocks[word % MEMORY_PAGE / 4] = block;
-  }
+  if (block)
+    trax_memory_set_block(check, block, address, address + (defined < bytes ? defined : bytes), address + bytes);
   it->reg[A0].tag = block;
 }
 
@@ -120,10 +108,12 @@ static void follow(struct search *search, uint32_t word) {
 
 /* Follows the words in [begin, end), where end may be 0 for 2^32. */
 static void follow_all(struct search *search, uint32_t thread, uint32_t begin, uint32_t end) {
+  const struct trax_memory_check *check = search->check;
   uint32_t word;
   for (uint32_t at = (begin + 3) & ~3u; at - 1 < end - 1 && end - at >= 4; at += 4)
-    if (trax_memory_tag_at(search->check, thread, at) != MEMORY_PRIVATE &&
-        trax_memory_word(search->check, thread, at, &word))
+    if (at < check->machine->space.size && check->fresh[at >> MEMORY_PAGE_SHIFT])
+      at |= MEMORY_PAGE - 4; /* the page's last word: nothing was written to it */
+    else if (trax_memory_tag_at(check, thread, at) != MEMORY_PRIVATE && trax_memory_word(check, thread, at, &word))
       follow(search, word);
 }
 

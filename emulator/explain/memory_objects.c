@@ -49,9 +49,9 @@ static bool is_below_frame(const struct trax_memory_check *check, uint32_t threa
 
 static uint32_t block_before(const struct trax_memory_check *check, uint32_t address) {
   for (uint32_t word = address / 4, i = 0; i < LOOK_BACK && word * 4 >= check->heap_begin; word--, i++) {
-    const struct trax_memory_page *page = check->pages[word * 4 >> MEMORY_PAGE_SHIFT];
-    if (page && page->blocks[word % (MEMORY_PAGE / 4)])
-      return page->blocks[word % (MEMORY_PAGE / 4)];
+    const uint32_t block = trax_memory_block_at(check, word * 4);
+    if (block)
+      return block;
   }
   return MEMORY_NO_TAG;
 }
@@ -61,8 +61,7 @@ static enum trax_memory_finding check_byte(const struct trax_memory_check *check
   if (is_below_frame(check, thread, address))
     return MEMORY_FRAME;
   if (address >= check->heap_begin && address < check->heap_end) {
-    const struct trax_memory_page *page = check->pages[address >> MEMORY_PAGE_SHIFT];
-    const uint32_t block = page ? page->blocks[address % MEMORY_PAGE / 4] : 0;
+    const uint32_t block = trax_memory_block_at(check, address);
     *object = block ? block : block_before(check, address);
     if (!block)
       return *object ? MEMORY_OUTSIDE : MEMORY_NOWHERE;
@@ -216,6 +215,7 @@ void trax_memory_objects_close(struct trax_memory_check *check) {
   for (size_t i = 0; i < check->variables_count; i++)
     free(check->variables[i].items);
   free(check->pages);
+  free(check->fresh);
   free(check->variables);
   free(check->objects);
   free(check->symbols);

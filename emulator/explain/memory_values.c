@@ -46,6 +46,16 @@ bool trax_memory_branch_is_undefined(const struct trax_memory_thread *thread, tr
   }
 }
 
+/* The undefined bits of the smaller or greater one of a and b, which may be known. */
+static uint32_t chosen_is_undefined(trax_op op, value a, value b) {
+  const bool is_signed = op == TRAX_OP_MIN || op == TRAX_OP_MAX,
+             least_is_wanted = op == TRAX_OP_MIN || op == TRAX_OP_MINU;
+  const value first = is_signed ? signed_order(a) : a, second = is_signed ? signed_order(b) : b;
+  if (order_is_undefined(first, second))
+    return a.undefined | b.undefined | (a.bits ^ b.bits);
+  return (first.bits < second.bits) == least_is_wanted ? a.undefined : b.undefined;
+}
+
 static uint32_t shifted(trax_op op, uint32_t bits, uint32_t by) {
   if (op == TRAX_OP_SLL || op == TRAX_OP_SLLI)
     return bits << by;
@@ -106,7 +116,7 @@ static uint32_t undefined_of(trax_inst inst, value a, value b, value old) {
   case TRAX_OP_MAX:
   case TRAX_OP_MINU:
   case TRAX_OP_MAXU:
-    return upwards(either) | (a.bits ^ b.bits);
+    return chosen_is_undefined(inst.op, a, b);
   case TRAX_OP_MUL:
     return (a.bits | a.undefined) && (b.bits | b.undefined) ? upwards(either) : 0;
   default:

@@ -4,8 +4,9 @@
    A thread's accesses up to a `fence w` happen before those of another thread after a `fence r`, if in between the
    first has stored a word that the second has loaded past the cache, or incremented. Each thread has a vector clock; a
    fence w copies it, and a store leaves the copy at its word (Flanagan and Freund, "FastTrack", PLDI 2009). The
-   compiler makes the same stores of atomic and of other ones, so nothing is said of words that some thread has accessed
-   past the cache, incremented, or accessed in a function of libatomic. */
+   compiler makes the same stores of atomic and of other ones, so two stores to a word that some thread has accessed
+   past the cache or incremented are no race. A plain load and a store are, unless the word was accessed in a function
+   of libatomic: before such a call the compiler may load the object plainly, as a guess. */
 #include "explain/places.h"
 #include "explain/span.h"
 #include "report/place.h"
@@ -36,7 +37,7 @@ struct word {
   struct cell cells[CELLS];
   struct release *release;
   uint8_t next; /* the cell that is replaced next */
-  bool atomic;
+  enum { PLAIN, ATOMIC, IN_LIBATOMIC } atomic : 8;
 };
 
 struct thread {
@@ -106,6 +107,13 @@ static struct word *word_at(struct races *races, uint32_t address) {
   return *page ? &(*page)[address / 4 % WORDS] : NULL;
 }
 
+/* Whether two accesses to the word, to the same bytes and not ordered, are a race. */
+static bool is_race(const struct word *word, const struct cell *first, const struct cell *second) {
+  if (word->atomic == PLAIN)
+    return first->write || second->write;
+  return word->atomic == ATOMIC && first->write && !second->write;
+}
+
 static void note(struct races *races, const struct cell *first, const struct cell *second,
                  const struct trax_issue *issue) {
   const uint64_t key = (uint64_t)first->pc << 32 | second->pc;
@@ -117,7 +125,7 @@ static void note(struct races *races, const struct cell *first, const struct cel
   struct site *site = &races->sites[entry->value];
   const bool is_new = entry->value == races->site_count;
   races->site_count += is_new;
-  if (is_new || word_at(races, site->address)->atomic)
+  if (is_new || !is_race(word_at(races, site->address), &site->first, &site->second))
     *site = (struct site){*first, *second, issue->address, issue->cycle, is_new ? 0 : site->count};
   site->count++;
 }
@@ -129,13 +137,13 @@ static void check(struct races *races, const struct trax_span *span, struct word
                            .thread = (uint16_t)span->thread,
                            .mask = (uint8_t)(((1 << bytes) - 1) << span->issue->address % 4),
                            .write = write};
-  struct cell *place = NULL;
+  struct cell *place = NULL; /* an empty one, or one whose races with later accesses are this access's, too */
   for (unsigned i = 0; i < CELLS; i++) {
     struct cell *it = &word->cells[i];
-    if (it->clock && it->thread != own.thread && it->mask & own.mask && (it->write || write) &&
-        it->clock > thread->clock[it->thread])
+    const bool is_ordered = it->clock <= thread->clock[it->thread];
+    if (!is_ordered && it->mask & own.mask && is_race(word, it, &own))
       note(races, it, &own, span->issue);
-    if (!place && (!it->clock || (it->thread == own.thread && it->write == write && it->mask == own.mask)))
+    if (!place && is_ordered && (write || !it->write) && !(it->mask & ~own.mask))
       place = it;
   }
   *(place ? place : &word->cells[word->next++ % CELLS]) = own;
@@ -150,18 +158,20 @@ static void store(struct races *races, uint32_t thread, struct word *word) {
     release->uses++;
 }
 
-static void increment(struct races *races, const struct trax_span *span, struct word *word) {
-  struct thread *thread = &races->thread[span->thread];
-  struct release *before = word->release ? copy_of(races, word->release->clock) : NULL;
-  thread->increments[span->inst.rd] = span->issue->address;
-  if (!before) {
-    store(races, span->thread, word);
+/* A store to a part of a word, or an increment: what the word passes on is not replaced. */
+static void add_to(struct races *races, uint32_t thread, struct word *word) {
+  const struct release *release = races->thread[thread].release;
+  if (!word->release)
+    store(races, thread, word);
+  if (!release || word->release == release)
     return;
+  if (word->release->uses > 1) {
+    struct release *const copy = copy_of(races, word->release->clock);
+    drop(&word->release);
+    word->release = copy;
   }
-  if (thread->release)
-    join(races, before->clock, thread->release->clock);
-  drop(&word->release);
-  word->release = before;
+  if (word->release)
+    join(races, word->release->clock, release->clock);
 }
 
 /* Follows calls of the library's atomic operations, which copy wide objects under a lock. */
@@ -193,15 +203,20 @@ static void add_span(void *self, const struct trax_span *span) {
       op->access_bytes && span->issue->address < TRAX_LOCAL_BASE ? word_at(races, span->issue->address) : NULL;
   if (!word)
     return;
-  if (op->flags & (TRAX_IS_NONTEMPORAL | TRAX_IS_ATOMIC) || races->thread[span->thread].return_pc)
-    word->atomic = true;
-  else if (!word->atomic)
-    check(races, span, word, op->access_bytes, op->flags & TRAX_IS_STORE);
+  const bool write = op->flags & (TRAX_IS_STORE | TRAX_IS_ATOMIC), past_cache = op->flags & TRAX_IS_NONTEMPORAL;
+  if (races->thread[span->thread].return_pc)
+    word->atomic = IN_LIBATOMIC;
+  else if (!word->atomic && (past_cache || op->flags & TRAX_IS_ATOMIC))
+    word->atomic = ATOMIC;
+  if (word->atomic != IN_LIBATOMIC && (write || !past_cache))
+    check(races, span, word, op->access_bytes, write);
   if (op->flags & TRAX_IS_ATOMIC)
-    increment(races, span, word);
-  else if (op->flags & TRAX_IS_STORE)
+    races->thread[span->thread].increments[span->inst.rd] = span->issue->address;
+  if (op->flags & TRAX_IS_ATOMIC || (write && op->access_bytes < 4))
+    add_to(races, span->thread, word);
+  else if (write)
     store(races, span->thread, word);
-  else if (op->flags & TRAX_IS_NONTEMPORAL && word->release)
+  else if (past_cache && word->release)
     join(races, races->thread[span->thread].seen, word->release->clock);
 }
 
@@ -244,7 +259,8 @@ static trax_status end_races(void *self, trax_error *error) {
   size_t found = 0;
   fflush(stdout);
   for (size_t i = 0; i < races->site_count; i++)
-    if (!word_at(races, races->sites[i].address)->atomic && ++found <= MOST_SITES)
+    if (is_race(word_at(races, races->sites[i].address), &races->sites[i].first, &races->sites[i].second) &&
+        ++found <= MOST_SITES)
       print(races, &races->sites[i], stderr);
   if (found > MOST_SITES)
     fprintf(stderr, "trax-sim: race: %zu further sites\n", found - MOST_SITES);

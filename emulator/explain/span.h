@@ -67,7 +67,6 @@ struct trax_reader {
   X(heat)                                                                                                              \
   X(items)                                                                                                             \
   X(ray_kinds)                                                                                                         \
-  X(order)                                                                                                             \
   X(memory_check)                                                                                                      \
   X(races)                                                                                                             \
   X(series)                                                                                                            \

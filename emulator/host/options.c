@@ -233,8 +233,6 @@ static const trax_option rows[] = {
      .meaning = "its TMs, as in 0,2-3; default all"},
     {"window-tps", .argument = "LIST", PARSED(parse_list, explain.window_tps),
      .meaning = "its TPs in each of these TMs; default all"},
-    {"check-order", FIELD(explain.check_order),
-     .meaning = "report the first load that may return an old value where caches are not coherent"},
     {"check-memory", FIELD(explain.check_memory),
      .meaning = "report accesses out of bounds or after free, uses of memory never written, and leaks"},
     {"check-races", FIELD(explain.check_races),
@@ -263,6 +261,7 @@ static const trax_option rows[] = {
     {"lockstep", .instead = "--set simt.width=32 simulates a SIMD machine: simt.efficiency is its lanes in use"},
     {"lockstep-rays",
      .instead = "--set simt.width=32 simulates a SIMD machine: simt.efficiency is its lanes in use"},
+    {"check-order", .instead = "--check-races reports these loads, and other races"},
     {"konata", .instead = "--perfetto FILE shows the cycles of the window, --trace FILE each of its instructions"},
     {"memory-trace-format", .instead = "--memory-trace FILE.csv is CSV, another FILE binary; for DRAMsim3 and Ramulator 2 "
                                        "convert it by memory_trace_for.py (docs/traces.md)"},

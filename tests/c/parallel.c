@@ -1,7 +1,7 @@
 // clang-format off
 // RUN: %run_c %s %t --levels -O0,-O2 --cflags "-mstack=global" --simflags "--set chip.tms=2 --set chip.tps_per_tm=8 --main-on 0 --max-cycles 9000000"
 // RUN: %run_c %s %t --levels -O2 --cflags "-mstack=global" --simflags "--max-cycles 9000000"
-// RUN: %trax_sim --set chip.tms=2 --set chip.tps_per_tm=8 --main-on 0 --check-order %t-O2 | diff %S/parallel.expected -
+// RUN: %trax_sim --set chip.tms=2 --set chip.tps_per_tm=8 --main-on 0 --check-races %t-O2 | diff %S/parallel.expected -
 // clang-format on
 // Work for all threads, again and again. (Expected output by hand; it does not depend on the number of threads.)
 #include <stdio.h>

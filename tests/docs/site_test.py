@@ -77,12 +77,13 @@ def main():
         linked = make.Site(folder / "linked", "https://trax.invalid/blob")
         text = linked.relinked("README.md", "[x](LICENSE) `[y](LICENSE)`")
         failed += check(text == "[x](https://trax.invalid/blob/LICENSE) `[y](LICENSE)`", f"a link becomes {text}")
-        # A folder that is not a site is not replaced.
-        (folder / "mine").mkdir()
-        (folder / "mine/file").write_text("")
-        done = subprocess.run([sys.executable, "-B", MAKE, "-o", folder / "mine"], capture_output=True, text=True)
-        kept = done.returncode == 1 and (folder / "mine/file").exists()
-        failed += check(kept, "a folder with other files is replaced")
+        # What is not a site is not replaced, even if it has a folder `search`.
+        (folder / "mine/search").mkdir(parents=True)
+        (folder / "mine/search/file").write_text("")
+        for out in ("mine", "mine/search/file"):
+            done = subprocess.run([sys.executable, "-B", MAKE, "-o", folder / out], capture_output=True, text=True)
+            kept = done.returncode == 1 and "is not a site" in done.stderr and (folder / "mine/search/file").exists()
+            failed += check(kept, f"{out} is replaced: {done.stderr}")
     return 1 if failed else 0
 
 

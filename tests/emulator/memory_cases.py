@@ -119,7 +119,8 @@ def never_written():
             (4, "w == k", True), (5, "w < k", True), (6, "w < k", False), (256, "((w * k) & 255) == 0", True),
             (3, "((w * k) & 255) == 15", True), (3, "((w * k) & 256) == 0", False), (5, "((w ^ k) & 255) == 0", True),
             (0, "(w & k) != 0", True), (1, "(w & 255) * k == 5", True), (1, "(int)w > (int)k", False),
-            (1, "(w > k ? w : k) != 0", True)):
+            (1, "(w > k ? w : k) != 0", True), (0, "(w < k ? w : k) == 0", True),
+            (255, "(w < k ? w : k) == 255", False)):
         # Each sum and product has only the bits that can change.
         yield "", (f"word *p = malloc(4); OPAQUE(p); *(byte *)p = 5; BARRIER; word w = *p, k = {k}; OPAQUE(k); "
                    f"OPAQUE(w); if ({condition}) sink = 1; free(p);"), not decided and BRANCH

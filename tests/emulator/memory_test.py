@@ -8,6 +8,7 @@ the errors, each with its function in the call chain. With TRAX_MEMORY_ALL=1 the
 import os
 import pathlib
 import re
+import resource
 import subprocess
 import sys
 import tempfile
@@ -123,6 +124,55 @@ int main(void) {
         check(re.sub(r"cycle \d+", "", error) == re.sub(r"cycle \d+", "", other), engine, other)
 
 
+def read(scratch):
+    """Only the bytes that a read has got are defined."""
+    program = build(scratch, write(scratch, """#include <unistd.h>
+int main(void) { char a[64]; return read(0, a, 64) > 0 && a[40] == 'x' ? 3 : 0; }
+"""), "-O1")
+    for text, status in (("short", 1), (64 * "x", 3)):
+        result = subprocess.run([BIN / "trax-sim", "--quiet", "--check-memory", program], input=text,
+                                capture_output=True, text=True, timeout=100)
+        check(result.returncode == status and ("never written" in result.stderr) == (status == 1), text, result.stderr)
+
+
+def jumps(scratch):
+    """After longjmp the callers are those of setjmp: an error in a loop is one site."""
+    program = build(scratch, write(scratch, """#include <setjmp.h>
+#include <stdlib.h>
+static jmp_buf place;
+static char *block;
+static volatile int n;
+__attribute__((noinline)) static void back(int k) { volatile int a[4]; a[0] = k; if (k) longjmp(place, 1); }
+__attribute__((noinline)) static void use(int i) { ((volatile char *)block)[i] = 1; }
+int main(void) { block = malloc(8); setjmp(place); if (n < 5) { n++; use(8); back(n); } free(block); }
+"""), "-O1")
+    error = run(program).stderr
+    check("; 5 times\n" in error and error.endswith("has 1 error of memory (--check-memory)\n"), error)
+
+
+def large(scratch):
+    """Time and memory are in proportion to what is written to a block, not to its size."""
+    program = build(scratch, write(scratch, """#include <stdlib.h>
+static char *volatile block;
+int main(void) {
+  for (int i = 0; i < 40; i++) {
+    char *it = block = malloc(200000000);
+    for (int at = 5; at < 100000000; at += 9999991) it[at] = 7;
+    block = realloc(it, 300000000);
+    it = block;
+    if (it[5 + 9999991] != 7 || it[4095 * 4096 + i] == 3) return i + 1;
+    free(block);
+  }
+}
+"""), "-O1")
+    limit = resource.getrlimit(resource.RLIMIT_AS)[1]
+    result = subprocess.run([BIN / "trax-sim", "--quiet", "--check-memory", program], capture_output=True, text=True,
+                            timeout=20, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (1500 << 20, limit)))
+    found = set(findings(result.stderr).popitem()[1]) if "trax-sim: memory:" in result.stderr else set()
+    check(result.returncode == 1 and found == {memory_cases.BRANCH} and "; 40 times" in result.stderr,
+          result.returncode, result.stderr)
+
+
 # Programs of tests/c whose errors are what they test, or that leave blocks.
 WRONG = {"abort_double_free.c", "buffers.c", "fault_memory_ends.c", "heap.c", "local_memory.c", "parallel.c"}
 SOME = ["bitfields.c", "strings.c", "varargs.c", "vla.c", "setjmp_longjmp.c", "struct_large.c", "unions.c",
@@ -149,7 +199,7 @@ def programs(scratch):
 
 
 def main():
-    for test in (table, ends, buffers, report, programs):
+    for test in (table, ends, buffers, report, read, jumps, large, programs):
         with tempfile.TemporaryDirectory() as scratch:
             test(pathlib.Path(scratch))
     return checking.failures != 0

@@ -2,8 +2,8 @@
 """races_test.py BUILD_BIN SOURCE: trax-sim --check-races.
 
 A generated program has pairs of accesses by two threads, unordered and ordered, to the same bytes and to neighbours:
-the words in the report must be exactly the racy ones. Programs whose threads order what they share give nothing; the
-same ones with relaxed orders are reported.
+the words in the report must be exactly the racy ones. Programs whose threads order what they share give nothing, as the
+ray tracer; the same ones with relaxed orders are reported.
 """
 
 import itertools
@@ -18,6 +18,7 @@ import checking  # noqa: E402
 from checking import check  # noqa: E402
 
 BIN, SOURCE = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
+OWN = SOURCE / "tests/emulator/races"
 RACE = "trax-sim: race: nothing orders two accesses to the same word\n"
 
 
@@ -34,11 +35,15 @@ def run(program, tms, tps, *options):
     return subprocess.run(command, capture_output=True, text=True, timeout=600)
 
 
+def orders(release="release", acquire="acquire"):
+    return f"-DRELEASE=memory_order_{release}", f"-DACQUIRE=memory_order_{acquire}"
+
+
 def pairs(scratch):
     """Thread 0 makes the first access of each pair, the other thread the second one, at any time or after a message."""
     objects, first, second, racy = "", {}, {}, set()
     kinds = {"load": "sink = {};", "store": "{} = 1;"}
-    for order in ("none", "message", "lock", "increment", "no_release", "no_acquire"):
+    for order in ("none", "message", "lock", "byte", "increment", "no_release", "no_acquire"):
         first[order], second[order] = [], []
         for number, (type, one, other, apart) in enumerate(itertools.product(
                 ("char", "short", "int"), kinds, kinds, (False, True))):
@@ -55,9 +60,15 @@ def pairs(scratch):
 #include <trax.h>
 static _Thread_local volatile int sink;
 static _Atomic unsigned flags[4], next, serving;
+static volatile _Atomic unsigned char bytes[4] __attribute__((aligned(4)));
 {objects}
 static void say(unsigned i, memory_order order) {{ atomic_store_explicit(&flags[i], 1, order); }}
 static void hear(unsigned i, memory_order order) {{ while (!atomic_load_explicit(&flags[i], order)); }}
+static void hear_byte(void) {{
+  for (volatile int i = 0; i < 1000; i++); /* thread 0 has stored bytes[0] by then */
+  atomic_store_explicit(&bytes[1], 1, memory_order_relaxed);
+  while (!atomic_load_explicit(&bytes[0], memory_order_acquire));
+}}
 static void enter(unsigned ticket) {{
   atomic_fetch_add_explicit(&next, 1, memory_order_relaxed);
   while (atomic_load_explicit(&serving, memory_order_acquire) != ticket);
@@ -68,6 +79,7 @@ int main(void) {{
     {body["none"][0]}
     {body["message"][0]} say(0, memory_order_release);
     enter(0); {body["lock"][0]} leave();
+    {body["byte"][0]} atomic_store_explicit(&bytes[0], 1, memory_order_release);
     {body["increment"][0]} atomic_fetch_add_explicit(&flags[1], 1, memory_order_release);
     {body["no_release"][0]} say(2, memory_order_relaxed);
     {body["no_acquire"][0]} say(3, memory_order_release);
@@ -75,6 +87,7 @@ int main(void) {{
     {body["none"][1]}
     hear(0, memory_order_acquire); {body["message"][1]}
     enter(1); {body["lock"][1]} leave();
+    hear_byte(); {body["byte"][1]}
     while (atomic_fetch_add_explicit(&flags[1], 1, memory_order_acquire) == 0); {body["increment"][1]}
     hear(2, memory_order_acquire); {body["no_release"][1]}
     hear(3, memory_order_relaxed); {body["no_acquire"][1]}
@@ -98,10 +111,9 @@ int main(void) {{
 
 def message(scratch):
     """A report has both lines and both threads."""
-    source = SOURCE / "tests/emulator/order/message.c"
+    source = OWN / "message.c"
     lines = source.read_text().splitlines()
-    program = build(scratch, source, "-DRELEASE=memory_order_relaxed", "-DACQUIRE=memory_order_acquire")
-    error = run(program, 2, 1).stderr
+    error = run(build(scratch, source, *orders("relaxed", "acquire")), 2, 1).stderr
     loads, stores = (next(i + 1 for i, line in enumerate(lines) if f"/* {what} */" in line)
                      for what in ("loads", "stores"))
     expected = (rf"{RACE}  word +0x[0-9a-f]+ \(data\+0x4\), cycle \d+\n"
@@ -109,24 +121,76 @@ def message(scratch):
                 rf"  second +load by thread 1 \(TM 1, TP 0\)\n  in +listen\+0x[0-9a-f]+ at \S*message.c:{loads}:\d+\n"
                 r"trax-sim: error: the program has 1 race \(--check-races\)\n")
     check(re.fullmatch(expected, error), error)
+    check(not run(build(scratch, source, *orders()), 2, 1).stderr, "in order")
+    for what, flags, place in (("no acquire", orders("release", "relaxed"), "data+0x4"),
+                               ("plain flag", (*orders(), "-DPLAIN"), "flag")):
+        error = run(build(scratch, source, *flags), 2, 1).stderr
+        check(RACE in error and f"({place})" in error, what, error)
+
+
+def locks(scratch):
+    source = OWN / "lock.c"
+    check(not run(build(scratch, source, *orders()), 2, 3).stderr, "lock")
+    for kinds in (("relaxed", "acquire"), ("release", "relaxed"), ("relaxed", "relaxed")):
+        error = run(build(scratch, source, *orders(*kinds)), 2, 3).stderr
+        check(RACE in error and "(count)" in error, "lock", kinds, error)
+    neighbours = run(build(scratch, OWN / "neighbours.c"), 4, 1)
+    check(neighbours.returncode == 0 and not neighbours.stderr, "neighbours", neighbours.stderr)
+
+
+def mixed(scratch):
+    """Words that atomic and plain accesses share: only a plain load after a store is a race."""
+    cases = {"increment_load": ("trax_atomic_inc(&X);", "sink = *(volatile unsigned *)&X;"),
+             "store_load": ("trax_store_nt(&X, 1);", "sink = *(volatile unsigned *)&X;"),
+             "load_increment": ("sink = *(volatile unsigned *)&X;", "trax_atomic_inc(&X);"),
+             "store_store": ("*(volatile unsigned *)&X = 1;", "trax_store_nt(&X, 1);"),
+             "atomic_load": ("trax_atomic_inc(&X);", "sink = trax_load_nt(&X);")}
+    source = scratch / "mixed.c"
+    source.write_text("#include <trax.h>\nstatic _Thread_local volatile unsigned sink;\n" + "".join(
+        f"unsigned {name} __attribute__((aligned(16)));\n" for name in cases) + f"""int main(void) {{
+  if (trax_thread() == 0) {{ {" ".join(one.replace("X", name) for name, (one, _) in cases.items())} }}
+  else {{
+    for (volatile int i = 0; i < 500; i++);
+    {" ".join(other.replace("X", name) for name, (_, other) in cases.items())}
+  }}
+}}
+""")
+    result = run(build(scratch, source), 2, 1)
+    found = set(re.findall(r"^  word +0x[0-9a-f]+ \((\w+)\)", result.stderr, re.M))
+    check(found == {"increment_load", "store_load"}, "mixed", found, result.stderr)
 
 
 def programs(scratch):
-    for name in ("lock", "double_checked", "reference_counting", "barrier"):
+    for name in ("lock", "exchange_lock", "double_checked", "reference_counting", "barrier"):
         source = SOURCE / f"tests/litmus/{name}.c"
         right = run(build(scratch, source, "-DRUNS=20"), 2, 4)
         check(right.returncode == 0 and not right.stderr, name, right.stderr)
         relaxed = run(build(scratch, source, "-DRUNS=20", "-DRELAXED"), 2, 4)
         check(relaxed.returncode == 1 and RACE in relaxed.stderr, name, "relaxed", relaxed.stderr)
-    for name in ("threads.c", "heap_threads.c", "atomic_mixed.c", "parallel.c", "cxx_mutex.cpp"):
+    for name in ("threads.c", "heap_threads.c", "atomic_mixed.c", "atomic_announce.c", "thread_local_values.c",
+                 "parallel.c", "cxx_mutex.cpp"):
         flags = ["-mstack=global", "-std=c++20"] if name.endswith(".cpp") else []
         options = ["--main-on", "0"] if name == "parallel.c" else []
         result = run(build(scratch, SOURCE / "tests/c" / name, *flags), 2, 8, *options)
         check(result.returncode == 0 and not result.stderr, name, result.returncode, result.stderr)
 
 
+def picture(scratch):
+    subprocess.run([BIN / "trax-render", SOURCE / "tests/render/box.obj", "--size", "40x24", "--config", "2x32",
+                    "--quiet", "--prepare", scratch], check=True)
+    result = subprocess.run([BIN / "trax-sim", "--quiet", "--check-races", scratch / "manifest.json"],
+                            capture_output=True, text=True, timeout=600)
+    check(result.returncode == 0 and not result.stderr, "ray tracer", result.stderr)
+
+
+def refused(scratch):
+    result = run(build(scratch, OWN / "neighbours.c"), 1, 1, "--engine", "functional")
+    check(result.returncode == 1 and "a run is explained by the engine fast, reference or simt" in result.stderr,
+          "functional", result.stderr)
+
+
 def main():
-    for test in (pairs, message, programs):
+    for test in (pairs, message, locks, mixed, programs, picture, refused):
         with tempfile.TemporaryDirectory() as scratch:
             test(pathlib.Path(scratch))
     return checking.failures != 0

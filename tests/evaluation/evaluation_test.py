@@ -202,6 +202,12 @@ def test_damaged_job(evaluation, scratch):
     victim.write_text(json.dumps(job | {"series": job["series"] + 1}))
     run = subprocess.run([evaluation.program, "job", scratch / "damaged", victim.stem], capture_output=True, text=True)
     check(run.returncode == 1 and "its name is not its hash" in run.stderr, f"a damaged job: {run.stderr}")
+    for words, said in ((["../../escaped"], "is no key of a job"), ([32 * "0"], "has no job"),
+                        ([other.stem, "--threads", "0"], "expected a number from 1 to 4096")):
+        before = sorted(scratch.rglob("*"))
+        run = subprocess.run([evaluation.program, "job", scratch / "damaged", *words], capture_output=True, text=True)
+        check(run.returncode == 1 and said in run.stderr and sorted(scratch.rglob("*")) == before,
+              f"job {words}: {run.stderr}")
     for path in (scratch / "damaged/inputs").glob("*/program.elf"):
         path.write_bytes(path.read_bytes()[:-1])
     run = subprocess.run([evaluation.program, "job", scratch / "damaged", other.stem], capture_output=True, text=True)

@@ -323,6 +323,7 @@ class Files(Scratch):
                 shutil.copy(self.folder / f"{run}.json", self.place / name / f"r{number}.json")
         shutil.copy(self.folder / "a.html", self.place / "after/page.html")
         (self.place / "after/list.json").write_text("[1]")
+        (self.place / "after/folder.json").mkdir()
         found = json.loads(self.command("--json", "before", "after", folder=self.place).stdout)
         self.assertEqual((sorted(found["runs"]), found["only_a"], found["only_b"]), (["r0", "r1"], [], ["page"]))
         self.assertEqual(found["runs"]["r0"]["cycles"]["difference"], -found["runs"]["r1"]["cycles"]["difference"])
@@ -356,6 +357,9 @@ class Files(Scratch):
                 ("zero.json", json.dumps(good | {"threads": 0}), '"threads" is 0'),
                 ("cause.json", json.dumps(good | {"causes": {"issued": []}}), '"causes.issued" is no number'),
                 ("noise.json", json.dumps(good | {"sampled": {}}), "no interval"),
+                ("large.json", json.dumps(good | {"cycles": 10**400}), '"cycles" is no figure that a run can have'),
+                ("sum.json", json.dumps(good | {"causes": {"a": 1.7e308, "b": 1.7e308}}), '"causes.a" is no figure'),
+                ("chip.json", json.dumps(good | {"configuration": {"chip": [1]}}), '"configuration.chip" is no object'),
                 ("nan.json", json.dumps(good | {"mrps": float("nan")}), "NaN"),
                 ("page.html", "<html></html>", "no page of --explore"),
                 ("cut.html", text[:20000], "no page of --explore"),

@@ -40,7 +40,6 @@ struct trax_explain_options {
 #define MEMBER(ID, ...) const char *ID;
   TRAX_EXPLAIN_FILES(MEMBER)
 #undef MEMBER
-  bool check_order;  /* report the first load that may return an old value to standard error */
   bool check_memory; /* report errors of memory to standard error (docs/checking.md) */
   bool check_races;  /* report accesses of two threads that nothing orders to standard error */
 

@@ -4,10 +4,10 @@ from compare import main as comparison
 from fetch import main as fetch
 from report import docs, make
 
-from .options import OPTIONS
+from .options import OPTIONS, job_parser
 
 COMMANDS = {"report": make.new_parser, "docs": docs.new_parser, "fetch-scenes": fetch.new_parser,
-            "compare": comparison.new_parser}
+            "compare": comparison.new_parser, "job": job_parser}
 
 SCRIPT = """\
 # Completes the options and experiments of trax-eval in bash.

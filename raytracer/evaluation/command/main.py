@@ -4,6 +4,7 @@ import contextlib
 import math
 import os
 import pathlib
+import re
 import shlex
 import shutil
 import sys
@@ -25,11 +26,11 @@ from trax_eval.results import collect, plan_file, write_plan
 from trax_eval.scratch import clean_scratch, new_scratch
 from trax_eval.sweep import parse_size, read_sweep
 from trax_eval.tools import Tools
-from trax_eval.util import Parser, Problem, check_files, complain, nearest, remark
+from trax_eval.util import Problem, check_files, complain, nearest, remark
 from trax_eval.values import Areas
 
 from . import completion
-from .options import OPTIONS, described, new_parser
+from .options import OPTIONS, described, job_parser, new_parser
 
 HELP = """\
 usage: trax-eval [OPTION...] EXPERIMENT... [SCENES]
@@ -78,9 +79,13 @@ def parse(arguments):
                 raise Problem(f"--{option.name}: the value is empty")
     if options.size is not None and not parse_size(options.size):
         raise Problem(f"--size {options.size}: expected WIDTHxHEIGHT, each 1 to 16384")
-    if not 1 <= options.jobs <= 4096:
-        raise Problem(f"--jobs {options.jobs}: expected a number from 1 to 4096")
+    check_threads("--jobs", options.jobs)
     return options
+
+
+def check_threads(option, value):
+    if not 1 <= value <= 4096:
+        raise Problem(f"{option} {value}: expected a number from 1 to 4096")
 
 
 def choose(options, data):
@@ -173,11 +178,12 @@ def evaluate(options, tools, data, command):
 
 def run_one_job(arguments, tools):
     """trax-eval job OUT KEY: one of the jobs that --prepare prints, for other schedulers."""
-    parser = Parser(prog="trax-eval job", add_help=False)
-    parser.add_argument("out", type=pathlib.Path)
-    parser.add_argument("key")
-    parser.add_argument("--threads", type=int, default=1)
-    options = parser.parse_intermixed_args(arguments)
+    options = job_parser().parse_intermixed_args(arguments)
+    check_threads("--threads", options.threads)
+    if not re.fullmatch("[0-9a-f]{32}", options.key):
+        raise Problem(f"{options.key}: is no key of a job, as --prepare prints them")
+    if not (options.out / "jobs" / f"{options.key}.json").exists():
+        raise Problem(f"{options.out}: has no job {options.key}")
     error = runners.try_job(options.out.resolve(), tools, options.key, options.threads)
     if error:
         raise Problem(error)

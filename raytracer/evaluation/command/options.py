@@ -101,3 +101,12 @@ def new_parser():
         if option.parsed:
             option.add_to(parser)
     return parser
+
+
+def job_parser():
+    """trax-eval job DIR KEY"""
+    parser = Parser(prog="trax-eval job", add_help=False, allow_abbrev=False)
+    parser.add_argument("out", type=path_argument)
+    parser.add_argument("key")
+    parser.add_argument("--threads", type=int, default=1)
+    return parser

@@ -6,18 +6,9 @@ import os
 from trax_eval.pictures import png
 
 from .figures import SECTIONS
-from .runs import HOST, HOW, is_number
+from .runs import HOST, HOW, flat, is_number
 
 ROUNDING = 1e-9  # relative: of sums of floats
-
-
-def flat(value, name=""):
-    """The leaves of a JSON value, by their names with dots."""
-    if isinstance(value, (dict, list)) and value:
-        for key, item in value.items() if isinstance(value, dict) else enumerate(value):
-            yield from flat(item, f"{name}.{key}" if name else str(key))
-    else:
-        yield name, value
 
 
 def less(b, a):

@@ -11,6 +11,7 @@ from trax_eval.util import FILE_LIMIT, STRICT, Problem, read_bytes, read_json
 
 from .png import read_png
 
+TINIEST, LARGEST = 1e-100, 1e100  # quotients and sums of such numbers are finite
 HOST = ("host_seconds", "instructions_per_host_second")  # figures of the host, which no comparison is about
 HOW = {
     "profile": "--explore FILE.html, or --profile-folded FILE.folded",
@@ -22,6 +23,15 @@ HOW = {
 
 def is_number(value):
     return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def flat(value, name=""):
+    """The leaves of a JSON value, by their names with dots."""
+    if isinstance(value, (dict, list)) and value:
+        for key, item in value.items() if isinstance(value, dict) else enumerate(value):
+            yield from flat(item, f"{name}.{key}" if name else str(key))
+    else:
+        yield name, value
 
 
 def is_statistics(value):
@@ -40,6 +50,10 @@ def check_statistics(path, stats):
     need(stats["threads"] > 0, '"threads" is 0')
     for name in ("causes", "configuration"):
         need(isinstance(stats.get(name), dict), f'"{name}" is no object')
+    need(isinstance(stats["configuration"].get("chip", {}), dict), '"configuration.chip" is no object')
+    for name, value in flat(stats):
+        need(not is_number(value) or value == 0 or TINIEST < abs(value) < LARGEST,
+             f'"{name}" is no figure that a run can have')
     for cause, cycles in stats["causes"].items():
         need(is_number(cycles), f'"causes.{cause}" is no number')
     sampled = stats.get("sampled")
@@ -111,7 +125,8 @@ class Run:
             if "picture" in page:
                 self.take_picture(page["picture"], unpack(text, "pixels"))
             return page["stats"]
-        except (ValueError, TypeError, KeyError, IndexError, AttributeError, zlib.error) as error:
+        except (ValueError, TypeError, KeyError, IndexError, AttributeError, ArithmeticError, RecursionError,
+                zlib.error) as error:
             raise Problem(f"{path}: is no page of --explore ({type(error).__name__}: {error})") from error
 
     def take_picture(self, picture, packed):
@@ -198,7 +213,7 @@ def runs_of(folder):
     """The runs of a folder by name: its statistics, and pages of --explore that have none beside them."""
     found = {}
     for path in sorted(pathlib.Path(folder).iterdir()):
-        if path.suffix == ".json" and is_statistics(read_json(path, strict=False)):
+        if path.suffix == ".json" and path.is_file() and is_statistics(read_json(path, strict=False)):
             found[path.stem] = path
     for path in sorted(pathlib.Path(folder).glob("*.html")):
         if path.stem not in found and b'id="pixels"' in read_bytes(path):

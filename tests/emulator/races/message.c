@@ -1,4 +1,4 @@
-/* For order_test.py: thread 0 tells the last thread that there is something to read. RELEASE, ACQUIRE: the orders of
+/* For races_test.py: thread 0 tells the last thread that there is something to read. RELEASE, ACQUIRE: the orders of
    the store that says so and of the loads that wait for it; PLAIN: neither is atomic. */
 #include <stdatomic.h>
 #include <trax.h>

@@ -1,4 +1,4 @@
-/* For order_test.py: threads count under a lock of their own making. RELEASE, ACQUIRE: the orders of its atomics. */
+/* For races_test.py: threads count under a lock of their own making. RELEASE, ACQUIRE: the orders of its atomics. */
 #include <stdatomic.h>
 #include <trax.h>
 

@@ -1,4 +1,4 @@
-/* For order_test.py: each thread has a byte of each word, which the others neither read nor write; what all have is
+/* For races_test.py: each thread has a byte of each word, which the others neither read nor write; what all have is
  * read only. */
 #include <trax.h>
 
