@@ -16,19 +16,15 @@ static uint64_t rr_mask_of(trax_arbiter pointer) {
   return pointer ? ~(uint64_t)0 << pointer : 0;
 }
 
-static bool is_four(const struct trax_tm *tm) {
-  return tm->wide && tm->chip->variant->four;
-}
-
 static uint64_t get_fetch_rr_mask(struct trax_tm *tm, uint32_t icache, uint32_t bank) {
   if (tm->simple_fetch)
-    return (uint64_t)*trax_fast_fetch_rr_mask(&tm->fetch_rr_masks16, is_four(tm), icache, bank) << 16 * icache;
+    return (uint64_t)*trax_fast_fetch_rr_mask(&tm->fetch_rr_masks16, tm->wide, icache, bank) << 16 * icache;
   return ((const uint64_t *)(tm->fetch_rr_masks + icache * tm->vectors))[bank];
 }
 
 void trax_fast_set_fetch_rr_mask(struct trax_tm *tm, uint32_t icache, uint32_t bank, uint64_t rr_mask) {
   if (tm->simple_fetch)
-    *trax_fast_fetch_rr_mask(&tm->fetch_rr_masks16, is_four(tm), icache, bank) = (uint16_t)(rr_mask >> 16 * icache);
+    *trax_fast_fetch_rr_mask(&tm->fetch_rr_masks16, tm->wide, icache, bank) = (uint16_t)(rr_mask >> 16 * icache);
   else
     ((uint64_t *)(tm->fetch_rr_masks + icache * tm->vectors))[bank] = rr_mask;
 }

@@ -26,10 +26,8 @@ static const char *fetch_reason(const struct trax_config *config) {
                                               : "";
 }
 
-static const char *hit_reason(const struct trax_config *config, bool in_turn) {
-  return !in_turn                                ? "the line was in another way than the first (dcache.ways)"
-         : config->dcache.hit_latency_cycles > 1 ? "dcache.hit_latency_cycles is above 1"
-                                                 : "dcache.replacement";
+static const char *hit_reason(const struct trax_config *config) {
+  return config->dcache.hit_latency_cycles > 1 ? "dcache.hit_latency_cycles is above 1" : "dcache.replacement";
 }
 
 /* Epochs are as long as the least time after which a request affects another TM: of the second-level cache, if there is
@@ -69,7 +67,7 @@ void trax_fast_path_print(const struct trax_machine *machine, FILE *out) {
   row(&table, "data banks by fours", path->many_data_banks ? cycles : 0, cycles, "cycles",
       "dcache.tps_per_bank makes more than 8 banks");
   row(&table, "lines looked up", path->looked_up, total->icache_hits, "fetches", lines);
-  row(&table, "hits one by one", path->single_hits, total->dcache_hits, "hits", hit_reason(config, path->serial_hits));
+  row(&table, "hits one by one", path->single_hits, total->dcache_hits, "hits", hit_reason(config));
   row(&table, "executed at issue", path->at_issue, instructions, "instructions",
       "stores, increments, traps, loads past the cache, loads of words that TMs share");
   if (!table.any)

@@ -150,9 +150,14 @@ MUTANTS = [
     ("fast/time/cycle.c", "if (inst->resource == TRAX_RESOURCE_END || ", "if ("),
     # --- steps 3 and 4 ---
     ("fast/time/cycle.c", "const unsigned pointer = tm->queue_arbiter;", "const unsigned pointer = 0;"),
-    ("fast/time/cycle.c", "*hits = way0_hits & ~tm->executes_at_issue;", "*hits = way0_hits;"),
-    ("fast/time/cycle.c", "    hits = 0; /* serve() handles them, and stores */",
-     "    hits += 0; /* serve sees to that */"),
+    ("fast/time/cycle.c", "won & tm->load_hits & ~tm->executes_at_issue;", "won & tm->load_hits;"),
+    ("fast/time/cycle.c", "if (!tm->serial_hits && !tm->chip->alone)", "if (!tm->chip->alone)"),
+    ("fast/time/cycle.c", "if (!tm->serial_hits && !tm->chip->alone)", "if (!tm->serial_hits)"),
+    # Whether the next load's line is resident: after arrivals, evictions and fences.
+    ("fast/time/cycle.c", "    trax_fast_find_line(tm, trax_first(rest));", "    (void)tm;"),
+    ("fast/time/cycle.c", "uint32_t set_mask = tags->set_mask << tags->line_shift;",
+     "uint32_t set_mask = ~0u << tags->line_shift;"),
+    ("fast/tm/tp.c", "    tm->load_hits = 0;", "    (void)tm;"),
     # --- step 5 and the heads ---
     ("fast/time/issue.h", "if (latency > 1) {", "if (latency > 2) {"),
     ("fast/time/issue.h", "tp->atomics |= (uint64_t)1 << inst->rd;", "tp->atomics |= (uint64_t)1 << inst->ra;"),
@@ -324,8 +329,8 @@ MUTANTS = [
     ("fast/time/cycle.c", "(*(SUM)&one_) | (either_ & other_)",
      "(*(SUM)&one_)"),
     # Round robin of banks.
-    ("fast/time/masks.h", "(*(WINNERS) | (*(WINNERS)-1)) |",
-     "(*(WINNERS)-1) |"),
+    ("fast/time/masks.h", "-(*(WINNERS) + *(WINNERS)) |",
+     "-*(WINNERS) |"),
     # Round robin of units in even groups.
     ("fast/time/masks.h", "(requested_groups & ~(winners | (winners - first)))",
      "(requested_groups & ~(winners - first))"),

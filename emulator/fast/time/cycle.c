@@ -14,6 +14,15 @@ static ALWAYS_INLINE bool has_arrival(const struct trax_tm *tm, uint64_t t) {
   return tm->queue.started && trax_queue_oldest(&tm->queue)->completion <= t;
 }
 
+/* A line has arrived in the data cache, and perhaps evicted another one of its set. */
+static void data_line_arrived(struct trax_tm *tm, uint32_t line) {
+  const struct trax_cache_tags *const tags = &tm->dcache.tags;
+  const uint32_t set_mask = tags->set_mask << tags->line_shift;
+  uint64_t rest = trax_fast_loads_like(&tm->heads, set_mask, line << tags->line_shift) & trax_group_mask(0, tm->tps);
+  for (; rest; rest &= rest - 1)
+    trax_fast_find_line(tm, trax_first(rest));
+}
+
 /* Handles the arrivals of cycle t. */
 static void arrive(struct trax_tm *tm, uint64_t t) {
   while (has_arrival(tm, t)) {
@@ -22,6 +31,8 @@ static void arrive(struct trax_tm *tm, uint64_t t) {
     trax_tm_complete(tm, &request, t);
     if (request.kind == TRAX_REQUEST_INSTRUCTION_LINE)
       trax_fast_line_arrived(tm, request.icache, request.line);
+    else if (request.kind == TRAX_REQUEST_DATA_LINE)
+      data_line_arrived(tm, request.line);
   }
 }
 
@@ -78,16 +89,9 @@ static uint64_t refuse_fetches_of_any_shape(struct trax_tm *tm, uint64_t request
 static ALWAYS_INLINE uint64_t refuse_fetches(struct trax_tm *tm, const bool wide, uint64_t requesters) {
   uint64_t bit[TRAX_FAST_BANK_BITS];
   trax_fast_transpose(&tm->heads, wide, TRAX_STEP_FETCH_SHIFT, 4, bit);
-  if (tm->simple_fetch) {
-#ifdef __AVX512BW__
-    if (wide)
-      return trax_fast_refuse_four(&tm->fetch_rr_masks16, requesters, bit);
-#endif
-    uint64_t losers = 0;
-    for (unsigned pair = 0; pair < 2 && requesters >> 32 * pair; pair++)
-      losers |= (uint64_t)trax_fast_refuse_pair(&tm->fetch_rr_masks16, pair, requesters, bit) << 32 * pair;
-    return losers;
-  }
+  if (tm->simple_fetch)
+    return wide ? trax_fast_refuse_four(&tm->fetch_rr_masks16, requesters, bit)
+                : trax_fast_refuse_two(&tm->fetch_rr_masks16, requesters, bit);
   trax_fast_transpose(&tm->heads, wide, TRAX_STEP_FETCH_SHIFT + 4, 2, bit + 4);
   return refuse_fetches_of_any_shape(tm, requesters, bit);
 }
@@ -191,39 +195,24 @@ static ALWAYS_INLINE void fetch_and_check(struct trax_tm *tm, const bool wide, u
 
 /* --- steps 3 and 4 --- */
 
-/* Grants four banks; adds the winners, and those of them whose lines are in way 0 of their sets. */
-static ALWAYS_INLINE void grant_four_banks(const struct trax_tm *tm, trax_fast_lanes *rr_mask,
-                                           const trax_fast_lanes *requesting, uint64_t *winners, uint64_t *way0_hits) {
-  const struct trax_cache_tags *tags = &tm->dcache.tags;
-  trax_fast_lanes winner;
-  TRAX_FAST_ARBITRATE(trax_fast_lanes, rr_mask, *requesting, &winner);
-  *winners |= trax_fast_any(&winner);
-#pragma GCC unroll 4
-  for (unsigned i = 0; i < TRAX_FAST_LANES; i++) { /* without branches, since requests are hard to predict */
-    const unsigned number = trax_first(winner[i] | (uint64_t)1 << 63);
-    const uint32_t line = trax_line_of(tags, tm->heads.address[number]);
-    const bool is_hit = tags->lines[(size_t)(line & tags->set_mask) * tags->ways] == (uint64_t)line + 1;
-    *way0_hits |= winner[i] & -(uint64_t)is_hit;
-  }
-}
-
-/* Grants the banks of the data cache and returns the winners. `hits` receives the loads among them that are granted
-   without a further look-up. */
-static ALWAYS_INLINE uint64_t grant_banks(struct trax_tm *tm, const bool wide, uint64_t requesters, uint64_t *bit,
-                                          uint64_t *hits) {
+/* Grants the banks of the data cache and returns the winners; bit: the planes of the banks' numbers. */
+static ALWAYS_INLINE uint64_t grant_banks(struct trax_tm *tm, const bool wide, uint64_t requesters, uint64_t *bit) {
   const trax_fast_lanes none = {0}, even = {~(uint64_t)0, 0, ~(uint64_t)0, 0},
                         lower = {~(uint64_t)0, ~(uint64_t)0, 0, 0};
   /* Lane i: the TPs whose bank number has i in its lowest two bits. */
   const trax_fast_lanes by_low_bits = ((none + bit[0]) ^ even) & ((none + bit[1]) ^ lower);
-  uint64_t winners = 0, way0_hits = 0;
+  trax_fast_lanes winner;
   if (__builtin_expect(tm->data_banks <= 2 * TRAX_FAST_LANES, true)) {
     const trax_fast_lanes first = by_low_bits & (none + (requesters & ~bit[2]));
-    grant_four_banks(tm, &tm->data_bank_rr_masks[0], &first, &winners, &way0_hits);
+    TRAX_FAST_ARBITRATE(trax_fast_lanes, &tm->data_bank_rr_masks[0], first, &winner);
     if (tm->data_banks > TRAX_FAST_LANES) {
       const trax_fast_lanes second = by_low_bits & (none + (requesters & bit[2]));
-      grant_four_banks(tm, &tm->data_bank_rr_masks[1], &second, &winners, &way0_hits);
+      trax_fast_lanes other;
+      TRAX_FAST_ARBITRATE(trax_fast_lanes, &tm->data_bank_rr_masks[1], second, &other);
+      winner |= other;
     }
   } else {
+    winner = none;
     trax_fast_transpose(&tm->heads, wide, TRAX_STEP_BANK_SHIFT + 3, 1, bit + 3);
     trax_fast_transpose(&tm->heads, wide, TRAX_STEP_BANK_SHIFT + 4, 2, bit + 4);
     for (uint32_t first = 0; first < tm->data_banks; first += TRAX_FAST_LANES) {
@@ -231,11 +220,12 @@ static ALWAYS_INLINE uint64_t grant_banks(struct trax_tm *tm, const bool wide, u
       for (uint32_t k = 2; k < tm->data_bank_bits; k++)
         requesting &= first >> k & 1 ? bit[k] : ~bit[k];
       const trax_fast_lanes four = by_low_bits & (none + requesting);
-      grant_four_banks(tm, &tm->data_bank_rr_masks[first / TRAX_FAST_LANES], &four, &winners, &way0_hits);
+      trax_fast_lanes other;
+      TRAX_FAST_ARBITRATE(trax_fast_lanes, &tm->data_bank_rr_masks[first / TRAX_FAST_LANES], four, &other);
+      winner |= other;
     }
   }
-  *hits = way0_hits & ~tm->executes_at_issue;
-  return winners;
+  return trax_fast_any(&winner);
 }
 
 /* Returns those of the TPs whose bank is being filled; the bits are planes of the banks' numbers. (Passed one by one,
@@ -261,7 +251,7 @@ static bool load_hits(struct trax_tm *tm, unsigned number, uint64_t t) {
   if (!trax_cache_tags_use(&tm->dcache.tags, trax_line_of(&tm->dcache.tags, address)))
     return false;
   tm->stats->dcache_hits++;
-  tm->single_hits += tm->serial_hits || !tm->chip->alone;
+  tm->single_hits += tm->serial_hits;
   const uint32_t latency = tm->config->dcache.hit_latency_cycles;
   if (latency > 1) {
     const unsigned rd = trax_fast_head_timing(tm, number)->decoded->rd;
@@ -367,14 +357,14 @@ static ALWAYS_INLINE uint64_t grant(struct trax_tm *tm, const bool wide, struct 
   uint64_t queue_requesters = ready_high & bit[2];
   *banks = requesters = ready_high & ~(bit[1] | bit[2]);
   if (requesters) {
-    uint64_t hits, filling = 0;
+    uint64_t hits = 0, filling = 0;
     if (__builtin_expect(tm->dcache.all_fills_end > t, false))
       filling = in_filling_banks(tm, requesters, bit[TRAX_STEP_BANK_SHIFT], bit[TRAX_STEP_BANK_SHIFT + 1],
                                  bit[TRAX_STEP_BANK_SHIFT + 2], t);
-    won = grant_banks(tm, wide, requesters & ~filling, bit + TRAX_STEP_BANK_SHIFT, &hits);
+    won = grant_banks(tm, wide, requesters & ~filling, bit + TRAX_STEP_BANK_SHIFT);
     refused->bank = requesters & ~won;
-    if (tm->serial_hits || tm->chip->alone)
-      hits = 0; /* serve() handles them, and stores */
+    if (!tm->serial_hits && !tm->chip->alone) /* else serve() handles them, and stores */
+      hits = won & tm->load_hits & ~tm->executes_at_issue;
     tm->stats->dcache_hits += count_bits(hits);
     granted |= hits;
     queue_requesters |= won & ~hits;
@@ -527,12 +517,7 @@ static void run_epoch(struct trax_chip *chip, uint32_t first, uint32_t count, ui
         run_cycle(tm, tm->next_cycle);
 }
 
-#ifdef __AVX512BW__
-#define FOUR true
-#else
-#define FOUR false
-#endif
 #ifndef TRAX_FAST_VARIANT
 #define TRAX_FAST_VARIANT trax_fast_variant
 #endif
-const struct trax_fast_variant TRAX_FAST_VARIANT = {FOUR, run_one, run_epoch, count_log};
+const struct trax_fast_variant TRAX_FAST_VARIANT = {run_one, run_epoch, count_log};

@@ -36,10 +36,22 @@ static inline void trax_fast_set_busy(struct trax_tm *tm, unsigned tp, unsigned 
   trax_fast_schedule_check(tm, tp, false);
 }
 
+/* Sets the TP's bit of trax_tm.load_hits. */
+static inline void trax_fast_find_line(struct trax_tm *tm, unsigned tp) {
+  const struct trax_cache_tags *const tags = &tm->dcache.tags;
+  const uint32_t line = trax_line_of(tags, tm->heads.address[tp]);
+  const uint64_t *const set = tags->lines + (size_t)(line & tags->set_mask) * tags->ways;
+  bool hits = set[0] == (uint64_t)line + 1;
+  for (uint32_t way = 1; way < tags->ways; way++) /* without branches that are hard to predict */
+    hits |= set[way] == (uint64_t)line + 1;
+  tm->load_hits = (tm->load_hits & ~((uint64_t)1 << tp)) | (uint64_t)hits << tp;
+}
+
 /* `load`: the number of loads of global memory before the head in its burst. */
 static inline void trax_fast_set_load(struct trax_tm *tm, unsigned tp, unsigned load) {
   tm->heads.load[tp] = (uint8_t)load;
   tm->heads.address[tp] = tm->tp[tp].burst.loads[load];
+  trax_fast_find_line(tm, tp);
 }
 
 /* Executes the next burst. If its first instruction cannot be executed before its issue, the head executes at issue. */

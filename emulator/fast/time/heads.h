@@ -250,6 +250,29 @@ static inline __attribute__((always_inline)) uint64_t trax_fast_due(const struct
 #endif
 }
 
+/* Returns the TPs of whose next load's address the bits of `mask` are those of `address`. */
+static inline uint64_t trax_fast_loads_like(const struct trax_fast_heads *heads, uint32_t mask, uint32_t address) {
+  uint64_t found = 0;
+#ifdef __AVX512BW__
+  for (unsigned i = 0; i < 64; i += 16)
+    found |= (uint64_t)_mm512_testn_epi32_mask(
+                 _mm512_xor_si512(_mm512_loadu_si512(heads->address + i), _mm512_set1_epi32((int)address)),
+                 _mm512_set1_epi32((int)mask))
+             << i;
+#elif defined(__AVX2__)
+  for (unsigned i = 0; i < 64; i += 8) {
+    const __m256i some =
+        _mm256_and_si256(_mm256_loadu_si256((const __m256i *)(heads->address + i)), _mm256_set1_epi32((int)mask));
+    const __m256i like = _mm256_cmpeq_epi32(some, _mm256_set1_epi32((int)(address & mask)));
+    found |= (uint64_t)(uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(like)) << i;
+  }
+#else
+  for (unsigned i = 0; i < 64; i++)
+    found |= (uint64_t)(((heads->address[i] ^ address) & mask) == 0) << i;
+#endif
+  return found;
+}
+
 /* Sets plane[k] to bit `first` + k of the heads' steps, for all k < `count`. first and count must be constants, and all
    bits in the same byte. */
 static inline __attribute__((always_inline)) void trax_fast_transpose(const struct trax_fast_heads *heads,

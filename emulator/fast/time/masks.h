@@ -28,106 +28,62 @@ static inline uint64_t trax_fast_any(const trax_fast_lanes *lanes) {
     const LANES preferred_ = (REQUESTERS) & *(RR_MASK);                                                                \
     const LANES among_ = preferred_ | ((REQUESTERS) & (LANES)(preferred_ == 0));                                       \
     *(WINNERS) = among_ & -among_;                                                                                     \
-    *(RR_MASK) = ~(*(WINNERS) | (*(WINNERS)-1)) | (*(RR_MASK) & (LANES)(*(WINNERS) == 0));                             \
+    *(RR_MASK) = -(*(WINNERS) + *(WINNERS)) | (*(RR_MASK) & (LANES)(*(WINNERS) == 0));                                 \
   } while (0)
 
-/* The arbiters of the 16 banks of the instruction caches, with 16 TPs to a cache. A pair of caches takes 32 bits for
-   each bank. */
+/* The arbiters of the 16 banks of the instruction caches, with 16 TPs to a cache: bank by bank, two caches of a TM with
+   at most 32 TPs, or four. A vector has the banks whose numbers differ in their low bits. */
 #if defined(__AVX512BW__)
-enum { TRAX_FAST_PAIRS = 16 }; /* elements of 32 bits in a vector */
+enum { TRAX_FAST_VECTOR = 64 }; /* bytes */
 #elif defined(__AVX2__)
-enum { TRAX_FAST_PAIRS = 8 };
+enum { TRAX_FAST_VECTOR = 32 };
 #else
-enum { TRAX_FAST_PAIRS = 4 };
+enum { TRAX_FAST_VECTOR = 16 };
 #endif
-typedef uint16_t trax_fast_lanes16 __attribute__((vector_size(4 * TRAX_FAST_PAIRS), may_alias));
-typedef uint32_t trax_fast_pairs __attribute__((vector_size(4 * TRAX_FAST_PAIRS), may_alias));
+typedef uint16_t trax_fast_lanes16 __attribute__((vector_size(TRAX_FAST_VECTOR), may_alias));
 
 struct trax_fast_banks16 {
-  /* Round-robin masks: [pair][bank][cache of the pair], or [bank][cache] where trax_fast_refuse_four is used. */
-  union {
-    _Alignas(64) uint16_t of_pair[2][16][2];
+  union { /* round-robin masks: [bank][cache] */
+    _Alignas(64) uint16_t of_two[16][2];
     uint16_t of_four[16][4];
   };
 };
 
-static inline uint32_t trax_fast_any_pair(const trax_fast_pairs *pairs) {
-#ifdef __AVX2__
-#ifdef __AVX512BW__
-  const __m256i both =
-      _mm256_or_si256(_mm512_castsi512_si256((__m512i)*pairs), _mm512_extracti64x4_epi64((__m512i)*pairs, 1));
-#else
-  const __m256i both = (__m256i)*pairs;
-#endif
-  __m128i any = _mm_or_si128(_mm256_castsi256_si128(both), _mm256_extracti128_si256(both, 1));
-  any = _mm_or_si128(any, _mm_shuffle_epi32(any, 0x4E));
-  const uint64_t two = (uint64_t)_mm_cvtsi128_si64(any);
-  return (uint32_t)(two | two >> 32);
-#else
-  return (*pairs)[0] | (*pairs)[1] | (*pairs)[2] | (*pairs)[3];
-#endif
-}
-
-/* Grants the banks of a pair of caches. plane: the bits of the numbers of the TPs' banks. Returns the losers. */
-static inline uint32_t trax_fast_refuse_pair(struct trax_fast_banks16 *banks, unsigned pair, uint64_t requesters,
-                                             const uint64_t *plane) {
-  static const _Alignas(64) uint32_t match[4][16] = {
-#define BANKS(K) /* all ones for the banks whose bit K is 0 */                                                         \
-  {BANK(0, K), BANK(1, K), BANK(2, K),  BANK(3, K),  BANK(4, K),  BANK(5, K),  BANK(6, K),  BANK(7, K),                \
-   BANK(8, K), BANK(9, K), BANK(10, K), BANK(11, K), BANK(12, K), BANK(13, K), BANK(14, K), BANK(15, K)}
-#define BANK(B, K) ((B) >> (K)&1 ? 0 : 0xFFFFFFFF)
-      BANKS(0), BANKS(1), BANKS(2), BANKS(3)};
-#undef BANK
-#undef BANKS
-  const trax_fast_pairs none = {0};
-  trax_fast_pairs refused = none;
-#pragma GCC unroll 4
-  for (unsigned i = 0; i < 16; i += TRAX_FAST_PAIRS) {
-    trax_fast_pairs requesting = none + (uint32_t)(requesters >> 32 * pair);
-#pragma GCC unroll 4
-    for (unsigned k = 0; k < 4; k++)
-      requesting &= (none + (uint32_t)(plane[k] >> 32 * pair)) ^ *(const trax_fast_pairs *)&match[k][i];
-    trax_fast_lanes16 *const rr_mask = (trax_fast_lanes16 *)banks->of_pair[pair][i];
-    trax_fast_lanes16 winners;
-    TRAX_FAST_ARBITRATE(trax_fast_lanes16, rr_mask, (trax_fast_lanes16)requesting, &winners);
-    refused |= requesting ^ (trax_fast_pairs)winners;
+/* Defines a function that grants the banks and returns the losers. LANE: the caches of a bank. plane: the bits of the
+   numbers of the TPs' banks. */
+#define TRAX_FAST_REFUSE(NAME, LANE, RR_MASKS)                                                                         \
+  static inline __attribute__((always_inline)) LANE NAME(struct trax_fast_banks16 *banks, uint64_t requesters,         \
+                                                         const uint64_t *plane) {                                      \
+    enum { BANKS = TRAX_FAST_VECTOR / sizeof(LANE) };                                                                  \
+    typedef LANE lanes __attribute__((vector_size(TRAX_FAST_VECTOR), may_alias));                                      \
+    const lanes none = {0};                                                                                            \
+    lanes number = none, low = none + (LANE)requesters, refused = none; /* low: by the bits within a vector */         \
+    for (unsigned i = 0; i < BANKS; i++)                                                                               \
+      number[i] = (LANE)i;                                                                                             \
+    for (unsigned k = 0; 1u << k < BANKS; k++)                                                                         \
+      low &= (none + (LANE)plane[k]) ^ (lanes)((number & (LANE)1 << k) == 0);                                          \
+    _Pragma("GCC unroll 8") for (unsigned first = 0; first < 16; first += BANKS) {                                     \
+      LANE high = ~(LANE)0;                                                                                            \
+      _Pragma("GCC unroll 4") for (unsigned k = 0; k < 4; k++)                                                         \
+        high &= 1u << k < BANKS ? ~(LANE)0 : (LANE)(first >> k & 1 ? plane[k] : ~plane[k]);                            \
+      const lanes requesting = low & (none + high);                                                                    \
+      trax_fast_lanes16 *const rr_mask = (trax_fast_lanes16 *)banks->RR_MASKS[first];                                  \
+      trax_fast_lanes16 winners;                                                                                       \
+      TRAX_FAST_ARBITRATE(trax_fast_lanes16, rr_mask, (trax_fast_lanes16)requesting, &winners);                        \
+      refused |= requesting ^ (lanes)winners;                                                                          \
+    }                                                                                                                  \
+    LANE losers = 0;                                                                                                   \
+    for (unsigned i = 0; i < BANKS; i++)                                                                               \
+      losers |= refused[i];                                                                                            \
+    return losers;                                                                                                     \
   }
-  return trax_fast_any_pair(&refused);
-}
+TRAX_FAST_REFUSE(trax_fast_refuse_two, uint32_t, of_two)
+TRAX_FAST_REFUSE(trax_fast_refuse_four, uint64_t, of_four)
 
-#ifdef __AVX512BW__
-/* The same for four caches, whose round-robin masks are in banks->of_four. */
-static inline uint64_t trax_fast_refuse_four(struct trax_fast_banks16 *banks, uint64_t requesters,
-                                             const uint64_t *plane) {
-  typedef uint16_t masks __attribute__((vector_size(64), may_alias));
-  __m512i requesting = _mm512_set1_epi64((long long)requesters);
-#pragma GCC unroll 3
-  for (unsigned k = 0; k < 3; k++) { /* lane i: banks i and i + 8 */
-    static const _Alignas(64) uint64_t zero[3][8] = {{~0ull, 0, ~0ull, 0, ~0ull, 0, ~0ull, 0},
-                                                     {~0ull, ~0ull, 0, 0, ~0ull, ~0ull, 0, 0},
-                                                     {~0ull, ~0ull, ~0ull, ~0ull}};
-    requesting = _mm512_ternarylogic_epi64(requesting, _mm512_set1_epi64((long long)plane[k]),
-                                           _mm512_load_si512(zero[k]), 0x60); /* requesting & (plane ^ zero) */
-  }
-  const __m512i upper = _mm512_set1_epi64((long long)plane[3]);
-  const __m512i half[2] = {_mm512_andnot_si512(upper, requesting), _mm512_and_si512(upper, requesting)};
-  __m512i refused = _mm512_setzero_si512();
-#pragma GCC unroll 2
-  for (unsigned i = 0; i < 2; i++) {
-    masks winners;
-    TRAX_FAST_ARBITRATE(masks, (masks *)banks->of_four[8 * i], (masks)half[i], &winners);
-    refused = _mm512_ternarylogic_epi64(refused, half[i], (__m512i)winners, 0xF6); /* refused | (half ^ winners) */
-  }
-  const __m256i four = _mm256_or_si256(_mm512_castsi512_si256(refused), _mm512_extracti64x4_epi64(refused, 1));
-  const __m128i two = _mm_or_si128(_mm256_castsi256_si128(four), _mm256_extracti128_si256(four, 1));
-  return (uint64_t)_mm_cvtsi128_si64(_mm_or_si128(two, _mm_unpackhi_epi64(two, two)));
-}
-#endif
-
-/* Returns the round-robin mask of a cache's bank. `four`: trax_fast_refuse_four is used. */
-static inline uint16_t *trax_fast_fetch_rr_mask(struct trax_fast_banks16 *banks, bool four, unsigned icache,
+/* Returns the round-robin mask of a cache's bank. */
+static inline uint16_t *trax_fast_fetch_rr_mask(struct trax_fast_banks16 *banks, bool wide, unsigned icache,
                                                 unsigned bank) {
-  return four ? &banks->of_four[bank][icache] : &banks->of_pair[icache / 2][bank][icache % 2];
+  return wide ? &banks->of_four[bank][icache] : &banks->of_two[bank][icache];
 }
 
 /* The TPs that were refused a bank or unit in a cycle, by its kind: X(member, cause). */

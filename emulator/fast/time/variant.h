@@ -12,7 +12,6 @@ struct trax_fast_refusal_counts;
 enum { TRAX_FAST_INTERLEAVED = 2 }; /* the most TMs that run_epoch interleaves */
 
 struct trax_fast_variant {
-  bool four; /* the banks of four instruction caches are granted at once (trax_fast_banks16.of_four) */
   /* Simulates a cycle of a TM, arrivals included, and sets its next_cycle. */
   void (*cycle)(struct trax_chip *chip, uint32_t tm, uint64_t t);
   /* Simulates an epoch (epochs.h): all cycles before `end` of the `count` TMs from `first` on, at most

@@ -57,6 +57,7 @@ struct trax_tm {
   uint64_t no_text;   /* the head is no text: its fetch faults */
   uint64_t busy;      /* busy_registers is not 0 */
   uint64_t uncertain; /* a line of the burst may not be resident */
+  uint64_t load_hits; /* the data cache has the line of heads.address */
   uint64_t recheck;   /* held an instruction at the import, whose operands must be checked in the first cycle */
 
   /* The number of executions of each instruction since the latest collect(), as differences: that of instruction i is

@@ -88,8 +88,10 @@ static bool trap(struct trax_tm *tm, unsigned number, uint32_t value, int32_t co
 }
 
 static void fence(struct trax_tm *tm, uint32_t kind) {
-  if (kind & TRAX_FENCE_R)
+  if (kind & TRAX_FENCE_R) {
     tm->stats->dropped_lines += trax_dcache_drop(&tm->dcache);
+    tm->load_hits = 0;
+  }
 }
 
 bool trax_tp_execute(struct trax_tm *tm, unsigned number, uint64_t t) {
