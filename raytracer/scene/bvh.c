@@ -57,8 +57,8 @@ static uint32_t link_built(struct scene_links *links, struct built_node **of, st
 }
 
 /* Improves the tree unless it is too deep: scene_number_built rebuilds subtrees that are. */
-static trax_status improve(struct built_node **root, unsigned max_depth, const struct trax_build_options *options,
-                           trax_error *error) {
+static trax_status improve(struct built_node **root, unsigned max_depth, struct scene_crew *crew,
+                           const struct trax_build_options *options, trax_error *error) {
   if ((*root)->triangle_count || (*root)->height > max_depth || options->passes == 0)
     return TRAX_OK;
   const size_t most = 2 * (size_t)(*root)->below; /* a binary tree over n leaves has 2n - 1 nodes */
@@ -67,7 +67,7 @@ static trax_status improve(struct built_node **root, unsigned max_depth, const s
   trax_status result = links.nodes && of ? TRAX_OK : scene_out_of_memory(error, "BVH");
   if (result == TRAX_OK) {
     links.root = link_built(&links, of, *root, SCENE_NO_LINK);
-    result = scene_reinsert(&links, options->passes, options, error);
+    result = scene_reinsert(&links, options->passes, crew, options, error);
   }
   for (uint32_t i = 0; result == TRAX_OK && i < links.count; i++)
     for (int c = 0; c < 2 && links.nodes[i].child[0] != SCENE_NO_LINK; c++)
@@ -81,12 +81,12 @@ static trax_status improve(struct built_node **root, unsigned max_depth, const s
 
 static trax_status make_tree(struct scene_tree *tree, struct built_node *root, const struct trax_mesh *mesh,
                              const struct scene_duplicates *duplicates, unsigned max_depth, unsigned max_leaf,
-                             const struct trax_build_options *options, trax_error *error) {
+                             struct scene_crew *crew, const struct trax_build_options *options, trax_error *error) {
   struct scene_numbering numbering = {tree, mesh, duplicates, max_depth, max_leaf, NULL};
   if (!scene_measure_built(&numbering, root) || scene_least_height(mesh->triangle_count, max_leaf) > max_depth)
     return trax_fail(error, "BVH: there is no tree of at most %u levels with at most %u triangles in a leaf", max_depth,
                      max_leaf);
-  const trax_status improved = improve(&root, max_depth, options, error);
+  const trax_status improved = improve(&root, max_depth, crew, options, error);
   if (improved != TRAX_OK)
     return improved;
   scene_measure_built(&numbering, root);
@@ -187,7 +187,8 @@ trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *me
     else if (!root)
       result = scene_out_of_memory(error, "BVH");
     else
-      result = make_tree(tree, root, mesh, splits ? &duplicates : NULL, max_depth, arguments.max_leaf, options, error);
+      result = make_tree(tree, root, mesh, splits ? &duplicates : NULL, max_depth, arguments.max_leaf, crew, options,
+                         error);
   }
   free(primitives);
   scene_duplicates_release(&duplicates);

@@ -141,8 +141,8 @@ unsigned scene_worker_number(const struct scene_worker *worker) {
 void *scene_worker_take(struct scene_worker *worker, size_t size) {
   size = (size + 7) & ~(size_t)7;
   if (size > worker->left) {
-    const size_t chunk_size = size + sizeof(struct chunk) > worker->chunk_size ? size + sizeof(struct chunk)
-                                                                               : worker->chunk_size;
+    const size_t chunk_size =
+        size + sizeof(struct chunk) > worker->chunk_size ? size + sizeof(struct chunk) : worker->chunk_size;
     struct chunk *chunk = malloc(chunk_size);
     if (!chunk)
       return NULL;

@@ -358,10 +358,12 @@ struct scene_links {
   uint32_t max_depth; /* of inner nodes from the root to a leaf; it is kept */
 };
 
-/* Moves parts of the tree so that rays visit fewer nodes; leaves stay as they are. options: for progress and interrupt.
- */
-trax_status scene_reinsert(struct scene_links *links, unsigned passes, const struct trax_build_options *options,
-                           trax_error *error);
+struct scene_crew;
+
+/* Moves parts of the tree so that rays visit fewer nodes; leaves stay as they are. The same tree for any number of
+   threads. options: for progress and interrupt. */
+trax_status scene_reinsert(struct scene_links *links, unsigned passes, struct scene_crew *crew,
+                           const struct trax_build_options *options, trax_error *error);
 
 /* --- phases.c --- */
 

@@ -1,7 +1,7 @@
 /* The builder's recursion. A set and its room are a range of one array, so subtrees are built by any thread. */
+#include "sah.h"
 #include "built_tree.h"
 #include "crew.h"
-#include "sah.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -85,7 +85,8 @@ static struct built_node *make_leaf(struct builder *builder, struct scene_worker
   struct built_node *leaf = new_node(builder, worker, set->end - set->begin);
   for (size_t i = set->begin; leaf && i < set->end; i++) {
     const struct sah_prim *prim = &builder->sah.prims[i];
-    const struct scene_box part = {{prim->min[0], prim->min[1], prim->min[2]}, {prim->max[0], prim->max[1], prim->max[2]}};
+    const struct scene_box part = {{prim->min[0], prim->min[1], prim->min[2]},
+                                   {prim->max[0], prim->max[1], prim->max[2]}};
     scene_box_add_box(&leaf->box, &part);
     size_t at = leaf->triangle_count; /* insertion sort: sets are small */
     while (at > 0 && leaf->triangles[at - 1] > prim->triangle)

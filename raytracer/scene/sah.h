@@ -1,7 +1,8 @@
-/* The builder of trees by the surface-area heuristic: object splits over 32 bins an axis, spatial splits over 16 (M. Stich,
-   H. Friedrich and A. Dietrich, "Spatial splits in bounding volume hierarchies", High Performance Graphics 2009). It makes
-   the trees that Embree's builder of high quality makes with one thread (tests/scene/builder_test.c compares them), and so
-   has its rules: a budget of splits for each triangle, room for further parts that children share by their budgets. */
+/* The builder of trees by the surface-area heuristic: object splits over 32 bins an axis, spatial splits over 16 (M.
+   Stich, H. Friedrich and A. Dietrich, "Spatial splits in bounding volume hierarchies", High Performance Graphics
+   2009). It makes the trees that Embree's builder of high quality makes with one thread (tests/scene/builder_test.c
+   compares them), and so has its rules: a budget of splits for each triangle, room for further parts that children
+   share by their budgets. */
 #ifndef TRAX_SCENE_SAH_H
 #define TRAX_SCENE_SAH_H
 

@@ -1,11 +1,12 @@
 /* Spatial splits of the builder.
 
    Bins need the bounds of each triangle's parts between neighbouring planes. By definition these are what
-   scene_split_triangle leaves when it cuts one part after the other off the rest. One walk along the edges finds the same
-   floats unless a coordinate is nearly halfway between two floats. Then the parts are cut off one by one. */
+   scene_split_triangle leaves when it cuts one part after the other off the rest. One walk along the edges finds the
+   same floats unless a coordinate is nearly halfway between two floats. Then the parts are cut off one by one. */
 #include "sah.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { BINS = 16 };
 
@@ -14,11 +15,76 @@ struct spatial_bins {
   uint32_t begin[BINS][4], end[BINS][4]; /* the number of primitives that begin and end in a bin */
 };
 
-/* --- the parts of one primitive on one axis --- */
+/* --- the outline of a primitive --- */
+
+enum { MOST_CORNERS = 10 };
+
+/* What of a triangle is in the box of its primitive. */
+struct outline {
+  const float *triangle[3];
+  double corners[MOST_CORNERS][3];
+  unsigned count;    /* 0: nothing but rounding */
+  bool whole;        /* the triangle itself */
+  double slope;      /* of the steepest edge that the box cuts */
+  double largest[3]; /* coordinates of the triangle, without signs */
+  bool flat[3];      /* all coordinates of the triangle are the same */
+};
+
+static double slope_of(const double a[3], const double b[3], int axis) {
+  const double rise = fmax(fabs(b[0] - a[0]), fmax(fabs(b[1] - a[1]), fabs(b[2] - a[2])));
+  return rise / fabs(b[axis] - a[axis]);
+}
+
+/* The slope of the steepest edge that crosses a plane. */
+static double steepest(const double (*corners)[3], unsigned count, int axis, double plane) {
+  double most = 0;
+  for (unsigned i = 0; i < count; i++) {
+    const double *a = corners[i], *b = corners[i + 1 < count ? i + 1 : 0];
+    if ((a[axis] < plane) != (b[axis] < plane))
+      most = fmax(most, slope_of(a, b, axis));
+  }
+  return most;
+}
+
+static void find_outline(struct outline *outline, const struct sah *sah, const struct sah_prim *prim) {
+  const uint32_t *vertices = sah->mesh->triangles[prim->triangle].vertices;
+  double(*corners)[3] = outline->corners, cut[MOST_CORNERS][3];
+  unsigned count = 3;
+  for (int i = 0; i < 3; i++)
+    outline->triangle[i] = sah->mesh->vertices[vertices[i]];
+  outline->whole = true;
+  outline->slope = 0;
+  for (int axis = 0; axis < 3; axis++) {
+    double low = INFINITY, high = -INFINITY;
+    for (int i = 0; i < 3; i++) {
+      const double value = corners[i][axis] = outline->triangle[i][axis];
+      low = value < low ? value : low;
+      high = value > high ? value : high;
+    }
+    outline->largest[axis] = fmax(-low, high);
+    outline->flat[axis] = low == high;
+    outline->whole &= low >= prim->min[axis] && high <= prim->max[axis];
+  }
+  for (int side = 0; side < 6 && !outline->whole && count; side++) {
+    const int axis = side >> 1;
+    const double sign = side & 1 ? -1 : 1, plane = side & 1 ? prim->max[axis] : prim->min[axis];
+    bool cuts = false;
+    for (unsigned i = 0; i < count; i++)
+      cuts |= sign * (corners[i][axis] - plane) < 0;
+    if (!cuts)
+      continue;
+    outline->slope = fmax(outline->slope, steepest((const double(*)[3])corners, count, axis, plane));
+    count = scene_clip_polygon(cut, MOST_CORNERS, (const double(*)[3])corners, count, axis, sign, plane);
+    memcpy(corners, cut, count * sizeof *corners);
+  }
+  outline->count = count;
+}
+
+/* --- its parts on one axis --- */
 
 struct cuts {
   const struct sah_prim *prim;
-  const float *corners[3];
+  const struct outline *outline;
   int axis, first, last;      /* bins */
   const float *planes;        /* planes[i] is between the bins i - 1 and i */
   struct scene_box box[BINS]; /* of the parts, from first to last */
@@ -26,95 +92,115 @@ struct cuts {
 
 static void cut_one_by_one(struct cuts *cuts) {
   const struct sah_prim *prim = cuts->prim;
-  struct scene_box sides[2], rest = {{prim->min[0], prim->min[1], prim->min[2]},
-                                     {prim->max[0], prim->max[1], prim->max[2]}};
+  struct scene_box sides[2],
+      rest = {{prim->min[0], prim->min[1], prim->min[2]}, {prim->max[0], prim->max[1], prim->max[2]}};
   for (int bin = cuts->first; bin < cuts->last; bin++) {
-    scene_split_triangle(cuts->corners, &rest, cuts->axis, cuts->planes[bin + 1], sides);
+    scene_split_triangle(cuts->outline->triangle, &rest, cuts->axis, cuts->planes[bin + 1], sides);
     cuts->box[bin] = sides[0];
     rest = sides[1];
   }
   cuts->box[cuts->last] = rest;
 }
 
-static inline void extend(double *min, double *max, double value) {
-  *min = value < *min ? value : *min;
-  *max = value > *max ? value : *max;
+/* Bounds on the three axes. */
+struct range {
+  double min[3], max[3];
+};
+
+static inline void extend(struct range *range, int axis, double value) {
+  range->min[axis] = value < range->min[axis] ? value : range->min[axis];
+  range->max[axis] = value > range->max[axis] ? value : range->max[axis];
 }
 
 /* Rounds outwards, but not beyond the primitive. False if a coordinate that differs by `error` would be rounded to
    another float. */
-static inline bool round_outwards(struct cuts *cuts, int bin, int axis, double min, double max, double error) {
-  const float low = (float)min, high = (float)max;
+static inline bool round_outwards(struct cuts *cuts, int bin, int axis, const struct range *range, double error) {
+  const double min = range->min[axis], max = range->max[axis];
   if ((float)(min - error) != (float)(min + error) || (float)(max - error) != (float)(max + error))
     return false;
-  const float down = scene_next_float(low, false), up = scene_next_float(high, true);
+  const float down = scene_next_float((float)min, false), up = scene_next_float((float)max, true);
   cuts->box[bin].min[axis] = down > cuts->prim->min[axis] ? down : cuts->prim->min[axis];
   cuts->box[bin].max[axis] = up < cuts->prim->max[axis] ? up : cuts->prim->max[axis];
   return true;
 }
 
-/* The same for a whole triangle by a walk along its edges. False if some float is not certain. */
-static bool cut_at_once(struct cuts *cuts) {
+/* Finds the bounds of the outline between the planes by a walk along its edges. slopes: the steepest that a plane
+   crosses. */
+static void walk(const struct cuts *cuts, struct range *ranges, double slopes[3]) {
+  const struct outline *outline = cuts->outline;
   const int axis = cuts->axis, first = cuts->first, last = cuts->last, others[2] = {axis == 0, axis == 2 ? 1 : 2};
   const float *planes = cuts->planes;
-  double min[BINS][2], max[BINS][2], steepest[2] = {0, 0}, largest[3] = {0, 0, 0};
   for (int i = first; i <= last; i++)
-    for (int k = 0; k < 2; k++)
-      min[i][k] = INFINITY, max[i][k] = -INFINITY;
-  for (int i = 0; i < 3; i++) {
-    const float *a = cuts->corners[i], *b = cuts->corners[i < 2 ? i + 1 : 0];
-    for (int k = 0; k < 3; k++)
-      largest[k] = fmax(largest[k], fabs((double)a[k]));
-    /* A corner is in one bin, or in two if it is on their plane. */
-    int bin = first;
-    while (bin < last && a[axis] > planes[bin + 1])
-      bin++;
-    for (int at = bin; at <= last && (at == bin || a[axis] == planes[at]); at++)
-      for (int k = 0; k < 2; k++)
-        extend(&min[at][k], &max[at][k], a[others[k]]);
-    /* The planes that the edge crosses, from its lower end. */
-    if (a[axis] > b[axis]) {
-      const float *swap = a;
-      a = b, b = swap;
-      for (bin = first; bin < last && a[axis] > planes[bin + 1];)
-        bin++;
-    }
-    double slopes[2] = {0, 0};
-    bool known = false;
-    for (int plane = bin + 1; plane <= last && planes[plane] < b[axis]; plane++) {
-      if (planes[plane] <= a[axis])
-        continue;
-      for (int k = 0; k < 2 && !known; k++) {
-        slopes[k] = ((double)b[others[k]] - a[others[k]]) / ((double)b[axis] - a[axis]);
-        steepest[k] = fmax(steepest[k], fabs(slopes[k]));
-      }
-      known = true;
+    ranges[i] = (struct range){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+  const double *a = outline->corners[outline->count - 1];
+  int bin = first; /* of a; the lower one of two if it is on their plane */
+  while (bin < last && a[axis] > planes[bin + 1])
+    bin++;
+  for (unsigned i = 0; i < outline->count; i++) {
+    const double *b = outline->corners[i];
+    int to = bin;
+    while (to < last && b[axis] > planes[to + 1])
+      to++;
+    while (to > first && b[axis] <= planes[to])
+      to--;
+    for (int at = to; at <= last && (at == to || b[axis] == planes[at]); at++)
+      for (int k = 0; k < 3; k++)
+        extend(&ranges[at], k, b[k]);
+    const int low = bin < to ? bin : to, high = bin < to ? to : bin;
+    const double start = bin < to ? a[axis] : b[axis], *lower = bin < to ? a : b;
+    if (low < high) {
+      double slope[2];
       for (int k = 0; k < 2; k++) {
-        const double value = a[others[k]] + ((double)planes[plane] - a[axis]) * slopes[k];
-        extend(&min[plane - 1][k], &max[plane - 1][k], value);
-        extend(&min[plane][k], &max[plane][k], value);
+        slope[k] = (b[others[k]] - a[others[k]]) / (b[axis] - a[axis]);
+        slopes[others[k]] = fmax(slopes[others[k]], fabs(slope[k]));
       }
+      for (int plane = low + 1; plane <= high; plane++)
+        for (int k = 0; k < 2; k++) {
+          const double value = lower[others[k]] + (planes[plane] - start) * slope[k];
+          extend(&ranges[plane - 1], others[k], value);
+          extend(&ranges[plane], others[k], value);
+        }
     }
+    a = b, bin = to;
   }
-  for (int bin = first; bin <= last; bin++) {
-    cuts->box[bin].min[axis] = bin == first ? cuts->prim->min[axis] : planes[bin];
-    cuts->box[bin].max[axis] = bin == last ? cuts->prim->max[axis] : planes[bin + 1];
-    for (int k = 0; k < 2; k++)
-      /* Either way of cutting is exact to a few 2^-52 of the coordinates, those on the axis times the slope. */
-      if (!round_outwards(cuts, bin, others[k], min[bin][k], max[bin][k],
-                          0x1p-46 * (largest[others[k]] + steepest[k] * largest[axis])))
-        return false;
-  }
-  return true;
 }
 
-static void find_cuts(struct cuts *cuts) {
-  bool whole = true;
-  for (int i = 0; i < 3; i++)
-    for (int axis = 0; axis < 3; axis++)
-      whole &= (cuts->corners[i][axis] >= cuts->prim->min[axis]) & (cuts->corners[i][axis] <= cuts->prim->max[axis]);
-  if (!whole || !cut_at_once(cuts))
-    cut_one_by_one(cuts);
+/* The same as cut_one_by_one. False if some float is not certain. */
+static bool cut_at_once(struct cuts *cuts) {
+  const struct outline *outline = cuts->outline;
+  const int axis = cuts->axis, first = cuts->first, last = cuts->last;
+  struct range ranges[BINS];
+  double slopes[3] = {0, 0, 0}, errors[3], largest = 0;
+  if (outline->count == 0)
+    return false;
+  walk(cuts, ranges, slopes);
+  for (int k = 0; k < 3; k++)
+    largest = fmax(largest, outline->largest[k]);
+  for (int k = 0; k < 3; k++)
+    /* Either way of cutting a triangle is exact to a few 2^-52 of its coordinates, those on the axis times the slope.
+       Corners that the box has cut have moved already by such an error. */
+    errors[k] = outline->flat[k] ? 0
+                : outline->whole
+                    ? 0x1p-46 * (outline->largest[k] + slopes[k] * outline->largest[axis])
+                    : 0x1p-48 * largest * (1 + outline->slope) * (1 + fmax(slopes[0], fmax(slopes[1], slopes[2])));
+  /* Nothing may be left of a part that is thinner than that. */
+  if (!outline->whole && (ranges[first].min[axis] + errors[axis] >= cuts->planes[first + 1] ||
+                          ranges[last].max[axis] - errors[axis] <= cuts->planes[last]))
+    return false;
+  for (int bin = first; bin <= last; bin++) {
+    if (bin > first)
+      ranges[bin].min[axis] = cuts->planes[bin];
+    if (bin < last)
+      ranges[bin].max[axis] = cuts->planes[bin + 1];
+    for (int k = 0; k < 3; k++)
+      if (!round_outwards(cuts, bin, k, &ranges[bin], k == axis ? 0 : errors[k]))
+        return false;
+    if (bin > first)
+      cuts->box[bin].min[axis] = cuts->planes[bin];
+    if (bin < last)
+      cuts->box[bin].max[axis] = cuts->planes[bin + 1];
+  }
+  return true;
 }
 
 /* --- bins --- */
@@ -124,18 +210,13 @@ static inline struct sah_box as_vectors(const struct scene_box *box) {
                           _mm_set_ps(0, box->max[2], box->max[1], box->max[0])};
 }
 
-static void find_corners(const float *corners[3], const struct sah *sah, const struct sah_prim *prim) {
-  const uint32_t *vertices = sah->mesh->triangles[prim->triangle].vertices;
-  for (int i = 0; i < 3; i++)
-    corners[i] = sah->mesh->vertices[vertices[i]];
-}
-
-static void fill_axis(struct spatial_bins *bins, const struct sah *sah, const struct sah_prim *prim, int axis, int low,
-                      int high, const float *planes) {
+/* outline: of the primitive, without a triangle: not yet found. */
+static void fill_axis(struct spatial_bins *bins, const struct sah *sah, const struct sah_prim *prim,
+                      struct outline *outline, int axis, int low, int high, const float *planes) {
   const struct sah_box box = sah_box_of(prim);
   bins->begin[low][axis]++;
   bins->end[high][axis]++;
-  struct cuts cuts = {.prim = prim, .axis = axis, .first = low, .last = high, .planes = planes};
+  struct cuts cuts = {.prim = prim, .outline = outline, .axis = axis, .first = low, .last = high, .planes = planes};
   while (cuts.first < cuts.last && planes[cuts.first + 1] <= prim->min[axis])
     cuts.first++;
   while (cuts.first < cuts.last && planes[cuts.last] >= prim->max[axis])
@@ -144,8 +225,10 @@ static void fill_axis(struct spatial_bins *bins, const struct sah *sah, const st
     sah_extend(&bins->boxes[cuts.first][axis], &box);
     return;
   }
-  find_corners(cuts.corners, sah, prim);
-  find_cuts(&cuts);
+  if (!outline->triangle[0])
+    find_outline(outline, sah, prim);
+  if (!cut_at_once(&cuts))
+    cut_one_by_one(&cuts);
   for (int bin = cuts.first; bin <= cuts.last; bin++) {
     const struct sah_box part = as_vectors(&cuts.box[bin]);
     sah_extend(&bins->boxes[bin][axis], &part);
@@ -172,9 +255,11 @@ static void fill(struct spatial_bins *bins, const struct sah *sah, const struct 
     }
     _mm_storeu_si128((__m128i *)low, sah_clamp(sah_bins(box.min, mapping), BINS - 1));
     _mm_storeu_si128((__m128i *)high, sah_clamp(sah_bins(box.max, mapping), BINS - 1));
+    struct outline outline;
+    outline.triangle[0] = NULL;
     for (int axis = 0; axis < 3; axis++)
       if (scale[axis] != 0)
-        fill_axis(bins, sah, prim, axis, low[axis], high[axis], planes[axis]);
+        fill_axis(bins, sah, prim, &outline, axis, low[axis], high[axis], planes[axis]);
   }
 }
 
@@ -242,9 +327,12 @@ void sah_divide(const struct sah *sah, const struct sah_split *split, struct sah
     struct sah_prim *prim = &sah->prims[i];
     if (prim->budget <= 1 || !(prim->min[split->axis] < split->position && prim->max[split->axis] > split->position))
       continue;
+    const uint32_t *vertices = sah->mesh->triangles[prim->triangle].vertices;
     const float *corners[3];
-    find_corners(corners, sah, prim);
-    const struct scene_box box = {{prim->min[0], prim->min[1], prim->min[2]}, {prim->max[0], prim->max[1], prim->max[2]}};
+    for (int corner = 0; corner < 3; corner++)
+      corners[corner] = sah->mesh->vertices[vertices[corner]];
+    const struct scene_box box = {{prim->min[0], prim->min[1], prim->min[2]},
+                                  {prim->max[0], prim->max[1], prim->max[2]}};
     struct scene_box sides[2];
     scene_split_triangle(corners, &box, split->axis, split->position, sides);
     if (is_empty(&sides[0]) || is_empty(&sides[1]))
