@@ -1,10 +1,11 @@
-/* The tree as Embree's callbacks make it, and its numbering. */
+/* The tree as the builder makes it, and its numbering. */
 #ifndef TRAX_SCENE_BUILT_TREE_H
 #define TRAX_SCENE_BUILT_TREE_H
 
+#include "crew.h"
 #include "internal.h"
 
-/* Embree's allocator owns it. */
+/* The crew owns it. */
 struct built_node {
   uint32_t triangle_count; /* 0: an inner node */
   uint32_t below;          /* triangles of the subtree */
@@ -13,6 +14,23 @@ struct built_node {
   struct scene_box box; /* of a leaf */
   uint32_t triangles[];
 };
+
+/* --- sah.c --- */
+
+struct sah_prim;
+
+struct sah_arguments {
+  const struct trax_build_options *options; /* for progress and interrupt */
+  const struct trax_mesh *mesh;
+  struct sah_prim *prims;   /* with their boxes and triangles */
+  uint32_t count;           /* of these, at least 1 */
+  size_t capacity;          /* for parts of triangles that are split */
+  unsigned max_depth, max_leaf;
+  float traversal_cost;
+};
+
+/* The same tree for any number of threads. NULL when interrupted or out of memory. */
+struct built_node *scene_build_sah(const struct sah_arguments *arguments, struct scene_crew *crew);
 
 /* --- numbering.c --- */
 

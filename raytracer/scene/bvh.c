@@ -1,8 +1,8 @@
-/* The tree: built by Embree, improved (reinsert.c), then numbered (numbering.c). */
+/* The tree: built (sah.c), improved (reinsert.c), then numbered (numbering.c). */
 #include "built_tree.h"
+#include "sah.h"
 
 #include <math.h>
-#include <rtcore.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,124 +10,29 @@
 enum { default_max_leaf = 4, default_max_depth = TRAX_SCENE_DEFAULT_DEPTH };
 static const float default_traversal_cost = 1; /* relative to a triangle's */
 
-/* One thread and one instruction set: the surface areas are rounded in the same way on every host. */
-static const char device_options[] = "threads=1,isa=sse2,start_threads=0,set_affinity=0";
-
-/* Deep enough for all trees by surface areas. Subtrees that are too deep for the device are rebuilt afterwards, because
-   Embree gives up if it nears its limit with many triangles left. */
+/* Deep enough for all trees by surface areas. Subtrees that are too deep for the device are rebuilt afterwards. */
 #define BUILDER_DEPTH 1000
 
-/* cancel.cpp; does not return. */
-void scene_cancel_builder(void);
-
-struct build_context {
-  const struct trax_build_options *options;
-  const struct trax_mesh *mesh;
-  bool failed; /* the builder made something we cannot represent */
-};
-
-static void *create_node(RTCThreadLocalAllocator allocator, unsigned int child_count, void *context) {
-  if (child_count != 2)
-    ((struct build_context *)context)->failed = true;
-  struct built_node *node = rtcThreadLocalAlloc(allocator, sizeof *node, 16);
-  *node = (struct built_node){0};
-  return node;
-}
-
-static void set_children(void *node, void **children, unsigned int child_count, void *context) {
-  (void)context;
-  for (unsigned i = 0; i < child_count && i < 2; i++)
-    ((struct built_node *)node)->child[i] = children[i];
-}
-
-/* The boxes are computed from the triangles when the file is laid out. */
-static void ignore_bounds(void *node, const struct RTCBounds **bounds, unsigned int child_count, void *context) {
-  (void)node, (void)bounds, (void)child_count, (void)context;
-}
-
-static struct scene_box box_of(const struct RTCBuildPrimitive *primitive) {
-  return (struct scene_box){{primitive->lower_x, primitive->lower_y, primitive->lower_z},
-                            {primitive->upper_x, primitive->upper_y, primitive->upper_z}};
-}
-
-static void *create_leaf(RTCThreadLocalAllocator allocator, const struct RTCBuildPrimitive *primitives, size_t count,
-                         void *context) {
-  if (count == 0 || count > TRAX_SCENE_MAX_LEAF) {
-    ((struct build_context *)context)->failed = true;
-    count = 0;
-  }
-  struct built_node *leaf = rtcThreadLocalAlloc(allocator, sizeof *leaf + count * sizeof leaf->triangles[0], 16);
-  *leaf = (struct built_node){.box = scene_empty_box()};
-  for (size_t i = 0; i < count; i++) { /* insertion sort, because the builder's order is arbitrary */
-    const struct scene_box part = box_of(&primitives[i]);
-    scene_box_add_box(&leaf->box, &part);
-    size_t at = leaf->triangle_count;
-    while (at > 0 && leaf->triangles[at - 1] > primitives[i].primID)
-      at--;
-    if (at > 0 && leaf->triangles[at - 1] == primitives[i].primID)
-      continue; /* another part of the same triangle */
-    memmove(leaf->triangles + at + 1, leaf->triangles + at, (leaf->triangle_count - at) * sizeof *leaf->triangles);
-    leaf->triangles[at] = primitives[i].primID;
-    leaf->triangle_count++;
-  }
-  return leaf;
-}
-
-static struct RTCBounds bounds_as(const struct scene_box *box) {
-  return (struct RTCBounds){.lower_x = box->min[0],
-                            .lower_y = box->min[1],
-                            .lower_z = box->min[2],
-                            .upper_x = box->max[0],
-                            .upper_y = box->max[1],
-                            .upper_z = box->max[2]};
-}
-
-/* Computes the bounds of both sides of a triangle, or of a part of one, for the builder. */
-static void split_primitive(const struct RTCBuildPrimitive *primitive, unsigned int axis, float position,
-                            struct RTCBounds *left, struct RTCBounds *right, void *context) {
-  const struct trax_mesh *mesh = ((struct build_context *)context)->mesh;
-  const uint32_t *vertices = mesh->triangles[primitive->primID].vertices;
-  const float *const corners[3] = {mesh->vertices[vertices[0]], mesh->vertices[vertices[1]],
-                                   mesh->vertices[vertices[2]]};
-  const struct scene_box box = box_of(primitive);
-  struct scene_box parts[2];
-  scene_split_triangle(corners, &box, (int)axis, position, parts);
-  *left = bounds_as(&parts[0]);
-  *right = bounds_as(&parts[1]);
-}
-
-static bool on_progress(void *pointer, double fraction) {
-  const struct trax_build_options *options = ((struct build_context *)pointer)->options;
-  scene_report(options, SCENE_BUILD, fraction);
-  if (scene_is_interrupted(options->interrupt))
-    scene_cancel_builder();
-  return true;
-}
-
 /* Fills in all triangles, or with duplicates only the first at each place. Returns their number. */
-static uint32_t fill_primitives(struct RTCBuildPrimitive *primitives, const struct trax_mesh *mesh,
+static uint32_t fill_primitives(struct sah_prim *primitives, const struct trax_mesh *mesh,
                                 const struct scene_duplicates *duplicates) {
   uint32_t count = 0;
   for (uint32_t i = 0; i < mesh->triangle_count; i++) {
     if (duplicates && duplicates->first[i] != i)
       continue;
     const struct scene_box box = scene_triangle_box(mesh, i);
-    primitives[count++] = (struct RTCBuildPrimitive){.lower_x = box.min[0],
-                                                     .lower_y = box.min[1],
-                                                     .lower_z = box.min[2],
-                                                     .upper_x = box.max[0],
-                                                     .upper_y = box.max[1],
-                                                     .upper_z = box.max[2],
-                                                     .primID = i};
+    primitives[count] = (struct sah_prim){.triangle = i};
+    memcpy(primitives[count].min, box.min, sizeof box.min);
+    memcpy(primitives[count++].max, box.max, sizeof box.max);
   }
   return count;
 }
 
-static struct scene_box bounds_of(const struct RTCBuildPrimitive *primitives, uint32_t count) {
+static struct scene_box bounds_of(const struct sah_prim *primitives, uint32_t count) {
   struct scene_box bounds = scene_empty_box();
   for (uint32_t i = 0; i < count; i++) {
-    const struct scene_box box = box_of(&primitives[i]);
-    scene_box_add_box(&bounds, &box);
+    scene_box_add_point(&bounds, primitives[i].min);
+    scene_box_add_point(&bounds, primitives[i].max);
   }
   return bounds;
 }
@@ -152,8 +57,8 @@ static uint32_t link_built(struct scene_links *links, struct built_node **of, st
 }
 
 /* Improves the tree unless it is too deep: scene_number_built rebuilds subtrees that are. */
-static trax_status improve(struct built_node **root, unsigned max_depth, const struct trax_build_options *options,
-                           trax_error *error) {
+static trax_status improve(struct built_node **root, unsigned max_depth, struct scene_crew *crew,
+                           const struct trax_build_options *options, trax_error *error) {
   if ((*root)->triangle_count || (*root)->height > max_depth || options->passes == 0)
     return TRAX_OK;
   const size_t most = 2 * (size_t)(*root)->below; /* a binary tree over n leaves has 2n - 1 nodes */
@@ -162,7 +67,7 @@ static trax_status improve(struct built_node **root, unsigned max_depth, const s
   trax_status result = links.nodes && of ? TRAX_OK : scene_out_of_memory(error, "BVH");
   if (result == TRAX_OK) {
     links.root = link_built(&links, of, *root, SCENE_NO_LINK);
-    result = scene_reinsert(&links, options->passes, options, error);
+    result = scene_reinsert(&links, options->passes, crew, options, error);
   }
   for (uint32_t i = 0; result == TRAX_OK && i < links.count; i++)
     for (int c = 0; c < 2 && links.nodes[i].child[0] != SCENE_NO_LINK; c++)
@@ -176,12 +81,12 @@ static trax_status improve(struct built_node **root, unsigned max_depth, const s
 
 static trax_status make_tree(struct scene_tree *tree, struct built_node *root, const struct trax_mesh *mesh,
                              const struct scene_duplicates *duplicates, unsigned max_depth, unsigned max_leaf,
-                             const struct trax_build_options *options, trax_error *error) {
+                             struct scene_crew *crew, const struct trax_build_options *options, trax_error *error) {
   struct scene_numbering numbering = {tree, mesh, duplicates, max_depth, max_leaf, NULL};
   if (!scene_measure_built(&numbering, root) || scene_least_height(mesh->triangle_count, max_leaf) > max_depth)
     return trax_fail(error, "BVH: there is no tree of at most %u levels with at most %u triangles in a leaf", max_depth,
                      max_leaf);
-  const trax_status improved = improve(&root, max_depth, options, error);
+  const trax_status improved = improve(&root, max_depth, crew, options, error);
   if (improved != TRAX_OK)
     return improved;
   scene_measure_built(&numbering, root);
@@ -256,57 +161,38 @@ trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *me
   chosen.splits = factor;
   options = &chosen;
   unsigned max_depth = options->max_depth ? options->max_depth : default_max_depth;
-  struct build_context context = {.options = options, .mesh = mesh};
-
   const size_t capacity = splits ? (size_t)(factor * (double)mesh->triangle_count) : mesh->triangle_count;
-  struct RTCBuildPrimitive *primitives =
-      aligned_alloc(_Alignof(struct RTCBuildPrimitive), capacity * sizeof(struct RTCBuildPrimitive));
-  RTCDevice device = rtcNewDevice(device_options);
-  RTCBVH bvh = device ? rtcNewBVH(device) : NULL;
-  if (!primitives)
+  struct sah_prim *primitives = aligned_alloc(_Alignof(struct sah_prim), capacity * sizeof *primitives);
+  struct scene_crew *crew = scene_crew_new(options->threads);
+  if (!primitives || !crew)
     result = scene_out_of_memory(error, "BVH");
-  else if (!bvh)
-    result = trax_fail(error, "BVH: Embree cannot be started (error %d)", (int)rtcGetDeviceError(NULL));
   else {
     const uint32_t count = fill_primitives(primitives, mesh, splits ? &duplicates : NULL);
     tree->bounds = bounds_of(primitives, count);
     tree->split = splits;
-    struct RTCBuildArguments arguments = rtcDefaultBuildArguments();
-    arguments.buildQuality = RTC_BUILD_QUALITY_HIGH;
-    arguments.maxBranchingFactor = 2;
-    arguments.maxDepth = BUILDER_DEPTH;
-    arguments.maxLeafSize = options->max_leaf ? options->max_leaf : default_max_leaf;
-    arguments.traversalCost = options->traversal_cost > 0 ? options->traversal_cost : default_traversal_cost;
-    arguments.intersectionCost = 1;
-    arguments.bvh = bvh;
-    arguments.primitives = primitives;
-    arguments.primitiveCount = count;
-    arguments.primitiveArrayCapacity = capacity;
-    arguments.splitPrimitive = splits ? split_primitive : NULL;
-    arguments.createNode = create_node;
-    arguments.setNodeChildren = set_children;
-    arguments.setNodeBounds = ignore_bounds;
-    arguments.createLeaf = create_leaf;
-    arguments.buildProgress = on_progress;
-    arguments.userPtr = &context;
-    struct built_node *root = rtcBuildBVH(&arguments);
-    enum RTCError code = rtcGetDeviceError(device);
+    const struct sah_arguments arguments = {
+        .options = options,
+        .mesh = mesh,
+        .prims = primitives,
+        .count = count,
+        .capacity = splits ? capacity : count,
+        .max_depth = BUILDER_DEPTH,
+        .max_leaf = options->max_leaf ? options->max_leaf : default_max_leaf,
+        .traversal_cost = options->traversal_cost > 0 ? options->traversal_cost : default_traversal_cost};
+    struct built_node *root = scene_build_sah(&arguments, crew);
+    free(primitives);
+    primitives = NULL;
     if (scene_is_interrupted(options->interrupt))
       result = TRAX_INTERRUPTED;
-    else if (code == RTC_ERROR_OUT_OF_MEMORY)
+    else if (!root)
       result = scene_out_of_memory(error, "BVH");
-    else if (!root || context.failed)
-      result = trax_fail(error, "BVH: Embree's builder failed (error %d)", (int)code);
     else
-      result =
-          make_tree(tree, root, mesh, splits ? &duplicates : NULL, max_depth, arguments.maxLeafSize, options, error);
+      result = make_tree(tree, root, mesh, splits ? &duplicates : NULL, max_depth, arguments.max_leaf, crew, options,
+                         error);
   }
   free(primitives);
   scene_duplicates_release(&duplicates);
-  if (bvh)
-    rtcReleaseBVH(bvh);
-  if (device)
-    rtcReleaseDevice(device);
+  scene_crew_release(crew);
   if (result != TRAX_OK)
     scene_tree_release(tree);
   return result;

@@ -22,18 +22,6 @@ unsigned scene_clip_polygon(double (*restrict out)[3], unsigned most, const doub
   return kept;
 }
 
-/* The next float below or above a finite one. */
-static inline float step(float x, bool up) {
-  uint32_t bits;
-  memcpy(&bits, &x, sizeof bits);
-  if (x == 0)
-    bits = up ? 1 : 0x80000001;
-  else
-    bits += (x > 0) == up ? 1 : UINT32_MAX;
-  memcpy(&x, &bits, sizeof x);
-  return x;
-}
-
 struct bounds {
   double min[3], max[3];
 };
@@ -49,7 +37,7 @@ static inline void add_value(struct bounds *bounds, int axis, double value) {
 static struct scene_box rounded(const struct bounds *bounds, const struct scene_box *box) {
   struct scene_box result = *box;
   for (int axis = 0; axis < 3 && bounds->min[0] <= bounds->max[0]; axis++) {
-    const float low = step((float)bounds->min[axis], false), high = step((float)bounds->max[axis], true);
+    const float low = scene_next_float((float)bounds->min[axis], false), high = scene_next_float((float)bounds->max[axis], true);
     result.min[axis] = low > box->min[axis] ? low : box->min[axis];
     result.max[axis] = high < box->max[axis] ? high : box->max[axis];
   }

@@ -257,6 +257,16 @@ void scene_node_boxes(struct scene_box boxes[2], trax_scene_ref children[2], con
 
 /* --- clip.c --- */
 
+/* The next float below or above a finite one. */
+static inline float scene_next_float(float x, bool up) {
+  union {
+    float value;
+    uint32_t bits;
+  } both = {x};
+  both.bits = x == 0 ? (up ? 1 : 0x80000001) : both.bits + ((x > 0) == up ? 1 : UINT32_MAX);
+  return both.value;
+}
+
 /* The part of a convex polygon where sign * coordinate >= sign * plane. Returns the number of its corners; those beyond
    `most` are left out. */
 unsigned scene_clip_polygon(double (*restrict out)[3], unsigned most, const double (*restrict in)[3], unsigned count,
@@ -348,10 +358,12 @@ struct scene_links {
   uint32_t max_depth; /* of inner nodes from the root to a leaf; it is kept */
 };
 
-/* Moves parts of the tree so that rays visit fewer nodes; leaves stay as they are. options: for progress and interrupt.
- */
-trax_status scene_reinsert(struct scene_links *links, unsigned passes, const struct trax_build_options *options,
-                           trax_error *error);
+struct scene_crew;
+
+/* Moves parts of the tree so that rays visit fewer nodes; leaves stay as they are. The same tree for any number of
+   threads. options: for progress and interrupt. */
+trax_status scene_reinsert(struct scene_links *links, unsigned passes, struct scene_crew *crew,
+                           const struct trax_build_options *options, trax_error *error);
 
 /* --- phases.c --- */
 

@@ -8,61 +8,17 @@
    clearing sees little else. So expected visits are summed over random lines through several boxes with equal weights:
    the root's, and smaller ones on the way down to the children with more triangles, each with a quarter of the surface
    of the one before. */
-#include "internal.h"
+#include "crew.h"
+#include "reinsert.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_FOCI = 8, FOCUS_STEP = 4, LEAST_OF_TRIANGLES = 16 };
+enum { FOCUS_STEP = 4, LEAST_OF_TRIANGLES = 16 };
 
-/* Limits a search in trees with many overlapping boxes. */
-enum { MOST_LOOKED_AT = 1000 };
-
-struct place {
-  double least; /* the cost that the part adds to the nodes above, if it is inserted beside or below this node */
-  uint32_t node, depth;
-};
-
-/* The foci as columns, so that the compiler takes several at once. Those beyond `count` are zero. */
-struct foci {
-  int count;
-  double min[3][MOST_FOCI], max[3][MOST_FOCI];
-  double scale[MOST_FOCI]; /* the reciprocal of a box's half area */
-};
-
-struct search {
-  struct scene_links *links;
-  struct foci foci;
-  struct place *heap; /* the least first */
-  size_t heap_count, heap_capacity;
-};
-
-static inline double least_of(double a, double b) {
-  return a < b ? a : b;
-}
-
-/* Expected visits to a node with this box. */
-static double visits(const struct foci *foci, const struct scene_box *box) {
-  double parts[MOST_FOCI], sum = 0;
-  /* Without branches: what does not meet a focus is multiplied by 0. */
-  for (int i = 0; i < MOST_FOCI; i++) {
-    double size[3];
-    for (int axis = 0; axis < 3; axis++) {
-      const double min = box->min[axis], max = box->max[axis];
-      size[axis] = least_of(max, foci->max[axis][i]) - (min > foci->min[axis][i] ? min : foci->min[axis][i]);
-    }
-    const double inside = least_of(size[0], least_of(size[1], size[2])) >= 0;
-    parts[i] = foci->scale[i] * (size[0] * size[1] + size[1] * size[2] + size[2] * size[0]) * inside;
-  }
-  for (int i = 0; i < MOST_FOCI; i++) /* in this order on every host */
-    sum += parts[i];
-  return sum;
-}
-
-static void choose_foci(struct search *search) {
-  const struct scene_link *nodes = search->links->nodes, *node = &nodes[search->links->root];
+static void choose_foci(struct foci *foci, const struct scene_links *links) {
+  const struct scene_link *nodes = links->nodes, *node = &nodes[links->root];
   const uint32_t least = node->triangles / LEAST_OF_TRIANGLES;
-  struct foci *foci = &search->foci;
   double last = __builtin_inf();
   while (node->child[0] != SCENE_NO_LINK && node->triangles >= least && foci->count < MOST_FOCI) {
     const double area = scene_half_area(node->box.min, node->box.max);
@@ -79,191 +35,236 @@ static void choose_foci(struct search *search) {
   }
 }
 
-static struct scene_box join(const struct scene_box *a, const struct scene_box *b) {
-  struct scene_box both = *a;
-  scene_box_add_box(&both, b);
-  return both;
-}
-
-/* --- the heap --- */
-
-static bool comes_before(const struct place *a, const struct place *b) {
-  return a->least != b->least ? a->least < b->least : a->node < b->node;
-}
-
-/* False when out of memory. */
-static bool push(struct search *search, struct place place) {
-  if (search->heap_count == search->heap_capacity) {
-    const size_t capacity = 2 * search->heap_capacity + 256;
-    struct place *heap = realloc(search->heap, capacity * sizeof *heap);
-    if (!heap)
-      return false;
-    search->heap = heap, search->heap_capacity = capacity;
-  }
-  __builtin_prefetch(&search->links->nodes[place.node]);
-  size_t at = search->heap_count++;
-  for (; at > 0 && comes_before(&place, &search->heap[(at - 1) / 2]); at = (at - 1) / 2)
-    search->heap[at] = search->heap[(at - 1) / 2];
-  search->heap[at] = place;
-  return true;
-}
-
-static struct place pop(struct search *search) {
-  const struct place least = search->heap[0], last = search->heap[--search->heap_count];
-  size_t at = 0;
-  for (size_t child; (child = 2 * at + 1) < search->heap_count; at = child) {
-    if (child + 1 < search->heap_count && comes_before(&search->heap[child + 1], &search->heap[child]))
-      child++;
-    if (!comes_before(&search->heap[child], &last))
-      break;
-    search->heap[at] = search->heap[child];
-  }
-  search->heap[at] = last;
-  return least;
-}
-
 /* --- the tree --- */
 
+struct improver {
+  struct scene_links *links;
+  struct foci foci;
+  uint32_t *changed; /* the last round in which a node changed; NULL: one thread only */
+  uint32_t round;
+};
+
+static void mark(const struct improver *improver, uint32_t node) {
+  if (improver->changed && node != SCENE_NO_LINK)
+    improver->changed[node] = improver->round;
+}
+
 /* Refits the box and height of a node. Returns whether they changed. */
-static bool refit_node(const struct search *search, uint32_t index) {
-  struct scene_link *node = &search->links->nodes[index];
-  const struct scene_link *a = &search->links->nodes[node->child[0]], *b = &search->links->nodes[node->child[1]];
-  const struct scene_box box = join(&a->box, &b->box);
+static bool refit_node(const struct improver *improver, uint32_t index) {
+  struct scene_link *node = &improver->links->nodes[index];
+  const struct scene_link *a = &improver->links->nodes[node->child[0]], *b = &improver->links->nodes[node->child[1]];
+  const struct scene_box box = join_boxes(&a->box, &b->box);
   const uint32_t height = 1 + (a->height > b->height ? a->height : b->height);
   const bool moved = memcmp(&box, &node->box, sizeof box) != 0;
   if (!moved && height == node->height)
     return false;
+  mark(improver, index);
   node->height = height;
   if (moved) {
     node->box = box;
-    node->visits = visits(&search->foci, &box);
+    node->visits = visits_of(&improver->foci, &box);
   }
   return true;
 }
 
 /* Refits from here up to the root, or to the first node that stays as it is. */
-static void refit_from(const struct search *search, uint32_t index) {
-  while (index != SCENE_NO_LINK && refit_node(search, index))
-    index = search->links->nodes[index].parent;
+static void refit_from(const struct improver *improver, uint32_t index) {
+  while (index != SCENE_NO_LINK && refit_node(improver, index))
+    index = improver->links->nodes[index].parent;
 }
 
-/* Makes `new` the child of old's parent, or the root if old is that. */
-static void take_place_of(struct scene_links *links, uint32_t index, uint32_t old) {
+/* Makes `index` the child of old's parent, or the root if old is that. */
+static void take_place_of(const struct improver *improver, uint32_t index, uint32_t old) {
+  struct scene_links *links = improver->links;
   const uint32_t parent = links->nodes[old].parent;
   links->nodes[index].parent = parent;
+  mark(improver, index);
+  mark(improver, parent);
   if (parent == SCENE_NO_LINK)
     links->root = index;
   else
     links->nodes[parent].child[links->nodes[parent].child[1] == old] = index;
 }
 
-/* The cost of the part if it is inserted beside `node`: of a new node over both, and of the growth of the nodes above.
-   least: the growth of the nodes above `node`. */
-static double cost_beside(const struct search *search, const struct scene_box *part, const struct scene_box *node,
-                          double least) {
-  const struct scene_box both = join(part, node);
-  return least + visits(&search->foci, &both);
-}
-
-static double cost_at(const struct search *search, const struct scene_box *part, uint32_t place) {
-  const struct scene_link *nodes = search->links->nodes;
-  uint32_t above[TRAX_SCENE_MAX_DEPTH];
-  int count = 0;
-  for (uint32_t node = nodes[place].parent; node != SCENE_NO_LINK; node = nodes[node].parent)
-    above[count++] = node;
-  double least = 0;
-  while (count-- > 0) {
-    const struct scene_link *node = &nodes[above[count]];
-    least = cost_beside(search, part, &node->box, least) - node->visits;
-  }
-  return cost_beside(search, part, &nodes[place].box, least);
-}
-
-/* Finds the node beside which the removed part costs least: `now` if no other is better; SCENE_NO_LINK when out of
-   memory. Branch and bound: below a node, the part costs at least the growth of the boxes above and a node of its own
-   size. */
-static uint32_t find_place(struct search *search, const struct scene_link *part, uint32_t now) {
-  const struct scene_links *links = search->links;
-  const double own = part->visits;
-  double best_cost = cost_at(search, &part->box, now);
-  uint32_t best = now;
-  search->heap_count = 0;
-  if (!push(search, (struct place){0, links->root, 0}))
-    return SCENE_NO_LINK;
-  for (int looked_at = 0; looked_at < MOST_LOOKED_AT && search->heap_count; looked_at++) {
-    const struct place place = pop(search);
-    if (place.least + own >= best_cost)
-      break;
-    const struct scene_link *node = &links->nodes[place.node];
-    const double cost = cost_beside(search, &part->box, &node->box, place.least);
-    const uint32_t height = node->height > part->height ? node->height : part->height;
-    if (cost < best_cost && place.depth + 1 + height <= links->max_depth)
-      best_cost = cost, best = place.node;
-    if (node->child[0] == SCENE_NO_LINK)
-      continue;
-    const double below = cost - node->visits;
-    for (int i = 0; i < 2 && below + own < best_cost; i++)
-      if (!push(search, (struct place){below, node->child[i], place.depth + 1}))
-        return SCENE_NO_LINK;
-  }
-  return best;
-}
-
-/* Removes the part with its parent, whose other child takes the parent's place, and reinserts it. False when out of
-   memory. */
-static bool reinsert(struct search *search, uint32_t part) {
-  struct scene_links *links = search->links;
-  struct scene_link *nodes = links->nodes;
+/* Removes the part with its parent, whose other child takes the parent's place, and inserts it beside `place`. */
+static void reinsert(const struct improver *improver, uint32_t part, uint32_t place) {
+  struct scene_link *nodes = improver->links->nodes;
   const uint32_t parent = nodes[part].parent, beside = nodes[parent].child[nodes[parent].child[0] == part];
-  take_place_of(links, beside, parent);
-  refit_from(search, nodes[beside].parent);
-  const uint32_t place = find_place(search, &nodes[part], beside);
-  if (place == SCENE_NO_LINK)
-    return false;
-  take_place_of(links, parent, place);
+  if (place != beside) {
+    take_place_of(improver, beside, parent);
+    refit_from(improver, nodes[beside].parent);
+    take_place_of(improver, parent, place);
+    nodes[place].parent = parent;
+    mark(improver, place);
+    mark(improver, part);
+  }
   nodes[parent].child[0] = place, nodes[parent].child[1] = part;
-  nodes[place].parent = parent;
-  refit_node(search, parent);
-  refit_from(search, nodes[parent].parent);
+  if (place != beside) {
+    refit_node(improver, parent);
+    refit_from(improver, nodes[parent].parent);
+  }
+}
+
+/* --- the order of the parts --- */
+
+/* Sorts the nodes by expected visits, most first, then by number. keys, other: room for as many. */
+static void rank(uint32_t *ranked, uint32_t *other, uint64_t *keys, uint64_t *other_keys, const struct scene_links *links) {
+  enum { BITS = 11, SIZE = 1 << BITS };
+  for (uint32_t i = 0; i < links->count; i++) {
+    memcpy(&keys[i], &links->nodes[i].visits, sizeof keys[i]); /* not negative: ordered as their bits */
+    keys[i] = ~keys[i];
+    ranked[i] = i;
+  }
+  for (int shift = 0; shift < 66; shift += BITS) {
+    uint32_t starts[SIZE] = {0}, start = 0;
+    for (uint32_t i = 0; i < links->count; i++)
+      starts[keys[i] >> shift & (SIZE - 1)]++;
+    for (int i = 0; i < SIZE; i++) {
+      const uint32_t count = starts[i];
+      starts[i] = start, start += count;
+    }
+    for (uint32_t i = 0; i < links->count; i++) {
+      const uint32_t to = starts[keys[i] >> shift & (SIZE - 1)]++;
+      other_keys[to] = keys[i], other[to] = ranked[i];
+    }
+    uint64_t *const swap_keys = keys;
+    keys = other_keys, other_keys = swap_keys;
+    uint32_t *const swap = ranked;
+    ranked = other, other = swap;
+  }
+}
+
+/* --- rounds --- */
+
+/* Parts are searched by all threads at once, then moved in order by one. A search that depends on a node that has changed
+   in this round is repeated, so each part is moved as if it were alone. */
+enum { ROUND = 512, STEP = 16 };
+
+struct round {
+  struct improver *improver;
+  struct search *searches; /* of each worker */
+  const uint32_t *parts;
+  uint32_t count, next; /* next: the first that no worker has taken */
+  struct found {
+    uint32_t place;
+    size_t first, end; /* of what was read */
+    uint32_t worker;
+  } found[ROUND];
+};
+
+static void search_some(struct scene_worker *worker, void *pointer) {
+  struct round *round = pointer;
+  const uint32_t number = scene_worker_number(worker);
+  struct search *search = &round->searches[number];
+  for (;;) {
+    const uint32_t first = __atomic_fetch_add(&round->next, STEP, __ATOMIC_RELAXED);
+    if (first >= round->count)
+      return;
+    for (uint32_t i = first; i < first + STEP && i < round->count; i++) {
+      struct found *found = &round->found[i];
+      *found = (struct found){SCENE_NO_LINK, search->read_count, 0, number};
+      if (round->parts[i] != round->improver->links->root)
+        found->place = scene_find_place(search, round->parts[i]);
+      found->end = search->read_count;
+    }
+  }
+}
+
+static bool has_changed(const struct improver *improver, const struct search *search, const struct found *found) {
+  uint32_t newest = 0;
+  for (size_t i = found->first; i < found->end; i++) {
+    const uint32_t changed = improver->changed[search->read[i]];
+    newest = changed > newest ? changed : newest;
+  }
+  return newest == improver->round;
+}
+
+/* False when out of memory. */
+static bool work_round(struct round *round, struct scene_crew *crew) {
+  struct improver *improver = round->improver;
+  const unsigned threads = scene_crew_size(crew);
+  round->next = 0;
+  improver->round++;
+  for (unsigned i = 0; i < threads; i++) {
+    round->searches[i].read_count = 0;
+    if (i > 0)
+      scene_crew_add(crew, search_some, round);
+  }
+  scene_crew_run(crew, search_some, round);
+  struct search *own = &round->searches[0];
+  for (uint32_t i = 0; i < round->count; i++) {
+    const struct found *found = &round->found[i];
+    uint32_t place = found->place;
+    if (round->parts[i] == improver->links->root)
+      continue;
+    if (place != SCENE_NO_LINK && has_changed(improver, &round->searches[found->worker], found))
+      place = scene_find_place(own, round->parts[i]);
+    if (place == SCENE_NO_LINK)
+      return false;
+    reinsert(improver, round->parts[i], place);
+  }
   return true;
 }
 
-struct ranked {
-  double visits;
-  uint32_t node;
-};
-
-static int compare_ranked(const void *a, const void *b) {
-  const struct ranked *left = a, *right = b;
-  if (left->visits != right->visits)
-    return left->visits > right->visits ? -1 : 1;
-  return left->node < right->node ? -1 : left->node > right->node;
+static trax_status work_pass(struct round *round, struct scene_crew *crew, const uint32_t *ranked, uint32_t count,
+                             const struct trax_build_options *options, unsigned pass, trax_error *error) {
+  struct improver *improver = round->improver;
+  struct search *search = &round->searches[0];
+  for (uint32_t i = 0; i < count; i += ROUND) {
+    round->parts = ranked + i;
+    round->count = count - i < ROUND ? count - i : ROUND;
+    if (i / ROUND % 8 == 0)
+      scene_report(options, SCENE_IMPROVE, (pass + (double)i / count) / options->passes);
+    if (scene_is_interrupted(options->interrupt))
+      return TRAX_INTERRUPTED;
+    bool good = true;
+    if (improver->changed)
+      good = work_round(round, crew);
+    else
+      for (uint32_t k = 0; k < round->count && good; k++) {
+        const uint32_t part = round->parts[k];
+        const uint32_t place = part == improver->links->root ? part : scene_find_place(search, part);
+        good = place != SCENE_NO_LINK;
+        if (good && place != part)
+          reinsert(improver, part, place);
+      }
+    if (!good)
+      return scene_out_of_memory(error, "BVH");
+  }
+  return TRAX_OK;
 }
 
-trax_status scene_reinsert(struct scene_links *links, unsigned passes, const struct trax_build_options *options,
-                           trax_error *error) {
-  struct search search = {.links = links};
-  struct ranked *ranked = malloc(links->count * sizeof *ranked);
-  choose_foci(&search);
-  if (search.foci.count == 0) /* all triangles are on one line */
+trax_status scene_reinsert(struct scene_links *links, unsigned passes, struct scene_crew *crew,
+                           const struct trax_build_options *options, trax_error *error) {
+  struct improver improver = {.links = links};
+  const unsigned threads = scene_crew_size(crew);
+  const bool several = threads > 1;
+  uint32_t *ranked = malloc(2 * (size_t)links->count * sizeof *ranked);
+  uint64_t *keys = malloc(2 * (size_t)links->count * sizeof *keys);
+  struct search *searches = calloc(threads, sizeof *searches);
+  struct round *round = malloc(sizeof *round);
+  improver.changed = several ? calloc(links->count, sizeof *improver.changed) : NULL;
+  choose_foci(&improver.foci, links);
+  if (improver.foci.count == 0) /* all triangles are on one line */
     passes = 0;
   for (uint32_t i = 0; i < links->count; i++)
-    links->nodes[i].visits = visits(&search.foci, &links->nodes[i].box);
-  trax_status result = ranked ? TRAX_OK : scene_out_of_memory(error, "BVH");
-  for (unsigned pass = 0; pass < passes && result == TRAX_OK; pass++) {
-    for (uint32_t i = 0; i < links->count; i++)
-      ranked[i] = (struct ranked){links->nodes[i].visits, i};
-    qsort(ranked, links->count, sizeof *ranked, compare_ranked);
-    for (uint32_t i = 0; i < links->count && result == TRAX_OK; i++) {
-      if (i % 4096 == 0)
-        scene_report(options, SCENE_IMPROVE, (pass + (double)i / links->count) / passes);
-      if (scene_is_interrupted(options->interrupt))
-        result = TRAX_INTERRUPTED;
-      else if (ranked[i].node != links->root && !reinsert(&search, ranked[i].node))
-        result = scene_out_of_memory(error, "BVH");
-    }
+    links->nodes[i].visits = visits_of(&improver.foci, &links->nodes[i].box);
+  trax_status result = TRAX_OK;
+  if (!ranked || !keys || !searches || !round || (several && !improver.changed))
+    result = scene_out_of_memory(error, "BVH");
+  else {
+    for (unsigned i = 0; i < threads; i++)
+      searches[i] = (struct search){.links = links, .foci = &improver.foci, .records = several};
+    *round = (struct round){.improver = &improver, .searches = searches};
   }
-  free(ranked);
-  free(search.heap);
+  for (unsigned pass = 0; pass < passes && result == TRAX_OK; pass++) {
+    rank(ranked, ranked + links->count, keys, keys + links->count, links);
+    result = work_pass(round, crew, ranked, links->count, options, pass, error);
+  }
+  for (unsigned i = 0; searches && i < threads; i++) {
+    free(searches[i].heap);
+    free(searches[i].read);
+  }
+  free(improver.changed), free(round), free(searches), free(keys), free(ranked);
   return result;
 }

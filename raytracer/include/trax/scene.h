@@ -221,6 +221,7 @@ struct trax_build_options {
   bool smooth;             /* with normals for smooth shading, across edges of up to crease_degrees */
   bool compute_normals;    /* even if the mesh has normals */
   float crease_degrees;    /* up to 180; 0: default */
+  unsigned threads;        /* of the host; the bytes do not depend on their number; 0: one for each processor */
   trax_scene_progress *progress; /* may be NULL */
   void *progress_context;
   const volatile int *interrupt; /* polled; may be NULL */
