@@ -107,13 +107,25 @@ void trax_memory_jump(struct trax_memory_check *check, const struct trax_span *s
   }
 }
 
-void trax_memory_move_stack(struct trax_memory_check *check, uint32_t thread) {
-  struct trax_memory_thread *it = &check->threads[thread];
+/* A copy to the stack pointer that lowers it is alloca's, or of an array of variable length: the register that is copied
+   then points to memory of its own. */
+void trax_memory_move_stack(struct trax_memory_check *check, const struct trax_span *span, uint32_t before) {
+  struct trax_memory_thread *it = &check->threads[span->thread];
   const uint32_t now = it->reg[SP].bits;
-  if (it->low == MEMORY_NO_FRAME || !is_below(now, it->low))
-    return;
-  open_frame(check, thread, now, it->low);
-  it->low = now;
+  if (span->inst.op == TRAX_OP_ADDI && !span->inst.imm && is_below(now, before)) {
+    open_frame(check, span->thread, now, before);
+    it->reg[span->inst.ra].tag =
+        trax_memory_object_add(check, &(struct trax_memory_object){.kind = MEMORY_LOCAL,
+                                                                   .begin = now,
+                                                                   .end = before,
+                                                                   .name = "memory of alloca",
+                                                                   .own_begin = now,
+                                                                   .own_end = before});
+  } else if (it->low != MEMORY_NO_FRAME && is_below(now, it->low)) {
+    open_frame(check, span->thread, now, it->low);
+  }
+  if (it->low != MEMORY_NO_FRAME && is_below(now, it->low))
+    it->low = now;
 }
 
 static void add_frame(void *context, uint32_t function, uint32_t bytes) {

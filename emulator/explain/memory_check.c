@@ -218,7 +218,7 @@ static void add_span(void *self, const struct trax_span *span) {
     thread->reg[span->inst.rd] = trax_memory_result(check, thread, span);
   }
   if (thread->reg[SP].bits != stack_pointer)
-    trax_memory_move_stack(check, span->thread);
+    trax_memory_move_stack(check, span, stack_pointer);
 }
 
 static void add_arrival(void *self, const struct trax_arrival *arrival) {
@@ -227,8 +227,29 @@ static void add_arrival(void *self, const struct trax_arrival *arrival) {
     check->threads[arrival->tm * check->tps + arrival->tp].reg[arrival->rd].bits = arrival->value;
 }
 
+/* An observer does not see the instruction that faults. If it is an access, its address may be an error of memory. */
+static void check_fault(struct trax_memory_check *check) {
+  const struct trax_fault *fault = trax_machine_fault(check->machine);
+  if (!check->loaded || fault->kind == TRAX_FAULT_NONE || !fault->bytes)
+    return;
+  const struct trax_memory_thread *thread = &check->threads[fault->thread];
+  const trax_inst inst = trax_decode(fault->word);
+  const struct trax_memory_value *base = &thread->reg[inst.ra];
+  const struct trax_memory_event event = {fault->cycle, fault->thread, fault->pc, thread->context};
+  uint32_t object;
+  if (!trax_op_table[inst.op].access_bytes || thread->function)
+    return;
+  if (base->undefined)
+    trax_memory_note(check, MEMORY_ADDRESS, &event, base->from, 4, false, trax_memory_block_at(check, base->from));
+  const enum trax_memory_finding finding = trax_memory_check_access(check, fault->thread, base->tag, inst.imm,
+                                                                    fault->address, fault->bytes, &object);
+  if (finding && object && check->objects[object].kind != MEMORY_BUFFER) /* the fault itself names a buffer */
+    trax_memory_note(check, finding, &event, fault->address, fault->bytes, fault->write, object);
+}
+
 static trax_status end(void *self, trax_error *error) {
   struct trax_memory_check *check = self;
+  check_fault(check);
   if (check->loaded && check->machine->status == TRAX_OK && check->heap_end &&
       trax_memory_find_leaks(check, error) != TRAX_OK)
     return TRAX_ERROR;

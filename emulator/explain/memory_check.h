@@ -24,7 +24,7 @@ enum { MEMORY_NO_TAG, MEMORY_MIXED, MEMORY_PRIVATE, MEMORY_FIRST_OBJECT };
 enum trax_memory_object_kind {
   MEMORY_HALF,   /* no object: `begin` is the upper half of an address that is not complete yet */
   MEMORY_GLOBAL, /* of the program's symbols */
-  MEMORY_LOCAL,  /* an automatic variable, of the debug information */
+  MEMORY_LOCAL,  /* an automatic variable, of the debug information; what alloca has taken */
   MEMORY_BUFFER, /* of --bind and --alloc */
   MEMORY_BLOCK   /* of the heap */
 };
@@ -40,6 +40,7 @@ struct trax_memory_object {
   uint32_t begin, end;         /* what a pointer to the object may access */
   const char *name;            /* of all but blocks */
   uint32_t own_begin, own_end; /* of these: the object that is named, without what a constant may mean as well */
+  bool unnamed;                /* begins and ends as it is named, once that is accessed */
   bool freed, reached;         /* of a block; reached: the search for leaks has found a pointer to it */
   struct trax_memory_event allocation, release;
 };
@@ -168,8 +169,8 @@ struct trax_memory_event trax_memory_event_of(const struct trax_memory_check *ch
 void trax_memory_call(struct trax_memory_check *check, const struct trax_span *span);
 /* Of jumps that write no register: returns, longjmp, tail calls. */
 void trax_memory_jump(struct trax_memory_check *check, const struct trax_span *span);
-/* After an instruction that has changed the stack pointer. */
-void trax_memory_move_stack(struct trax_memory_check *check, uint32_t thread);
+/* After an instruction that has changed the stack pointer, which was `before`. */
+void trax_memory_move_stack(struct trax_memory_check *check, const struct trax_span *span, uint32_t before);
 
 /* --- memory_objects.c --- */
 trax_status trax_memory_objects_open(struct trax_memory_check *check, trax_error *error);

@@ -81,10 +81,14 @@ enum trax_memory_finding trax_memory_check_access(struct trax_memory_check *chec
   else if (tag >= MEMORY_FIRST_OBJECT && check->objects[tag].kind == MEMORY_GLOBAL && imm >= FAR_IMM)
     tag = MEMORY_NO_TAG;
   if (tag >= MEMORY_FIRST_OBJECT) {
-    const struct trax_memory_object *it = &check->objects[tag];
+    struct trax_memory_object *it = &check->objects[tag];
     *object = tag;
     if (it->freed)
       return MEMORY_FREED;
+    if (it->unnamed && address >= it->own_begin && address < it->own_end) {
+      it->begin = it->own_begin;
+      it->end = it->own_end;
+    }
     if ((address - it->begin > it->end - it->begin || it->end - address < bytes) &&
         is_plausible(check, thread, it, address))
       return MEMORY_OUTSIDE;

@@ -50,7 +50,8 @@ def bounds():
     """Accesses by an index: kind of memory x its size x type x access x side x distance; and the first and last
     element, which are right."""
     for (kind, sizes), (name, size), access in itertools.product(
-            (("heap", (16, 20, 96, 4096)), ("global", (12, 32, 100)), ("stack", (12, 40, 100))), TYPES.items(),
+            (("heap", (16, 20, 96, 4096)), ("global", (12, 32, 100)), ("stack", (12, 40, 100)),
+             ("alloca", (12, 40, 100))), TYPES.items(),
             ACCESSES.values()):
         for total in sizes:
             count = total // size
@@ -62,6 +63,8 @@ def bounds():
                 elif kind == "global":
                     begin, end = f"volatile {name} *p = OBJECT;", ""
                     objects = f"static {name} OBJECT[{count}], OBJECT_next[64 / sizeof({name})];"
+                elif kind == "alloca":
+                    begin, end = f"at = {total}; void *q = alloca(at); fill(q, {total}); volatile {name} *p = q;", ""
                 else:
                     begin, end = f"{name} a[{count}]; fill(a, {total}); volatile {name} *p = a;", ""
                 right = 0 <= index < count
@@ -193,6 +196,9 @@ def fatal():
     yield "char *p = (char *)&sink; OPAQUE(p); free(p);", INVALID
     yield "char *p = block(100) ; OPAQUE(p); free(p + 16);", INVALID
     yield "char *p = block(100); OPAQUE(p); while (*p != 5) p++; free(p);", INVALID
+    # The address of the access that faults is an error itself: CWE-457.
+    yield "word **p = malloc(8); OPAQUE(p); *p[1] = 5;", ADDRESS
+    yield "word *p = block(8); OPAQUE(p); at = 1 << 28; int i = at; sink = p[i];", OUTSIDE
 
 
 def batch():
