@@ -87,7 +87,7 @@ static struct release *copy_of(struct races *races, const uint32_t *clock) {
   return release;
 }
 
-/* What a thread has loaded before a `fence w` was in memory before what it stores after it. */
+/* The values that a thread has loaded before a `fence w` were in memory before its stores after it. */
 static void fence(struct races *races, uint32_t number, int32_t kind) {
   struct thread *thread = &races->thread[number];
   if (kind & TRAX_FENCE_R)
