@@ -20,10 +20,10 @@ FunctionPass *createTraxISelDag(TraxTargetMachine &TM, CodeGenOptLevel OptLevel)
 /// Writes va_arg instructions out as loads, for every type.
 FunctionPass *createTraxLowerFloatsPass();
 FunctionPass *createTraxLowerVAArgPass();
-/// Splits branches on double words, and lets phis take values that branches have compared.
+/// Lets phis take values that branches have compared with constants.
 FunctionPass *createTraxBranchesPass();
 
-/// Makes calls of atomic operations that the machine lacks.
+/// Replaces atomic operations that the machine lacks by calls.
 FunctionPass *createTraxLowerAtomicsPass();
 
 /// Whether the machine has this operation: the increment of a word by 1.

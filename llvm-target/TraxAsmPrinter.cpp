@@ -56,7 +56,7 @@ void TraxAsmPrinter::emitStartOfAsmFile(Module &M) {
       M.getContext().diagnose(DiagnosticInfoUnsupported(F, "the functions of one file expect the stack in one place"));
 }
 
-/// Tells the linker that the jalr to come is a jump within the function, not a call in tail position.
+/// Marks the next jalr for the linker as a jump within the function, not a tail call.
 void TraxAsmPrinter::emitJumpMarker() {
   MCSymbol *Place = OutContext.createTempSymbol();
   OutStreamer->emitLabel(Place);

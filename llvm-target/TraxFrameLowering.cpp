@@ -34,7 +34,7 @@ bool TraxFrameLowering::hasBP(const MachineFunction &MF) const {
   return MF.getFrameInfo().hasVarSizedObjects() && needsRealignment(MF);
 }
 
-// Arguments of calls have their place in the frame unless sp moves.
+// The frame reserves the space of outgoing arguments unless sp moves.
 bool TraxFrameLowering::hasReservedCallFrame(const MachineFunction &MF) const {
   return !MF.getFrameInfo().hasVarSizedObjects();
 }

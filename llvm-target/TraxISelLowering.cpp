@@ -271,8 +271,8 @@ SDValue TraxTargetLowering::getSqrtResultForDenormInput(SDValue Operand, Selecti
 
 //--- costs --------------------------------------------------------------------
 
-/// A double word is shifted by any amount in nine instructions. A call is fewer, but then all values live elsewhere,
-/// which takes more again unless nothing but size counts.
+/// Nine instructions shift a double word by any amount. A call is fewer, but it clobbers caller-saved registers, and
+/// saving their values takes more instructions. So only code compiled for size calls.
 TargetLowering::ShiftLegalizationStrategy
 TraxTargetLowering::preferredShiftLegalizationStrategy(SelectionDAG &DAG, SDNode *N, unsigned ExpansionFactor) const {
   if (DAG.getMachineFunction().getFunction().hasMinSize())
@@ -350,8 +350,8 @@ SDValue TraxTargetLowering::lowerAtomicFence(SDValue Op, SelectionDAG &DAG) cons
   return DAG.getNode(TraxISD::FENCE, DL, MVT::Other, Chain, DAG.getTargetConstant(Kind, DL, MVT::i32));
 }
 
-/// Caches of different TMs are not coherent, so an atomic load must go to memory. TraxLowerAtomics has made plain loads
-/// of those of local memory. Bytes and halves are taken from their word.
+/// Caches of different TMs are not coherent, so an atomic load must go to memory. TraxLowerAtomics has replaced those
+/// of local memory by plain loads. Bytes and halves are taken from their word.
 SDValue TraxTargetLowering::lowerAtomicLoad(SDValue Op, SelectionDAG &DAG) const {
   auto *Load = cast<AtomicSDNode>(Op);
   SDLoc DL(Op);
@@ -381,8 +381,9 @@ SDValue TraxTargetLowering::lowerAtomicLoad(SDValue Op, SelectionDAG &DAG) const
   return DAG.getMergeValues({Value, Word.getValue(1)}, DL);
 }
 
-/// The increment is the machine's only read-modify-write; TraxLowerAtomics has made calls of the others. The thread's
-/// later accesses may overtake it, except those after an instruction that needs its result (docs/isa.md, "Order").
+/// The increment is the machine's only read-modify-write; TraxLowerAtomics has replaced the others by calls. The
+/// thread's later accesses may overtake it, except those after an instruction that needs its result (docs/isa.md,
+/// "Order").
 SDValue TraxTargetLowering::lowerAtomicRMW(SDValue Op, SelectionDAG &DAG) const {
   auto *N = cast<AtomicSDNode>(Op);
   SDLoc DL(Op);

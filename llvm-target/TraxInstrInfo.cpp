@@ -1,4 +1,4 @@
-//===- TraxInstrInfo.cpp - What passes ask about instructions ------------===//
+//===- TraxInstrInfo.cpp - Target hooks for instructions ------------------===//
 #include "TraxInstrInfo.h"
 #include "Trax.h"
 #include "TraxSubtarget.h"

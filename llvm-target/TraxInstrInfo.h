@@ -1,4 +1,4 @@
-//===- TraxInstrInfo.h - What passes ask about instructions --------------===//
+//===- TraxInstrInfo.h - Target hooks for instructions --------------------===//
 #ifndef TRAX_TRAXINSTRINFO_H
 #define TRAX_TRAXINSTRINFO_H
 

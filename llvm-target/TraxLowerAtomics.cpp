@@ -11,8 +11,8 @@
 // Only fences order the machine's own accesses. This pass adds them (docs/abi.md, "Atomics"); the library's functions
 // have theirs.
 //
-// Runs after AtomicExpand, which has reduced operations without a function to compare-and-exchange, and has made calls
-// of operations wider than a word.
+// Runs after AtomicExpand, which has reduced operations without a function to compare-and-exchange, and has replaced
+// operations wider than a word by calls.
 //
 //===----------------------------------------------------------------------===//
 #include "Trax.h"
@@ -209,7 +209,7 @@ void TraxLowerAtomics::lower(AtomicCmpXchgInst &CmpXchg) {
   CmpXchg.eraseFromParent();
 }
 
-/// Makes a plain access of one to local memory.
+/// Replaces an access to local memory by a plain one.
 static void makePlain(Instruction &I) {
   I.setMetadata(LLVMContext::MD_nontemporal, nullptr);
   if (auto *Load = dyn_cast<LoadInst>(&I))

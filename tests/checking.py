@@ -1,6 +1,8 @@
 """Functions that tests in Python share: checks of conditions, whose failures `failures` counts, and the run of a
 program."""
+import os
 import subprocess
+import tempfile
 
 failures = 0
 
@@ -24,3 +26,13 @@ def call(folder, program, *words, status=0):
     done = subprocess.run(command, capture_output=True, text=True, timeout=280, check=False)
     check(done.returncode == status, program, *words, "status", done.returncode, done.stdout, done.stderr)
     return done
+
+
+def run_measured(command):
+    """Runs a command; (exit status, standard error, the most bytes of memory that it had)."""
+    with tempfile.TemporaryFile("w+") as error:
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=error)
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        error.seek(0)
+        return process.returncode, error.read(), usage.ru_maxrss << 10

@@ -1,5 +1,5 @@
-/* The check of memory (docs/checking.md) follows every instruction: it keeps what is known of each thread's registers
-   and of every word, the calls, and the frames. */
+/* The check of memory (docs/checking.md) follows every instruction: it keeps the shadow of each thread's registers and
+   of every word, the calls, and the frames. */
 #include "explain/memory_check.h"
 #include "trax/grow.h"
 #include "trax/host_calls.h"
@@ -9,7 +9,7 @@
 
 enum { SP = 2 };
 
-/* The heap's own functions go where others must not. */
+/* Accesses of the heap's own functions are not reported. */
 static void note(struct trax_memory_check *check, const struct trax_span *span, enum trax_memory_finding finding,
                  uint32_t address, uint32_t bytes, bool write, uint32_t object) {
   const struct trax_memory_event event = trax_memory_event_of(check, span);

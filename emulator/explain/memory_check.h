@@ -1,7 +1,7 @@
-/* The check of memory (docs/checking.md): what its files share. memory_check.c follows the run, memory_calls.c its
-   calls and frames, memory_heap.c the heap. memory_values.c computes what is known of each value, memory_shadow.c keeps
-   what is known of each byte. memory_objects.c says which bytes belong to what, and memory_constants.c what a constant
-   points to. memory_report.c keeps and prints what was found. */
+/* The check of memory (docs/checking.md), private to its files. memory_check.c follows the run, memory_calls.c its
+   calls and frames, memory_heap.c the heap. memory_values.c computes the shadow of each result: undefined bits, and the
+   object of a pointer. memory_shadow.c keeps the shadow of each byte. memory_objects.c finds the object of an address,
+   and memory_constants.c that of a constant. memory_report.c keeps and prints the findings. */
 #ifndef TRAX_EXPLAIN_MEMORY_CHECK_H
 #define TRAX_EXPLAIN_MEMORY_CHECK_H
 
@@ -9,7 +9,7 @@
 #include "explain/span.h"
 #include "trax/map.h"
 
-/* What is known of a register or a word besides its bits. */
+/* The value of a register or a word, with its shadow. */
 struct trax_memory_value {
   uint32_t bits;
   uint32_t undefined; /* bits that depend on memory that was never written */
@@ -29,7 +29,7 @@ enum trax_memory_object_kind {
   MEMORY_BLOCK   /* of the heap */
 };
 
-/* When, where and by whom something was done. */
+/* The time, place and thread of an allocation, a release or an access. */
 struct trax_memory_event {
   uint64_t cycle;
   uint32_t thread, pc, context; /* context: the call chain, of memory_check.contexts */
@@ -39,7 +39,7 @@ struct trax_memory_object {
   enum trax_memory_object_kind kind;
   uint32_t begin, end;         /* what a pointer to the object may access */
   const char *name;            /* of all but blocks */
-  uint32_t own_begin, own_end; /* of these: the object that is named, without what a constant may mean as well */
+  uint32_t own_begin, own_end; /* of these: the named object, without its neighbours */
   bool unnamed;                /* begins and ends as it is named, once that is accessed */
   bool freed, reached;         /* of a block; reached: the search for leaks has found a pointer to it */
   struct trax_memory_event allocation, release;
@@ -47,8 +47,8 @@ struct trax_memory_object {
 
 enum { MEMORY_PAGE_SHIFT = 12, MEMORY_PAGE = 1 << MEMORY_PAGE_SHIFT };
 
-/* What is known of a page of global memory. Without one, all is defined, or the page is fresh: nothing was written to
-   it since it became a part of a block. */
+/* The shadow of a page of global memory. Without one, all is defined, or the page is fresh: nothing was written to it
+   since it became a part of a block. */
 struct trax_memory_page {
   uint8_t undefined[MEMORY_PAGE];   /* bits */
   uint32_t tags[MEMORY_PAGE / 4];   /* of whole words */
@@ -116,7 +116,7 @@ struct trax_memory_symbol {
   const char *name;
 };
 
-struct trax_memory_frame { /* what is known of a function at its first instruction */
+struct trax_memory_frame { /* a function, by the address of its first instruction */
   struct trax_map_entry entry;
   int32_t bytes; /* of its frame; -1: unknown */
   enum trax_memory_function function;
@@ -157,7 +157,7 @@ struct trax_memory_check {
 };
 
 /* --- memory_values.c --- */
-/* What is known of the result of an instruction that accesses no memory. */
+/* The result, with its shadow, of an instruction that accesses no memory. */
 struct trax_memory_value trax_memory_result(struct trax_memory_check *check, const struct trax_memory_thread *thread,
                                             const struct trax_span *span);
 /* Whether undefined bits decide a conditional branch. */
@@ -167,16 +167,16 @@ bool trax_memory_branch_is_undefined(const struct trax_memory_thread *thread, tr
 trax_status trax_memory_calls_open(struct trax_memory_check *check, trax_error *error);
 struct trax_memory_event trax_memory_event_of(const struct trax_memory_check *check, const struct trax_span *span);
 void trax_memory_call(struct trax_memory_check *check, const struct trax_span *span);
-/* Of jumps that write no register: returns, longjmp, tail calls. */
+/* Follows a jump that writes no register: a return, a longjmp or a tail call. */
 void trax_memory_jump(struct trax_memory_check *check, const struct trax_span *span);
-/* After an instruction that has changed the stack pointer, which was `before`. */
+/* Called after an instruction that has changed the stack pointer, which was `before`. */
 void trax_memory_move_stack(struct trax_memory_check *check, const struct trax_span *span, uint32_t before);
 
 /* --- memory_objects.c --- */
 trax_status trax_memory_objects_open(struct trax_memory_check *check, trax_error *error);
 void trax_memory_objects_close(struct trax_memory_check *check);
 uint32_t trax_memory_object_add(struct trax_memory_check *check, const struct trax_memory_object *object);
-/* Checks an access by a pointer with a tag; imm: of the instruction. *object: what it misses, or 0. */
+/* Checks an access by a pointer with a tag; imm: of the instruction. *object: the object that it misses, or 0. */
 enum trax_memory_finding trax_memory_check_access(struct trax_memory_check *check, uint32_t thread, uint32_t tag,
                                                   int32_t imm, uint32_t address, uint32_t bytes, uint32_t *object);
 /* The lower end of the memory of a thread's stack, and its upper end, which may be 0. */

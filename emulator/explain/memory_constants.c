@@ -27,8 +27,8 @@ static bool is_read_only(const struct trax_memory_check *check, uint32_t address
   return check->machine->space.restrictions[address / TRAX_GRANULE] & TRAX_RESTRICT_WRITE;
 }
 
-/* Finds what an address in code may mean: the object that begins there, or one that it lies in or near to. An object
-   that ends there may be meant as well. */
+/* Finds the object that an address in code may mean: the object that begins there, or one that it lies in or near to.
+   An object that ends there may be meant as well. */
 static bool find_global(const struct trax_memory_check *check, uint32_t address, struct trax_memory_object *object) {
   const struct trax_memory_symbol *symbols = check->symbols;
   size_t after = 0, high = check->symbol_count; /* the first that begins behind the address */

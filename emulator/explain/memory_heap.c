@@ -46,7 +46,7 @@ void trax_memory_heap_enter(struct trax_memory_check *check, uint32_t thread, en
     release(check, it->block, event);
 }
 
-/* A block that the heap has handed out: its first bytes up to `defined` have values. */
+/* Adds a block that the heap has returned. Its bytes before `defined` have values. */
 static void add_block(struct trax_memory_check *check, uint32_t thread, uint32_t address, uint32_t bytes,
                       uint32_t defined) {
   struct trax_memory_thread *it = &check->threads[thread];

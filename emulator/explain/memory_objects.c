@@ -1,4 +1,4 @@
-/* Which bytes belong to what: the program's symbols, buffers, blocks of the heap and stacks. */
+/* The objects of addresses: the program's symbols, buffers, blocks of the heap and stacks. */
 #include "explain/memory_check.h"
 #include "trax/grow.h"
 
@@ -7,7 +7,7 @@
 
 enum {
   LOOK_BACK = 64,  /* words in which the block before an address is searched */
-  FAR_IMM = 0x1000 /* an immediate that is rather an address than a member of a structure */
+  FAR_IMM = 0x1000 /* an immediate that is an address rather than the offset of a member */
 };
 
 uint32_t trax_memory_object_add(struct trax_memory_check *check, const struct trax_memory_object *object) {

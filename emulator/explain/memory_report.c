@@ -1,4 +1,4 @@
-/* What the check of memory has found: each site once, with a count, in the order of the first occurrences. */
+/* The report of the check of memory: each site once, with a count, in the order of the first occurrences. */
 #include "explain/memory_check.h"
 #include "report/place.h"
 #include "trax/grow.h"

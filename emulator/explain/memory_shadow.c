@@ -1,4 +1,4 @@
-/* What is known of the bytes in memory. */
+/* The shadow of memory: undefined bits, tags of pointers, blocks. */
 #include "explain/memory_check.h"
 
 #include <stdlib.h>

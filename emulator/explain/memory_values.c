@@ -1,6 +1,6 @@
-/* What is known of values: which bits depend on memory that was never written, and to which object a pointer belongs.
-   The bits are those of Seward and Nethercote, "Using Valgrind to detect undefined value errors with bit-precision",
-   USENIX 2005. */
+/* The shadow of results: the bits that depend on memory that was never written, and the object to which a pointer
+   belongs. The bits are those of Seward and Nethercote, "Using Valgrind to detect undefined value errors with
+   bit-precision", USENIX 2005. */
 #include "explain/memory_check.h"
 
 typedef struct trax_memory_value value;
@@ -67,7 +67,7 @@ static uint32_t shifted(trax_op op, uint32_t bits, uint32_t by) {
 static uint32_t undefined_of(trax_inst inst, value a, value b, value old) {
   const uint32_t either = a.undefined | b.undefined;
   switch (inst.op) {
-  case TRAX_OP_CMOVNZ: /* a stands for the value, b for the condition */
+  case TRAX_OP_CMOVNZ: /* a is the value, b the condition */
   case TRAX_OP_CMOVZ:
     if (b.undefined && !(b.bits & ~b.undefined))
       return a.undefined | old.undefined | (a.bits ^ old.bits);

@@ -1,12 +1,11 @@
 /* Races (docs/checking.md, "Races"): accesses of two threads to the same bytes, at least one a store, of which neither
    happens before the other.
 
-   A thread's accesses up to a `fence w` happen before those of another thread after a `fence r`, if in between the
-   first has stored a word that the second has loaded past the cache, or incremented. Each thread has a vector clock; a
-   fence w copies it, and a store leaves the copy at its word (Flanagan and Freund, "FastTrack", PLDI 2009). The
-   compiler makes the same stores of atomic and of other ones, so two stores to a word that some thread has accessed
-   past the cache or incremented are no race. A plain load and a store are, unless the word was accessed in a function
-   of libatomic: before such a call the compiler may load the object plainly, as a guess. */
+   The order is that of clocks.h. The compiler makes the same stores of atomic and of other ones, so two stores to a
+   word that some thread has accessed past the cache or incremented are no race. A plain load after a store is, since it
+   may return an old value, unless the word was accessed in a function of libatomic: before such a call the compiler may
+   load the object plainly, as a guess. */
+#include "explain/clocks.h"
 #include "explain/places.h"
 #include "explain/span.h"
 #include "report/place.h"
@@ -19,12 +18,6 @@
 
 enum { PAGE_SHIFT = 12, WORDS = 1 << (PAGE_SHIFT - 2), CELLS = 4, MOST_SITES = 1000 };
 
-/* A copy of a thread's clock, which words share. */
-struct release {
-  uint32_t uses;
-  uint32_t clock[]; /* [threads] */
-};
-
 /* An access to a word; the latest ones of different threads or kinds are kept. clock 0: none. */
 struct cell {
   uint32_t clock, pc;
@@ -35,14 +28,12 @@ struct cell {
 
 struct word {
   struct cell cells[CELLS];
-  struct release *release;
+  struct trax_release *release;
   uint8_t next; /* the cell that is replaced next */
   enum { PLAIN, ATOMIC, IN_LIBATOMIC } atomic : 8;
 };
 
 struct thread {
-  uint32_t *clock, *seen; /* [threads]; seen: what the next `fence r` adds */
-  struct release *release;
   uint32_t increments[TRAX_NUM_REGISTERS]; /* addresses, by the register that gets the old value; 0: none */
   uint32_t return_pc;                      /* of the call of an atomic operation; 0: none */
 };
@@ -56,49 +47,15 @@ struct site {
 struct races {
   struct trax_reader reader;
   const trax_machine *machine;
-  uint32_t threads, tps;
-  struct thread *thread; /* [threads] */
+  uint32_t tps;
+  struct trax_clocks clocks;
+  struct thread *thread; /* [thread] */
   struct word **pages;
   size_t page_count;
   struct site *sites;
   size_t site_count, site_capacity;
   struct trax_map site_of; /* by the two instructions */
 };
-
-static void drop(struct release **release) {
-  if (*release && --(*release)->uses == 0)
-    free(*release);
-  *release = NULL;
-}
-
-static void join(const struct races *races, uint32_t *clock, const uint32_t *other) {
-  for (uint32_t i = 0; i < races->threads; i++)
-    clock[i] = other[i] > clock[i] ? other[i] : clock[i];
-}
-
-static struct release *copy_of(struct races *races, const uint32_t *clock) {
-  struct release *release = malloc(sizeof *release + races->threads * sizeof *clock);
-  if (!release) {
-    races->reader.explain->out_of_memory = true;
-    return NULL;
-  }
-  release->uses = 1;
-  memcpy(release->clock, clock, races->threads * sizeof *clock);
-  return release;
-}
-
-/* What a thread has loaded before a `fence w` was in memory before what it stores after it. */
-static void fence(struct races *races, uint32_t number, int32_t kind) {
-  struct thread *thread = &races->thread[number];
-  if (kind & TRAX_FENCE_R)
-    join(races, thread->clock, thread->seen);
-  if (!(kind & TRAX_FENCE_W))
-    return;
-  drop(&thread->release);
-  if ((thread->release = copy_of(races, thread->clock)))
-    join(races, thread->release->clock, thread->seen);
-  thread->clock[number]++;
-}
 
 static struct word *word_at(struct races *races, uint32_t address) {
   struct word **page = &races->pages[address >> PAGE_SHIFT];
@@ -131,8 +88,7 @@ static void note(struct races *races, const struct cell *first, const struct cel
 }
 
 static void check(struct races *races, const struct trax_span *span, struct word *word, uint32_t bytes, bool write) {
-  const struct thread *thread = &races->thread[span->thread];
-  const struct cell own = {.clock = thread->clock[span->thread],
+  const struct cell own = {.clock = trax_clock_of(&races->clocks, span->thread),
                            .pc = span->pc,
                            .thread = (uint16_t)span->thread,
                            .mask = (uint8_t)(((1 << bytes) - 1) << span->issue->address % 4),
@@ -140,38 +96,13 @@ static void check(struct races *races, const struct trax_span *span, struct word
   struct cell *place = NULL; /* an empty one, or one whose races with later accesses are this access's, too */
   for (unsigned i = 0; i < CELLS; i++) {
     struct cell *it = &word->cells[i];
-    const bool is_ordered = it->clock <= thread->clock[it->thread];
+    const bool is_ordered = trax_clocks_know(&races->clocks, span->thread, it->thread, it->clock);
     if (!is_ordered && it->mask & own.mask && is_race(word, it, &own))
       note(races, it, &own, span->issue);
     if (!place && is_ordered && (write || !it->write) && !(it->mask & ~own.mask))
       place = it;
   }
   *(place ? place : &word->cells[word->next++ % CELLS]) = own;
-}
-
-static void store(struct races *races, uint32_t thread, struct word *word) {
-  struct release *release = races->thread[thread].release;
-  if (word->release == release)
-    return;
-  drop(&word->release);
-  if ((word->release = release))
-    release->uses++;
-}
-
-/* A store to a part of a word, or an increment: what the word passes on is not replaced. */
-static void add_to(struct races *races, uint32_t thread, struct word *word) {
-  const struct release *release = races->thread[thread].release;
-  if (!word->release)
-    store(races, thread, word);
-  if (!release || word->release == release)
-    return;
-  if (word->release->uses > 1) {
-    struct release *const copy = copy_of(races, word->release->clock);
-    drop(&word->release);
-    word->release = copy;
-  }
-  if (word->release)
-    join(races, word->release->clock, release->clock);
 }
 
 /* Follows calls of the library's atomic operations, which copy wide objects under a lock. */
@@ -191,10 +122,11 @@ static void follow(struct races *races, const struct trax_span *span) {
 static void add_span(void *self, const struct trax_span *span) {
   struct races *races = self;
   const trax_op_info *op = &trax_op_table[span->inst.op];
+  races->reader.explain->out_of_memory |= races->clocks.out_of_memory;
   if (!span->issue || races->reader.explain->out_of_memory)
     return;
   if (span->inst.op == TRAX_OP_FENCE) {
-    fence(races, span->thread, span->inst.imm);
+    trax_clocks_fence(&races->clocks, span->thread, span->inst.imm);
     return;
   }
   if (span->inst.op == TRAX_OP_JAL || span->inst.op == TRAX_OP_JALR)
@@ -213,19 +145,20 @@ static void add_span(void *self, const struct trax_span *span) {
   if (op->flags & TRAX_IS_ATOMIC)
     races->thread[span->thread].increments[span->inst.rd] = span->issue->address;
   if (op->flags & TRAX_IS_ATOMIC || (write && op->access_bytes < 4))
-    add_to(races, span->thread, word);
+    trax_clocks_add(&races->clocks, span->thread, &word->release);
   else if (write)
-    store(races, span->thread, word);
-  else if (past_cache && word->release)
-    join(races, races->thread[span->thread].seen, word->release->clock);
+    trax_clocks_store(&races->clocks, span->thread, &word->release);
+  else if (past_cache)
+    trax_clocks_load(&races->clocks, span->thread, word->release);
 }
 
 static void add_arrival(void *self, const struct trax_arrival *arrival) {
   struct races *races = self;
-  struct thread *thread = &races->thread[arrival->tm * races->tps + arrival->tp];
-  const struct word *word = thread->increments[arrival->rd] ? word_at(races, thread->increments[arrival->rd]) : NULL;
-  if (word && word->release)
-    join(races, thread->seen, word->release->clock);
+  const uint32_t thread = arrival->tm * races->tps + arrival->tp;
+  const uint32_t address = races->thread[thread].increments[arrival->rd];
+  const struct word *word = address ? word_at(races, address) : NULL;
+  if (word)
+    trax_clocks_load(&races->clocks, thread, word->release);
 }
 
 /* --- the report --- */
@@ -271,32 +204,20 @@ static trax_status open_races(void *self, trax_error *error) {
   struct races *races = self;
   races->machine = races->reader.explain->machine;
   races->tps = races->machine->config.chip.tps_per_tm;
-  races->threads = (uint32_t)races->machine->stats.threads;
   races->page_count = (size_t)(races->machine->space.size >> PAGE_SHIFT);
-  if (!(races->pages = trax_explain_array(races->page_count, sizeof *races->pages, error)) ||
-      !(races->thread = trax_explain_array(races->threads, sizeof *races->thread, error)))
-    return TRAX_ERROR;
-  for (uint32_t i = 0; i < races->threads; i++) {
-    if (!(races->thread[i].clock = trax_explain_array(races->threads, sizeof(uint32_t), error)) ||
-        !(races->thread[i].seen = trax_explain_array(races->threads, sizeof(uint32_t), error)))
-      return TRAX_ERROR;
-    races->thread[i].clock[i] = 1;
-  }
-  return TRAX_OK;
+  races->pages = trax_explain_array(races->page_count, sizeof *races->pages, error);
+  races->thread = races->pages ? trax_explain_array(races->machine->stats.threads, sizeof *races->thread, error) : NULL;
+  return races->thread ? trax_clocks_open(&races->clocks, (uint32_t)races->machine->stats.threads, error) : TRAX_ERROR;
 }
 
 static void close_races(void *self) {
   struct races *races = self;
   for (size_t i = 0; races->pages && i < races->page_count; i++) {
     for (size_t k = 0; races->pages[i] && k < WORDS; k++)
-      drop(&races->pages[i][k].release);
+      trax_release_drop(&races->pages[i][k].release);
     free(races->pages[i]);
   }
-  for (uint32_t i = 0; races->thread && i < races->threads; i++) {
-    drop(&races->thread[i].release);
-    free(races->thread[i].clock);
-    free(races->thread[i].seen);
-  }
+  trax_clocks_close(&races->clocks);
   free(races->pages);
   free(races->thread);
   free(races->sites);

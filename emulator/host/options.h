@@ -44,6 +44,8 @@ struct trax_options {
 };
 
 trax_parsed trax_options_parse(struct trax_options *options, int count, char **arguments, trax_error *error);
+/* Checks options that exclude or need each other, or that the engine cannot serve. */
+trax_status trax_options_check_conflicts(const struct trax_options *options, trax_error *error);
 /* Takes the machine's engine if none is named. Error: the named one cannot run the machine, or the machine's cannot serve
    another option. */
 trax_status trax_options_choose_engine(struct trax_options *options, const struct trax_config *config,

@@ -1,4 +1,4 @@
-/* Hints: what the figures of a run say for sure about what limits it, each with the page that explains it. */
+/* Hints: limits of a run that its figures prove, each with the page that explains it. */
 #include "machine/timing.h"
 #include "report/statistics.h"
 

@@ -12,6 +12,7 @@
 #include "sampling/slots.h"
 
 #include "machine/ray_cycles.h"
+#include "sampling/counts.h"
 #include "sampling/estimate.h"
 #include "sampling/plan.h"
 
@@ -21,18 +22,9 @@
 
 enum { LEAST_STEP = 32, MOST_STEP = 2000 }; /* cycles between inspections of the counters */
 
-__extension__ typedef unsigned __int128 trax_wide;
-
 #define FAR 4 /* times the possible draws. The number of needed draws may be wrong, but not by this factor */
 
 enum phase { BEGINNING, WARM_UP, UNIT, LEAD, END };
-
-/* The statistics of a TM and of the memory are arrays of 64-bit counters. */
-enum {
-  TM_WORDS = sizeof(struct trax_tm_stats) / sizeof(uint64_t),
-  MEMORY_WORDS = sizeof(struct trax_memory_stats) / sizeof(uint64_t),
-  RAY_WORDS = sizeof(trax_ray_counts) / sizeof(uint64_t)
-};
 
 struct trax_slots {
   struct trax_run *run;
@@ -46,79 +38,14 @@ struct trax_slots {
   enum phase phase;
   uint32_t target;               /* the place that ends the phase */
   double begun;                  /* the time at which the phase's first slot was handed out */
-  uint64_t counted;              /* the cycle in which `before` was read */
   uint32_t last_place;           /* the place at the latest inspection, */
   uint64_t last_cycle;           /* and its cycle */
   double exact_cycles;           /* length of beginning and end */
   double unit_cycles, unit_cost; /* measured time and expected cost of all units so far */
   uint64_t slots_left_out;
 
-  /* Arrays of all counters: first the TMs', then the TPs' charges, the memory's and, if they are counted, the rays'. */
-  size_t tp_words, memory_words, ray_words, words; /* the first indices of the latter three, and the length */
-  uint64_t *counts;                     /* the allocation of the next three */
-  uint64_t *before, *now, *exact;       /* exact: counted in beginning and end */
-  double *measured; /* counted in units, divided by their expected costs, since costly units are drawn more often */
-  uint64_t exact_counted;  /* cycles of `exact` */
-  double measured_counted; /* cycles of `measured`, weighted alike */
+  struct trax_slot_counts counts;
 };
-
-#define WORD_OF(member) (offsetof(struct trax_tm_stats, member) / sizeof(uint64_t))
-
-/* --- counts --- */
-
-static void read_counts(const struct trax_slots *slots, uint64_t *words) {
-  const struct trax_machine *machine = slots->run->machine;
-  memcpy(words, machine->tm_stats, slots->tp_words * sizeof *words);
-  memcpy(words + slots->tp_words, machine->tp_stats, (slots->memory_words - slots->tp_words) * sizeof *words);
-  memcpy(words + slots->memory_words, &machine->stats.memory, sizeof machine->stats.memory);
-  if (machine->ray_cycles)
-    trax_ray_cycles_sum(machine, *(trax_ray_counts *)(words + slots->ray_words));
-}
-
-static void begin_counts(struct trax_slots *slots, uint64_t t) {
-  trax_run_settle(slots->run, t);
-  read_counts(slots, slots->before);
-  slots->counted = t;
-}
-
-static void add_exact_counts(struct trax_slots *slots, uint64_t t) {
-  trax_run_settle(slots->run, t);
-  read_counts(slots, slots->now);
-  for (size_t i = 0; i < slots->words; i++)
-    slots->exact[i] += slots->now[i] - slots->before[i];
-  slots->exact_counted += t - slots->counted;
-}
-
-static void add_unit_counts(struct trax_slots *slots, double weight, uint64_t t) {
-  trax_run_settle(slots->run, t);
-  read_counts(slots, slots->now);
-  for (size_t i = 0; i < slots->words; i++)
-    slots->measured[i] += weight * (double)(slots->now[i] - slots->before[i]);
-  slots->measured_counted += weight * (double)(t - slots->counted);
-}
-
-/* Sets a part to the rays' counts in `now`, less those in `before` if that is not NULL. */
-static void set_ray_part(const struct trax_slots *slots, struct trax_ray_part *part, const uint64_t *now,
-                         const uint64_t *before) {
-  uint64_t *const counts = part->counts[0];
-  memcpy(counts, now + slots->ray_words, sizeof part->counts);
-  for (size_t i = 0; i < RAY_WORDS && before; i++)
-    counts[i] -= before[slots->ray_words + i];
-  memset(part->rays, 0, sizeof part->rays);
-  for (size_t word = WORD_OF(rays_primary); word < slots->tp_words; word += TM_WORDS)
-    for (unsigned kind = 0; kind < TRAX_RAY_KIND_COUNT; kind++)
-      part->rays[kind] += now[word + kind] - (before ? before[word + kind] : 0);
-}
-
-/* Keeps the rays' counts of the unit that has been measured by `draws` draws. */
-static void add_ray_parts(struct trax_slots *slots, size_t draws, double weight) {
-  struct trax_ray_cycles *rays = slots->run->machine->ray_cycles;
-  for (; rays && draws > 0; draws--) {
-    struct trax_ray_part *part = &rays->parts[rays->part_count++];
-    part->weight = weight;
-    set_ray_part(slots, part, slots->now, slots->before);
-  }
-}
 
 /* --- phases --- */
 
@@ -183,7 +110,7 @@ static void begin_phase(struct trax_slots *slots, double at, uint64_t t, uint32_
     slots->phase = more ? UNIT : END;
     slots->begun = at;
     slots->target = more ? start + slots->plan.asked.unit : UINT32_MAX;
-    begin_counts(slots, t);
+    trax_slot_counts_begin(&slots->counts, t);
     return;
   }
   slots->phase = more ? WARM_UP : LEAD;
@@ -205,8 +132,7 @@ static void end_unit(struct trax_slots *slots, double at, uint64_t t) {
   slots->ratios[slots->done++] = cycles / size;
   while (slots->done < slots->plan.draw_count && slots->plan.draws[slots->done] == slots->plan.draws[slots->done - 1])
     slots->ratios[slots->done++] = cycles / size; /* the same unit was drawn again */
-  add_unit_counts(slots, (double)(slots->done - before) / size, t);
-  add_ray_parts(slots, slots->done - before, 1 / size);
+  trax_slot_counts_add_unit(&slots->counts, slots->done - before, size, t);
 }
 
 /* Returns the cycle of the next inspection: half-way to the one in which the place should reach the target. */
@@ -231,7 +157,7 @@ static void end_phase(struct trax_slots *slots, double at, uint64_t t, uint32_t 
   switch (slots->phase) {
   case BEGINNING:
     slots->exact_cycles = at;
-    add_exact_counts(slots, t);
+    trax_slot_counts_add_exact(&slots->counts, t);
     begin_phase(slots, at, t, n);
     break;
   case UNIT:
@@ -243,7 +169,7 @@ static void end_phase(struct trax_slots *slots, double at, uint64_t t, uint32_t 
     slots->phase = slots->phase == LEAD ? END : UNIT;
     slots->begun = at;
     slots->target = slots->phase == END ? UINT32_MAX : slots->target + slots->plan.asked.unit;
-    begin_counts(slots, t);
+    trax_slot_counts_begin(&slots->counts, t);
     break;
   case END:
     break;
@@ -271,7 +197,6 @@ static trax_status inspect(struct trax_watch *watch, struct trax_run *run, uint6
 
 struct trax_slots *trax_slots_create(struct trax_run *run, const trax_slot_sampling *sampling, trax_error *error) {
   struct trax_machine *machine = run->machine;
-  const uint32_t threads = (uint32_t)machine->stats.threads;
   struct trax_slots *slots = calloc(1, sizeof *slots);
   if (!slots) {
     trax_fail(error, "out of memory");
@@ -282,28 +207,12 @@ struct trax_slots *trax_slots_create(struct trax_run *run, const trax_slot_sampl
     trax_slots_destroy(slots);
     return NULL;
   }
-  slots->tp_words = machine->config.chip.tms * (size_t)TM_WORDS;
-  slots->memory_words = slots->tp_words + (size_t)threads * TRAX_CAUSE_COUNT;
-  slots->ray_words = slots->memory_words + MEMORY_WORDS;
-  slots->words = slots->ray_words + (machine->ray_cycles ? RAY_WORDS : 0);
-  slots->counts = calloc(3 * slots->words, sizeof *slots->counts);
-  slots->measured = calloc(slots->words, sizeof *slots->measured);
   slots->ratios = calloc(slots->plan.most_draws ? slots->plan.most_draws : 1, sizeof *slots->ratios);
-  bool created = slots->counts && slots->measured && slots->ratios;
-  if (machine->ray_cycles) {
-    struct trax_ray_cycles *rays = machine->ray_cycles;
-    rays->parts = calloc(1 + slots->plan.most_draws, sizeof *rays->parts);
-    rays->part_count = 1; /* beginning and end */
-    created &= rays->parts != NULL;
-  }
-  if (!created) {
+  if (!slots->ratios || trax_slot_counts_create(&slots->counts, run, slots->plan.most_draws) != TRAX_OK) {
     trax_fail(error, "out of memory for the counts of sampled slots");
     trax_slots_destroy(slots);
     return NULL;
   }
-  slots->before = slots->counts;
-  slots->now = slots->before + slots->words;
-  slots->exact = slots->now + slots->words;
   slots->target = slots->plan.first;
   slots->watch =
       (struct trax_watch){.next = slots->plan.units ? LEAST_STEP : TRAX_NEVER, .inspect = inspect, .context = slots};
@@ -317,93 +226,8 @@ void trax_slots_destroy(struct trax_slots *slots) {
   trax_machine_unwatch(slots->run->machine, &slots->watch);
   trax_slot_plan_destroy(&slots->plan);
   free(slots->ratios);
-  free(slots->counts);
-  free(slots->measured);
+  trax_slot_counts_destroy(&slots->counts);
   free(slots);
-}
-
-/* The same of the rays' counters, whose parts are kept. */
-static void estimate_rays(struct trax_slots *slots, double factor) {
-  const struct trax_machine *machine = slots->run->machine;
-  struct trax_ray_cycles *rays = machine->ray_cycles;
-  memset(rays->tms, 0, machine->config.chip.tms * sizeof *rays->tms);
-  rays->parts[0].weight = 1;
-  set_ray_part(slots, &rays->parts[0], slots->exact, NULL);
-  for (size_t i = 1; i < rays->part_count; i++)
-    rays->parts[i].weight *= factor;
-  for (unsigned kind = 0; kind < TRAX_RAY_ROWS; kind++)
-    for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++) {
-      double sum = 0;
-      for (size_t i = 0; i < rays->part_count; i++)
-        sum += rays->parts[i].weight * (double)rays->parts[i].counts[kind][cause];
-      rays->tms[0][kind][cause] = (uint64_t)llround(sum);
-    }
-}
-
-/* Estimates the counters of the whole run: those of beginning and end, and those of the units, scaled to all units. */
-static void estimate_counts(struct trax_slots *slots, double cycles) {
-  struct trax_machine *machine = slots->run->machine;
-  const double factor = (cycles - (double)slots->exact_counted) / slots->measured_counted;
-  double charges[TRAX_CAUSE_COUNT];
-#define ESTIMATE(i) ((double)slots->exact[i] + factor * slots->measured[i])
-  for (uint32_t i = 0; i < slots->run->machine->config.chip.tms; i++) {
-    const uint64_t queue_peak = machine->tm_stats[i].queue_peak;
-    for (size_t j = 0; j < TM_WORDS; j++)
-      ((uint64_t *)&machine->tm_stats[i])[j] = (uint64_t)llround(ESTIMATE(i * (size_t)TM_WORDS + j));
-    machine->tm_stats[i].queue_peak = queue_peak;
-  }
-  for (size_t i = 0; i < MEMORY_WORDS; i++)
-    ((uint64_t *)&machine->stats.memory)[i] = (uint64_t)llround(ESTIMATE(slots->memory_words + i));
-  for (uint64_t thread = 0; thread < machine->stats.threads; thread++) {
-    for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
-      charges[cause] = ESTIMATE(slots->tp_words + thread * TRAX_CAUSE_COUNT + cause);
-    trax_estimate_charges(&machine->tp_stats[thread], charges, machine->stats.cycles);
-  }
-  if (machine->ray_cycles)
-    estimate_rays(slots, factor);
-#undef ESTIMATE
-}
-
-/* Scales `kinds` counters of all TMs, at these offsets, so that their sum is `total`. Without a sum, the last one gets
-   it. */
-static void set_total(struct trax_slots *slots, const size_t *offsets, size_t kinds, uint64_t total) {
-  struct trax_machine *machine = slots->run->machine;
-  const uint32_t tms = machine->config.chip.tms;
-  uint64_t sum = 0, passed = 0, given = 0;
-  for (uint32_t i = 0; i < tms; i++)
-    for (size_t kind = 0; kind < kinds; kind++)
-      sum += ((const uint64_t *)&machine->tm_stats[i])[offsets[kind]];
-  for (uint32_t i = 0; i < tms; i++)
-    for (size_t kind = 0; kind < kinds; kind++) {
-      uint64_t *value = &((uint64_t *)&machine->tm_stats[i])[offsets[kind]];
-      passed += *value;
-      const bool last = i + 1 == tms && kind + 1 == kinds;
-      const uint64_t upto = last ? total : sum ? (uint64_t)((trax_wide)total * passed / sum) : 0;
-      *value = upto - given;
-      given = upto;
-    }
-}
-
-/* Sets the rays that are known. Those of a TM are the sum of its kinds, known or not. */
-static void set_rays(struct trax_slots *slots) {
-#define KIND_WORD(X, ID, NAME, ...) WORD_OF(rays_##NAME),
-  static const size_t offsets[] = {TRAX_RAY_KINDS(KIND_WORD, )};
-#undef KIND_WORD
-  struct trax_machine *machine = slots->run->machine;
-  const trax_slot_sampling *asked = &slots->plan.asked;
-  bool known = asked->kinds != NULL;
-  for (unsigned kind = 0; kind < TRAX_RAY_KIND_COUNT && known; kind++) /* the program may call its rays otherwise */
-    for (uint32_t i = 0; i < machine->config.chip.tms; i++)
-      known &= asked->kinds[kind] || !((const uint64_t *)&machine->tm_stats[i])[offsets[kind]];
-  for (unsigned kind = 0; kind < TRAX_RAY_KIND_COUNT && known; kind++)
-    set_total(slots, &offsets[kind], 1, asked->kinds[kind]);
-  if (!known && asked->rays)
-    set_total(slots, offsets, TRAX_RAY_KIND_COUNT, asked->rays);
-  for (uint32_t i = 0; i < machine->config.chip.tms; i++) {
-    machine->tm_stats[i].rays = 0;
-    for (unsigned kind = 0; kind < TRAX_RAY_KIND_COUNT; kind++)
-      machine->tm_stats[i].rays += ((const uint64_t *)&machine->tm_stats[i])[offsets[kind]];
-  }
 }
 
 trax_status trax_slots_finish(struct trax_slots *slots, uint64_t t, trax_error *error) {
@@ -435,7 +259,7 @@ trax_status trax_slots_finish(struct trax_slots *slots, uint64_t t, trax_error *
                      "the program ended before its counter at 0x%08x reached slot %u of %u: the slots are not "
                      "taken by increments of this word",
                      slots->plan.asked.counter, slots->target, slots->plan.asked.slots);
-  add_exact_counts(slots, t);
+  trax_slot_counts_add_exact(&slots->counts, t);
   slots->exact_cycles += (double)t - slots->begun;
   const struct trax_estimate middle =
       trax_estimate_total(slots->ratios, slots->done, slots->plan.sizes[slots->plan.units]);
@@ -446,9 +270,6 @@ trax_status trax_slots_finish(struct trax_slots *slots, uint64_t t, trax_error *
   stats->low = fmax(cycles - half, slots->exact_cycles);
   stats->high = cycles + half;
   stats->detailed_slots -= slots->slots_left_out;
-  estimate_counts(slots, (double)machine->stats.cycles);
-  set_rays(slots);
-  if (slots->plan.asked.items)
-    set_total(slots, &(const size_t){WORD_OF(items)}, 1, slots->plan.asked.items);
+  trax_slot_counts_estimate(&slots->counts, &slots->plan.asked);
   return TRAX_OK;
 }

@@ -1,5 +1,5 @@
-/* Translated bursts: what their code records, and their execution. The first instructions of a sequence record all of
-   its steps at once; what its exits leave of them follows from the number of the burst's steps. */
+/* Translated bursts: the code that records their steps, and their execution. The first instructions of a sequence
+   record all of its steps at once. An exit ends the record by the number of the burst's steps. */
 #include "translate/internal.h"
 
 #include <string.h>

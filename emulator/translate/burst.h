@@ -1,5 +1,5 @@
-/* What a burst of the fast engine records (docs/fast-engine.md), whether it is interpreted (fast/function/burst.c) or
-   translated, and what translated bursts must know of the engine. */
+/* The record of a burst of the fast engine (docs/fast-engine.md), which is interpreted (fast/function/burst.c) or
+   translated, and the facts of the engine that translated bursts depend on. */
 #ifndef TRAX_TRANSLATE_BURST_H
 #define TRAX_TRANSLATE_BURST_H
 
@@ -35,7 +35,7 @@ struct trax_burst {
   struct trax_burst_undo undo[TRAX_BURST];
 };
 
-/* What translated bursts must know. */
+/* The facts that translated bursts depend on. */
 struct trax_burst_facts {
   const uint16_t *step;  /* [instruction]: its step, unless an address decides it */
   const uint64_t *lines; /* [instruction]: a superset of its line, as trax_burst.lines */

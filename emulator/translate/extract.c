@@ -1,5 +1,5 @@
-/* extract-templates OBJECT: writes the templates of an object file (templates.c) as tables in C (template.h). It refuses
-   whatever it does not understand, so a compiler that writes something else fails the build. */
+/* extract-templates OBJECT: writes the templates of an object file (templates.c) as tables in C (template.h). It
+   refuses everything that it does not understand. So the build fails if a compiler writes other code. */
 #define _GNU_SOURCE /* open_memstream */
 #include "translate/template.h"
 
@@ -64,7 +64,7 @@ static Elf_Data *data_of(const struct object *object, size_t section, GElf_Shdr 
   return elf_getdata(scn, NULL);
 }
 
-/* Returns what follows the prefix in a section's name, if it is a section of code with it. */
+/* Returns the rest of a section's name after the prefix; NULL: the section is no code, or has another name. */
 static const char *name_behind(const struct object *object, size_t section, const char *prefix_text) {
   GElf_Shdr header;
   data_of(object, section, &header);

@@ -77,7 +77,7 @@ void trax_emit_template(struct trax_translation *t, const struct trax_template *
     add_stub(t, (struct trax_stub){TRAX_HOLE_COLD, begin, t->at, template, index});
 }
 
-/* Copies the cold part of a template, and leads its hot part there. */
+/* Copies the cold part of a template, and sets the jumps of its hot part to it. */
 void trax_emit_cold(struct trax_translation *t, struct trax_stub stub) {
   const struct trax_template_part *const hot = &stub.template->hot;
   for (unsigned i = 0; i < hot->hole_count; i++)
@@ -89,13 +89,13 @@ void trax_emit_cold(struct trax_translation *t, struct trax_stub stub) {
   emit_part(t, &stub.template->cold, stub.index, stub.place, stub.end);
 }
 
-/* Where a template takes its operands a, b and the earlier value of its result, and leaves the result: ecx, edx, r8d
-   and ecx, or xmm0, xmm1, xmm2 and xmm0. */
+/* The registers of a template's operands a, b and the earlier value of its result: ecx, edx and r8d, or xmm0, xmm1 and
+   xmm2. The result is in ecx or xmm0. */
 static const struct trax_place operands[2][3] = {{{TRAX_INT, 1}, {TRAX_INT, 2}, {TRAX_INT, 8}},
                                                  {{TRAX_FLOAT, 0}, {TRAX_FLOAT, 1}, {TRAX_FLOAT, 2}}};
 
-/* Where the value of one of the thread's registers is, to be moved to a register of the kind `is_float`: its place, or
-   the register in which the instruction before has left it. */
+/* The place from which the value of a register of the thread is moved to a register of the kind `is_float`: its own
+   place, or the register of the previous instruction's result. */
 static struct trax_place source(const struct trax_translation *t, unsigned n, bool is_float, struct trax_result last) {
   if (n == 0)
     return (struct trax_place){TRAX_ZERO, 0};
@@ -103,12 +103,12 @@ static struct trax_place source(const struct trax_translation *t, unsigned n, bo
                                                                                           : t->place[n];
 }
 
-/* What a move costs, in bytes; those between the kinds of registers take several cycles. */
+/* The cost of a move, in bytes. A move between the kinds of registers takes several cycles and costs more. */
 static unsigned move_cost(struct trax_place from, bool is_float) {
   return from.kind == (is_float ? TRAX_INT : TRAX_FLOAT) ? 16 : 4;
 }
 
-/* What the variant v of an instruction's template costs. */
+/* The cost of the variant v of an instruction's template. */
 static unsigned cost(const struct trax_translation *t, const struct trax_decoded *inst, unsigned v,
                      struct trax_result last) {
   const unsigned flags = trax_op_table[inst->op].flags;

@@ -1,4 +1,4 @@
-/* The translator's own: the translation of a program, and its parts' functions. */
+/* Private to the translator: the translation of a program, and the functions of its files. */
 #ifndef TRAX_TRANSLATE_INTERNAL_H
 #define TRAX_TRANSLATE_INTERNAL_H
 
@@ -34,7 +34,7 @@ struct trax_result {
   bool is_float;
 };
 
-/* What follows the hot parts of a sequence: exits, and the cold parts of templates. */
+/* The code behind the hot parts of a sequence: exits, and the cold parts of templates. */
 struct trax_stub {
   enum trax_hole_kind kind;             /* JUMPS, SLOW or COLD */
   uint8_t *place;                       /* that leads to it; COLD: where the hot part begins */
@@ -59,7 +59,7 @@ struct trax_translation {
   uint64_t interpreted; /* sequences */
   uint32_t hot_after;   /* so many times */
   uint64_t first;       /* the first translation is after so many sequences */
-  bool has_frame, ends; /* the first translation is over; there will be no further one */
+  bool has_frame, ends; /* the first translation is done; no further one follows */
   bool is_broken;       /* the code cannot be executed */
 
   struct trax_place place[TRAX_NUM_REGISTERS + 1]; /* of the thread's registers, in all sequences */
@@ -80,7 +80,7 @@ struct trax_translation {
   const uint8_t *distances; /* [TRAX_PIECE]: 0, 1 and so on */
   const uint8_t *pool;
   uint8_t *code, *at;           /* the next byte */
-  const uint8_t *enter, *leave; /* what C calls, and what returns to it */
+  const uint8_t *enter, *leave; /* called by C; returns to C */
 };
 
 /* --- emit.c: code of x86-64 --- */
@@ -112,7 +112,7 @@ void trax_emit_instruction(struct trax_translation *t, size_t index);
 /* Adds `count` to the weight of the registers that an instruction uses, as an integer [0] and as a float [1]. */
 void trax_add_weight(const struct trax_decoded *inst, uint64_t count, uint64_t weight[TRAX_NUM_REGISTERS + 1][2]);
 
-/* --- burst.c: what bursts record --- */
+/* --- burst.c: the records of bursts --- */
 /* Records the `count` instructions from `begin` on as steps, or leaves if the burst has no place for them. Returns the
    beginning of this code. */
 const uint8_t *trax_emit_record(struct trax_translation *t, size_t begin, size_t count);
@@ -120,7 +120,7 @@ const uint8_t *trax_emit_record(struct trax_translation *t, size_t begin, size_t
 void trax_emit_taken(struct trax_translation *t, size_t end, const size_t *target);
 
 /* --- translate.c --- */
-/* Has the sequence that begins with an instruction translated, too. */
+/* Requests the translation of the sequence that begins with an instruction. */
 void trax_translation_add(struct trax_translation *t, size_t index);
 
 /* --- sequence.c --- */

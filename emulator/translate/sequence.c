@@ -49,7 +49,7 @@ static void emit_exit(struct trax_translation *t, size_t begin, size_t end, uint
   trax_emit_word(t, (uint32_t)(end - begin));
 }
 
-/* Goes on with the sequence that begins at `target`, or leaves: eax has its index. */
+/* Continues with the sequence that begins at `target`, or leaves: eax has its index. */
 static void emit_go_to(struct trax_translation *t, size_t target) {
   if (t->entry[target] != t->leave) {
     trax_emit_byte(t, 0xE9); /* jmp entry */
@@ -111,7 +111,7 @@ static void emit_jump_to(struct trax_translation *t, size_t begin, size_t end) {
   emit_leave(t);
 }
 
-/* Writes what follows the sequence that begins at `begin`. */
+/* Writes the exits and cold parts of the sequence that begins at `begin`. */
 static void emit_stubs(struct trax_translation *t, size_t begin) {
   for (unsigned i = 0; i < t->stub_count; i++) {
     const struct trax_stub stub = t->stubs[i];

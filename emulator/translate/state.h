@@ -1,11 +1,11 @@
-/* What translated code works on. */
+/* The state that translated code works on. */
 #ifndef TRAX_TRANSLATE_STATE_H
 #define TRAX_TRANSLATE_STATE_H
 
 #include <stddef.h>
 #include <stdint.h>
 
-/* Where instructions that read groups of registers find them, in `reg`. */
+/* Places in `reg` of the groups of registers that an instruction reads. */
 enum { TRAX_GROUP_A_AT = 32, TRAX_GROUP_B_AT = 48, TRAX_TRANSLATED_REGISTERS = 64 };
 
 struct trax_translated {

@@ -4,11 +4,11 @@
 
 #include "trax/isa.h"
 
-/* What is filled in: where the template goes on, and constants. */
+/* The kinds of holes that are filled in: targets of jumps, and constants. */
 enum trax_hole_kind {
   TRAX_HOLE_GOES_ON, /* behind the hot part, its result in the register of the first operand */
   TRAX_HOLE_JUMPS,   /* to the taken jump */
-  TRAX_HOLE_SLOW,    /* to the exit that has the instruction interpreted */
+  TRAX_HOLE_SLOW,    /* to the exit after which the instruction is interpreted */
   TRAX_HOLE_HOT,     /* to a place of the hot part */
   TRAX_HOLE_COLD,    /* to a place of the cold part */
   TRAX_HOLE_POOL,    /* to a constant of trax_template_pool */

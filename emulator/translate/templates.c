@@ -1,5 +1,5 @@
-/* Templates of translated code: what each instruction does, from its semantics, as a function that extract-templates
-   (extract.c) takes out of the object file at build time. A template receives its operands in registers of the host,
+/* Templates of translated code: each instruction, from its semantics, as a function that extract-templates (extract.c)
+   takes out of the object file at build time. A template receives its operands in registers of the host,
    and ends with a jump to a symbol that stands for the place where the translation goes on: translate.c copies the
    template and fills in these places, the immediate and the pc.
 
@@ -17,7 +17,7 @@
 
 #define TEMPLATE __attribute__((ms_abi)) void
 
-/* Where a template goes on. */
+/* The targets at which a template continues. */
 TEMPLATE trax_goes_on(void);
 TEMPLATE trax_goes_on_int(uint32_t rd);
 TEMPLATE trax_goes_on_float(float rd);

@@ -10,7 +10,7 @@
 
 struct trax_translation;
 
-/* How a run of translated code ended. */
+/* The end of a run of translated code. */
 enum trax_translated_end {
   TRAX_TRANSLATED_JUMPED, /* after a taken jump: to a place that is not translated, or at the end of the instructions */
   TRAX_TRANSLATED_SLOW    /* before an instruction that the interpreter must execute */
@@ -32,8 +32,7 @@ struct trax_translated_burst {
   struct trax_burst *burst;
   uint32_t tm;
   uint32_t input_bytes; /* of trax_space.input: those that are not written */
-  /* What follows the burst: the instruction; TRAX_NO_INDEX: after a jump to pc, which the caller must find and count.
-   */
+  /* out: the instruction after the burst; TRAX_NO_INDEX: after a jump to pc, which the caller must find and count. */
   uint32_t index, pc;
 };
 #define TRAX_NO_INDEX UINT32_MAX

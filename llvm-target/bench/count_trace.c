@@ -1,4 +1,4 @@
-/* How many instructions a program executed, from what qemu's user emulation logs of it on standard input (-d
+/* Counts the instructions of a program, from the log of qemu's user emulation of it on standard input (-d
    in_asm,exec,nochain): a translated block is listed before it is executed for the first time, and each execution is a
    line with its address. */
 #include <inttypes.h>

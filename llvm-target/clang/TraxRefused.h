@@ -16,7 +16,7 @@ namespace trax {
 /// options. Claims options that request what is always so here.
 void refuseOptions(const clang::driver::Driver &D, const llvm::Triple &Triple, const llvm::opt::ArgList &Args);
 
-/// The registers of -ffixed-rN, those alone that can be kept free.
+/// The registers of -ffixed-rN that can be kept free.
 llvm::SmallVector<unsigned, 4> fixedRegisters(const llvm::opt::ArgList &Args);
 
 } // namespace trax

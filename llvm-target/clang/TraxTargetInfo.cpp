@@ -92,7 +92,7 @@ public:
     case 'f': // floats have no registers of their own
       Info.setAllowsRegister();
       return true;
-    case 's': // a symbol, gcc's for all machines
+    case 's': // a symbol, as in gcc for all machines
       return true;
     default:
       return false;

@@ -27,8 +27,8 @@ namespace {
 
 /// A file that this process has opened for writing.
 struct Written {
-  // Own: it was created under a new name; Direct: a device; Removed: an earlier file that LLVM wants gone,
-  // so that what is appended replaces it.
+  // Own: it was created under a new name; Direct: a device; Removed: an earlier file that LLVM has removed, so that the
+  // appended bytes replace it.
   enum State { Own, Direct, Collected, Dropped, Removed };
   std::atomic<State> Now;
   int Memory; // of a collected file: its contents

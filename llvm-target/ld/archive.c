@@ -128,7 +128,7 @@ static bool next_member(reader *reader, member *member) {
   return true;
 }
 
-/* libelf wants its image aligned; members are at even offsets only. */
+/* libelf requires an aligned image, but members are at even offsets. */
 static const uint8_t *aligned(ld_context *ctx, const uint8_t *bytes, size_t size) {
   if ((uintptr_t)bytes % 8 == 0)
     return bytes;

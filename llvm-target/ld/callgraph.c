@@ -9,7 +9,7 @@
 #define RA 1
 #define SP 2
 #define FP 3
-#define RECENT_CALLS 32 /* among which an equal one is looked for */
+#define RECENT_CALLS 32 /* searched for an equal one */
 
 /* --- functions --- */
 

@@ -83,7 +83,7 @@ uintptr_t ld_map_find(const ld_map *map, const void *key, size_t length); /* 0 i
 
 void ld_error(ld_context *ctx, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void ld_warning(ld_context *ctx, const char *format, ...) __attribute__((format(printf, 2, 3)));
-/* Says how many errors the limit kept back. */
+/* Reports how many errors the limit suppressed. */
 void ld_report_suppressed(const ld_context *ctx);
 
 /* The bytes of a regular file of less than 4 GB; false after an error message. */

@@ -246,7 +246,7 @@ static ld_section *read_section(ld_context *ctx, ld_object *object, size_t index
     return NULL;
   }
   if ((section->flags & SHF_EXECINSTR) && section->alignment < 4)
-    section->alignment = 4; /* assembly forgets it, and instructions cannot do without */
+    section->alignment = 4; /* assembly may omit it, but instructions need it */
   if (section->type != SHT_NOBITS) {
     const void *contents;
     size_t size;

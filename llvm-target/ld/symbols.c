@@ -107,7 +107,7 @@ static void constrain(ld_symbol *symbol, uint8_t visibility) {
 static void define(ld_context *ctx, ld_symbol *symbol, ld_symbol fresh) {
   constrain(symbol, fresh.visibility); /* even if another definition counts */
   if (symbol->kind == LD_DEFSYM)
-    return; /* the command line has the last word */
+    return; /* the command line takes precedence */
   int old_strength = strength(symbol), new_strength = strength(&fresh);
   if (old_strength == 3 && new_strength == 3) {
     if (ctx->options.allow_multiple_definition)

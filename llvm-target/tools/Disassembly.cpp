@@ -51,7 +51,7 @@ private:
   };
   std::map<std::string, SourceText> Sources;
 
-  // The section that is being printed, and how far.
+  // The section that is being printed, and the current place in it.
   const Section *Current = nullptr;
   size_t NextSymbol = 0;
   const Symbol *Covering = nullptr; ///< the last symbol at or before the place that is a function, an object or a label
@@ -201,7 +201,7 @@ void Disassembly::printAddress(uint32_t Word) {
   if (Info.flags & TRAX_WRITES_RD)
     Known[Inst.rd] = IsMemory ? std::nullopt : Value;
   if (Info.flags & TRAX_IS_BRANCH)
-    for (unsigned R = 4; R != 20; ++R) // a call or a jump away; what is kept over calls still holds
+    for (unsigned R = 4; R != 20; ++R) // a call or a jump: callee-saved registers keep their values
       if (Inst.op == TRAX_OP_JAL || Inst.op == TRAX_OP_JALR)
         Known[R] = std::nullopt;
 }

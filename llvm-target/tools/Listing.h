@@ -17,7 +17,7 @@ struct ListingOptions {
   bool FileHeader = false, SectionHeaders = false, ProgramHeaders = false;
   bool Symbols = false, Relocations = false, Contents = false;
   bool Disassemble = false;
-  bool Data = false;        ///< with Disassemble: what is not code, too
+  bool Data = false;        ///< with Disassemble: data, too
   bool LineNumbers = false; ///< with Disassemble: places in the source
   bool Source = false;      ///< and the lines themselves
   bool Units = false;       ///< and each instruction's unit and latency
@@ -30,7 +30,7 @@ struct ListingOptions {
 
   /// The lines of a source file; nullopt if it cannot be read.
   std::function<std::optional<std::string>(const std::string &Path)> ReadSource;
-  /// Hears of what does not stop the listing.
+  /// Receives warnings.
   std::function<void(const std::string &Message)> Warning;
 };
 

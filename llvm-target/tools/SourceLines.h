@@ -16,7 +16,7 @@ public:
     uint32_t Line; ///< 0: the instruction belongs to no line
   };
 
-  /// A file without debug information has no lines. Warning hears of what is damaged; what can be read stays.
+  /// A file without debug information has no lines. Damaged tables are reported to Warning, and the rest is read.
   static llvm::Expected<SourceLines> read(const ElfFile &File, llvm::function_ref<void(llvm::Error)> Warning);
 
   /// In an object, the address is an offset in the section; in an executable every section has the same addresses.

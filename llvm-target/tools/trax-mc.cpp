@@ -113,7 +113,8 @@ static bool assemble(const Target &T, Machine &M, raw_pwrite_stream &OS) {
   return !Parser->Run(/*NoInitialTextSection=*/false);
 }
 
-/// Bytes as text, "0x12, 0x34 ..."; '#' starts a comment. One instruction in four bytes; what is none is reported.
+/// Bytes as text, "0x12, 0x34 ..."; '#' starts a comment. Four bytes are one instruction. Bytes that are none are
+/// reported.
 static bool disassemble(const Target &T, Machine &M, raw_pwrite_stream &OS) {
   std::unique_ptr<MCDisassembler> Decoder(T.createMCDisassembler(*M.STI, *M.Ctx));
   std::unique_ptr<MCInstPrinter> Printer(M.createPrinter(T));

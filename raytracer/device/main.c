@@ -6,7 +6,7 @@
    one divider: so comparisons are of integers, planes and edges are tested one by one, and a pixel takes few divisions.
  */
 #if TRAX_EXACT_HITS || defined TRAX_TWIN
-#include "exact.h" /* before all others: instead of their hits */
+#include "exact.h" /* included first, because it replaces the functions of the others */
 #endif
 
 #include "camera.h"

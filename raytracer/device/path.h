@@ -31,7 +31,7 @@
 extern struct trax_buffer paths;
 
 /* With few features a path has little state. It is then kept in the registers and on the stack of one function
-   (TRAX_PATHS_LOCAL; render/specialise.c tries that first), and leaves the caches to the scene. */
+   (TRAX_PATHS_LOCAL; render/program_compile.c tries that first), and leaves the caches to the scene. */
 #ifdef TRAX_PATHS_LOCAL
 #define PATH_STEP static inline __attribute__((always_inline))
 #define LOAD_PATH_AGAIN(path) ((void)0)
@@ -423,7 +423,7 @@ PATH_STEP bool end_sample(const struct trax_render_params *run, struct path *pat
   return false;
 }
 
-/* Keeps little across the calls, because the stack has this frame and the largest of theirs. */
+/* Keeps few values across the calls: the stack holds this frame and the largest of the callees'. */
 static inline void render_path_pixel(const struct trax_render_params *run, struct path *path, struct pixel pixel) {
   path->pixel = pixel.packed;
   path->key = hash_word(pixel.packed ^ hash_word(RUN_PATH(run)->seed));

@@ -1,6 +1,6 @@
-/* Which slot a thread takes next (trax/render_params.h defines slots). A specialised program may have TRAX_QUEUES
-   queues; tile t waits in queue t % TRAX_QUEUES. A TM begins with its own queue, so that with a queue for each TM a
-   tile is rendered through one cache. A thread whose queue is empty goes on with the next one. */
+/* The choice of the next slot of a thread (trax/render_params.h defines slots). A specialised program may have
+   TRAX_QUEUES queues; tile t waits in queue t % TRAX_QUEUES. A TM begins with its own queue, so that with a queue for
+   each TM a tile is rendered through one cache. A thread whose queue is empty goes on with the next one. */
 #ifndef TRAX_DEVICE_SLOTS_H
 #define TRAX_DEVICE_SLOTS_H
 

@@ -77,8 +77,8 @@ struct hit {
   const struct trax_triangle *triangle; /* NULL: nothing was hit */
 };
 
-/* Where along the ray a plane is, as bits. The number of 16 bits is not converted: taken for a float it is a subnormal,
-   the number times 2^-149, which the machine multiplies as any other. */
+/* The bits of the distance along the ray to a plane. The number of 16 bits is not converted: taken for a float it is a
+   subnormal, the number times 2^-149, which the machine multiplies as any other. */
 static inline int plane_bits(const char *plane, float factor, float start) {
   return bits(value(*(const uint16_t *)plane) * factor - start);
 }

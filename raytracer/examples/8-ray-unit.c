@@ -83,7 +83,7 @@ static inline float upper(uint32_t word) {
   return value(word >> 16);
 }
 
-/* Where the ray enters the box, or infinity if it does not do so before `nearest`. */
+/* The distance at which the ray enters the box, or infinity if it does not do so before `nearest`. */
 static inline float enter_box(const struct ray *ray, const uint16_t *planes, float nearest) {
   uint32_t box[3];
   __builtin_memcpy(box, __builtin_assume_aligned(planes, 4), sizeof box);
@@ -92,7 +92,7 @@ static inline float enter_box(const struct ray *ray, const uint16_t *planes, flo
                             upper(box[2]));
 }
 
-/* Where the ray hits the triangle, if that is before `nearest`, else `nearest`. */
+/* The distance at which the ray hits the triangle, if that is before `nearest`, else `nearest`. */
 static inline float hit_triangle(const struct ray *ray, const struct trax_triangle *triangle, float nearest) {
   const float *a = triangle->v0, *b = triangle->v1, *c = triangle->v2;
   return __builtin_trax_triangle(nearest, ray->origin.x, ray->origin.y, ray->origin.z, ray->direction.x,

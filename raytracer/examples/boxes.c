@@ -42,7 +42,7 @@ static inline float min_max(float a, float b, float c) {
 }
 #endif
 
-// Where the ray from o enters the box, as a multiple of its direction, whose reciprocals are r. INFINITY: not before limit.
+// The distance to the box in units of the ray's direction, whose reciprocals are r. INFINITY: not before limit.
 static inline float enter(const struct box *box, struct vector o, struct vector r, float limit) {
   float x0 = (box->low.x - o.x) * r.x, x1 = (box->high.x - o.x) * r.x;
   float y0 = (box->low.y - o.y) * r.y, y1 = (box->high.y - o.y) * r.y;

@@ -79,7 +79,7 @@ class Ladder:
         return picture
 
     def differing(self, one, other, within):
-        """How many pixels differ by more than `within`, and the share of those that do not, in percent."""
+        """The number of pixels that differ by more than `within`, and the share of the others, in per cent."""
         output = subprocess.run([self.bin / "trax-compare", one, other, "--within", str(within), "--at-least", "0"],
                                 stdout=subprocess.PIPE, text=True,
                                 check=True).stdout

@@ -34,7 +34,7 @@ trax_status run_on_host(struct trax_picture *picture, const struct job *job, enu
 
 enum finder { BY_TWIN, BY_EMBREE, WITHOUT_ERROR };
 
-/* Finds what the rays from the eye hit; with holes, behind those. */
+/* Finds the hits of the rays from the eye; with holes, the first that is no hole. */
 static trax_status find_hits(struct trax_hits *hits, const struct job *job, enum finder finder, bool holes,
                              trax_error *error) {
   static const char *const names[] = {"hits", "Embree's hits", "exact hits"};

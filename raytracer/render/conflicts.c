@@ -72,7 +72,7 @@ trax_status options_check(const struct options *options, trax_error *error) {
     return trax_fail(error, "--prepare renders nothing, so there is nothing to show");
   if (!options_rendered(options) &&
       !(options->rays || options->hits || options->ray_trace || options->id_picture || options->write_view)) {
-    for (size_t i = 0; i < options->mesh_count; i++) /* a missing mesh is the greater mistake */
+    for (size_t i = 0; i < options->mesh_count; i++) /* a missing mesh is reported first */
       if (trax_mesh_check(options->meshes[i], error) != TRAX_OK)
         return TRAX_ERROR;
     return trax_fail(error,

@@ -9,7 +9,7 @@
 /* --- with bounds on the errors --- */
 
 struct bounded {
-  double value, error; /* |value - what it stands for| <= error */
+  double value, error; /* |value - exact value| <= error */
 };
 
 /* The sum of the magnitudes of det(a, b, c)'s products. */

@@ -103,8 +103,8 @@ float trax_box_margin(const struct trax_scene_header *header, const float eye[3]
   return (float)(0x1p-18 * distance + 0x1p-22 * magnitude);
 }
 
-/* Of quantised nodes. The traversal's arithmetic has room for cells within 2^-44 and 2^5: more than enough once the
-   scene is normalised, unless the eye is very far away from a very small one. */
+/* The parameters of quantised nodes. The traversal's arithmetic has room for cells within 2^-44 and 2^5: more than
+   enough once the scene is normalised, unless the eye is very far away from a very small one. */
 static trax_status set_grid(struct trax_render_params *params, const struct trax_scene *scene, trax_error *error) {
   params->node_layout = scene->header->node_layout;
   if (!trax_node_formats[params->node_layout].quantised || scene->triangle_count == 0)
@@ -164,10 +164,9 @@ static uint32_t log2_ceiling(uint32_t value) {
   return result;
 }
 
-/* Of 2^log2_side x 2^log2_side pixels, or narrower where the picture is. With s = ceil(log2(across)) and m =
-   floor(2^(31+s) / across)
-   + 1, (2 * tile * m) >> (32 + s) is exactly tile / across while 2 * tile < 2^30: the excess of m over the quotient
-   adds less than 1 / across. */
+/* Sets tiles of 2^log2_side x 2^log2_side pixels, or of fewer columns in a narrower picture. With s =
+   ceil(log2(across)) and m = floor(2^(31+s) / across) + 1, (2 * tile * m) >> (32 + s) is exactly tile / across while 2
+   * tile < 2^30: the excess of m over the quotient adds less than 1 / across. */
 void trax_frame_set_tiles(struct trax_render_params *params, uint32_t log2_side) {
   uint32_t width = log2_ceiling(params->width), height = log2_ceiling(params->height);
   uint32_t shorter = width < height ? width : height;

@@ -25,7 +25,7 @@ bool join_path(char path[TRAX_PATH_SIZE], const char *folder, const char *name, 
 
 bool trax_program_cache(char path[TRAX_PATH_SIZE]) {
   const char *base = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
-  if (base && base[0] == '/') /* others are to be ignored: XDG Base Directory Specification */
+  if (base && base[0] == '/') /* the XDG Base Directory Specification ignores others */
     return join_path(path, base, "trax/programs", "");
   return home && home[0] == '/' && join_path(path, home, ".cache/trax/programs", "");
 }
@@ -44,7 +44,7 @@ bool cache_make_folders(const char *path) {
 
 /* --- entries --- */
 
-/* Behind a program, where ELF has nothing. */
+/* The trailer behind the ELF file. */
 struct seal {
   char magic[16];
   XXH128_canonical_t hash; /* of the program and its key */

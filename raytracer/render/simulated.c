@@ -96,7 +96,7 @@ trax_status trax_simulated_load(trax_machine *machine, const struct trax_frame *
       status = relocate(machine, error);
     trax_device_scene_release(&scene);
   } else if (status == TRAX_OK) {
-    /* Only users' programs have the scene as plain arrays, and some do not have it as the file. */
+    /* Only programs of users read the scene as plain arrays. Some of them do not read the scene file. */
     if (!trax_program_has(machine, "plain_nodes") || trax_program_has(machine, "scene"))
       status = trax_machine_bind(machine, "scene", frame->scene->bytes, (uint32_t)frame->scene->size, error);
     if (status == TRAX_OK)

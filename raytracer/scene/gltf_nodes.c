@@ -76,7 +76,7 @@ static trax_status check_trees(const struct nodes *nodes) {
 
 /* --- transforms: the first three rows of a matrix --- */
 
-/* Of a node: a matrix by columns, or translation, rotation (a quaternion) and scale. */
+/* A node's transform: a matrix by columns, or translation, rotation (a quaternion) and scale. */
 static void own_transform(double m[3][4], const json_t *node) {
   double columns[16], move[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1}, scale[3] = {1, 1, 1};
   if (gltf_numbers(columns, 16, node, "matrix")) {
@@ -180,7 +180,7 @@ static trax_status for_roots(struct nodes *nodes, bool copy) {
   return result;
 }
 
-/* Memory in proportion to the files, however often they have a mesh. */
+/* Limits the memory in proportion to the size of the files: nodes may instance a mesh any number of times. */
 static trax_status allocate(const struct nodes *nodes) {
   enum { BYTES_PER_PRIMITIVE = 1024 };
   struct gltf *gltf = nodes->gltf;

@@ -168,7 +168,7 @@ static trax_status read_inner(struct scene_tree_node *inner, struct reading *rea
                        reading->boxes.path, node, child[i]);
   }
   inner->triangle_count = 0;
-  memcpy(inner->child, child, sizeof child); /* numbers of rows; read_subtree makes places of them */
+  memcpy(inner->child, child, sizeof child); /* numbers of rows; read_subtree replaces them by places */
   return TRAX_OK;
 }
 

@@ -12,12 +12,12 @@ struct polygon {
   double corner[MOST_CORNERS][3];
 };
 
-/* Corners beyond MOST_CORNERS are left out, for want of room. */
+/* At most MOST_CORNERS corners are kept. */
 static void clip(struct polygon *out, const struct polygon *in, int axis, double sign, double plane) {
   out->count = scene_clip_polygon(out->corner, MOST_CORNERS, in->corner, in->count, axis, sign, plane);
 }
 
-/* Do the boxes of its leaves cover a triangle? */
+/* The test whether the boxes of its leaves cover a triangle. */
 
 enum { MOST_COPIES = 1024, MOST_STEPS = 2048 };
 

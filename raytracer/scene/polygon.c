@@ -70,7 +70,7 @@ static bool is_stopped(const struct scene_polygon_work *work) {
   return work->steps >= SCENE_POLYGON_STEPS || scene_is_interrupted(work->interrupt);
 }
 
-/* Polygons of up to this many corners take no steps if they are convex: a file may have any number of them. */
+/* Convex polygons of at most this many corners are not counted as steps: a file may have any number of them. */
 enum { FEW_CORNERS = 1024 };
 
 static const char too_hard[] = "a polygon that takes too long to be cut into triangles; export triangles instead";

@@ -86,7 +86,7 @@ __shared_weak_count *__shared_weak_count::lock() noexcept {
 }
 
 const void *__shared_weak_count::__get_deleter(const type_info &) const noexcept {
-  return nullptr; // there is no type information to ask by
+  return nullptr; // there is no type information to compare with
 }
 
 // --- std::string and numbers

@@ -55,9 +55,9 @@ const struct layout *__trax_heap_prepare(void);
 /* Blocks of whole pages, aligned to a page or more. */
 void *__trax_run_allocate(size_t size, size_t alignment);
 void __trax_run_free(struct page *page, const void *memory);
-/* The block's bytes, after they have become fewer, or more if there is room behind it. */
+/* Resizes a block in place: to fewer bytes, or to more if there is room behind it. Returns its bytes. */
 size_t __trax_run_resize(struct page *page, const void *memory, size_t size);
-/* A page for small blocks, or NULL; and pages that are of no more use. */
+/* Allocates a page for small blocks, or returns NULL; releases pages. */
 struct page *__trax_page_allocate(void);
 void __trax_pages_free(struct page *list);
 

@@ -35,12 +35,13 @@ static void *out_of_memory(void) {
   return NULL;
 }
 
-/* Of a size from 1 to a page. */
+/* The class of a size from 1 to PAGE. */
 static inline unsigned class_of(size_t size) {
   return size <= LEAST * LINEAR ? (unsigned)(size - 1) / LEAST : digits_of((unsigned)size - 1) - (12 - LINEAR);
 }
 
-/* Blocks of a power of two are aligned to it. Few of them are in a word, so that a new page can begin with any word. */
+/* Blocks whose size is a power of two are aligned to it. A word has few of them, so that a new page can begin with any
+   word. */
 static const struct {
   uint16_t size;
   uint8_t shift;
@@ -98,7 +99,7 @@ static void make_spare(struct heap *heap, struct page *page) {
   heap->spares++;
 }
 
-/* Gives back all empty pages of the thread; whether there was one. */
+/* Releases all empty pages of the thread. Returns whether there were any. */
 static int release(struct heap *heap) {
   for (unsigned class = 0; class < CLASSES; class ++)
     if (pages[class] && is_empty(pages[class]))
@@ -108,8 +109,8 @@ static int release(struct heap *heap) {
   return some;
 }
 
-/* After a word was 0, or became 0...01...1: a full page gets into its list; an empty one out of it, unless it is the
-   only one there. */
+/* Called after a word was 0, or became 0...01...1. A page that was full enters its list. A page that is empty leaves
+   it, unless it is the only one there. */
 __attribute__((noinline)) static void freed(struct page *page, unsigned word) {
   if (page->first == WORDS) {
     page->first = (uint8_t)word;
@@ -123,7 +124,7 @@ __attribute__((noinline)) static void freed(struct page *page, unsigned word) {
   make_spare(heap, page);
 }
 
-/* The page of an address, or NULL if it is not in the heap, as far as the thread knows. */
+/* The page of an address. NULL: it is not in the part of the heap that the thread knows. */
 static inline struct page *page_of(const void *memory) {
   const uintptr_t index = ((uintptr_t)memory - (uintptr_t)layout.start) / PAGE;
   return index < layout.pages ? layout.table + index : NULL;
@@ -155,7 +156,7 @@ static inline void give(struct page *page, void *memory) {
     freed(page, word);
 }
 
-/* Takes back what other threads have freed; whether there was something. */
+/* Takes back the blocks that other threads have freed. Returns whether there were any. */
 static int take_back(struct heap *heap) {
   if (!__atomic_load_n(&heap->returned, __ATOMIC_RELAXED))
     return 0;
@@ -218,7 +219,7 @@ static void *take_small(unsigned class) {
   return NULL;
 }
 
-/* What malloc does seldom. Without memory for a page, a block of a larger class may be free. */
+/* The slow path of malloc. If there is no memory for a page, a larger class may have a free block. */
 __attribute__((noinline)) static void *allocate(size_t size) {
   void *memory = NULL;
   if (learn()) {

@@ -1,4 +1,4 @@
-/* Memory on the stack: 512 bytes are all there is. */
+/* Memory on the stack, which has 512 bytes in all. */
 #ifndef TRAX_ALLOCA_H
 #define TRAX_ALLOCA_H
 

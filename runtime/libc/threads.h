@@ -1,5 +1,5 @@
 /* C's threads. The machine's are there from the start: thrd_create gives a function to one that waits for work, with
-   trax-sim --main-on 0, and fails if all are busy. Whoever waits for another thread asks again and again. */
+   trax-sim --main-on 0, and fails if all are busy. Functions that wait poll. */
 #ifndef TRAX_THREADS_H
 #define TRAX_THREADS_H
 

@@ -10,7 +10,7 @@ float hypotf(float x, float y) {
     a = b;
     b = t;
   }
-  if (a >= FLOAT_INFINITY) /* an infinity counts for more than a NaN */
+  if (a >= FLOAT_INFINITY) /* an infinite result takes precedence over a NaN */
     return bits_float(a == FLOAT_INFINITY || b == FLOAT_INFINITY ? FLOAT_INFINITY : FLOAT_NAN);
   if (b == 0)
     return bits_float(a);

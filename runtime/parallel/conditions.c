@@ -86,7 +86,7 @@ int tss_set(tss_t key, void *value) {
   return thrd_success;
 }
 
-/* At the end of a function of thrd_create, or by thrd_exit. */
+/* Called when a function of thrd_create returns, and by thrd_exit. */
 void __trax_tss_end(void) {
   for (int round = 0, again = 1; again && round < TSS_DTOR_ITERATIONS; round++) {
     again = 0;

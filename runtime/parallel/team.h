@@ -15,7 +15,7 @@ unsigned __trax_team_run(void (*function)(void *), void *context, unsigned size)
 /* Lets the other threads wait for work; gives their number. */
 unsigned __trax_team_open(void);
 
-/* Of programs with thrd_create: a waiting thread looks for a function there; whether threads run such functions. */
+/* Only in programs with thrd_create: gives a waiting thread a function to run; whether threads run such functions. */
 __attribute__((weak)) void __trax_errand(void);
 __attribute__((weak)) unsigned __trax_errands(void);
 

@@ -46,7 +46,7 @@ int ungetc(int c, FILE *stream) {
   return result;
 }
 
-/* Copies up to `count` characters, up to `last` if that is a character. Returns how many. */
+/* Copies at most `count` characters, ending with the first `last` if that is a character. Returns how many. */
 static size_t copy(FILE *stream, char *to, size_t count, int last) {
   size_t done = 0;
   while (done < count && (stream->at != stream->end || trax_stream_fill(stream) != EOF)) {

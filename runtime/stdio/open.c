@@ -117,8 +117,8 @@ int fclose(FILE *stream) {
   return result;
 }
 
-/* Standard output is no stream here and stays what it is. Another stream that cannot be opened again is closed, as C
-   has it. */
+/* Standard output is not a stream object here and does not change. Any other stream that cannot be opened again is
+   closed, as C requires. */
 FILE *freopen(const char *restrict path, const char *restrict mode, FILE *restrict stream) {
   unsigned flags;
   int how = read_mode(mode, &flags);

@@ -23,7 +23,7 @@ WEAK int fputc(int c, FILE *stream) {
   return putchar(c);
 }
 
-/* In one step of the host where it can read the string. */
+/* If the host can read the string, it prints it in one call. */
 static void put_string(const char *s) {
   if (machine_is_local(s))
     while (*s)

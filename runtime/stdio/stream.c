@@ -24,7 +24,7 @@ static int fail(FILE *stream, int number) {
   return EOF;
 }
 
-/* Before its first use. Without memory for more, a stream has one character at a time. */
+/* Prepares a stream before its first use. Without memory for a buffer, the buffer is one character. */
 static void need_buffer(FILE *stream) {
   if (stream->buffer)
     return;
@@ -156,7 +156,7 @@ int fflush(FILE *stream) {
 
 /* --- output --- */
 
-/* In one call of the host. */
+/* Writes with one host call. */
 static size_t write_stdout(const char *bytes, size_t count) {
   enum { FEW = 4 };
   trax_lock_output();

@@ -175,6 +175,21 @@ def programs(scratch):
         check(result.returncode == 0 and not result.stderr, name, result.returncode, result.stderr)
 
 
+def releases(scratch):
+    """Words that a thread stores after fences take no memory for each thread of the chip."""
+    source = scratch / "releases.c"
+    source.write_text("""#include <trax.h>
+static volatile unsigned words[100000];
+int main(void) {
+  if (trax_thread() == 0)
+    for (unsigned i = 0; i < 100000; i++) { __atomic_thread_fence(__ATOMIC_RELEASE); words[i] = i; }
+}
+""")
+    status, error, memory = checking.run_measured([BIN / "trax-sim", "--quiet", "--check-races", "--config", "8x64",
+                                                   build(scratch, source)])
+    check(status == 0 and not error and memory < 150e6, "releases", status, error, memory)
+
+
 def picture(scratch):
     subprocess.run([BIN / "trax-render", SOURCE / "tests/render/box.obj", "--size", "40x24", "--config", "2x32",
                     "--quiet", "--prepare", scratch], check=True)
@@ -190,7 +205,7 @@ def refused(scratch):
 
 
 def main():
-    for test in (pairs, message, locks, mixed, programs, picture, refused):
+    for test in (pairs, message, locks, mixed, programs, releases, picture, refused):
         with tempfile.TemporaryDirectory() as scratch:
             test(pathlib.Path(scratch))
     return checking.failures != 0

@@ -1,4 +1,4 @@
-/* How many steps points of the plane stay near 0. */
+/* Counts the steps for which points of the plane stay near 0. */
 #include "../bench.h"
 
 enum { WIDTH = 64, HEIGHT = 48, LIMIT = 100 };

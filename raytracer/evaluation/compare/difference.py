@@ -138,7 +138,7 @@ def shaded(values, width, height):
 
 
 def warnings_of(a, b):
-    """What lets doubt that the runs can be compared."""
+    """Reasons why the runs may not be comparable."""
     found = [note for run in (a, b) for note in run.notes]
     for run in (a, b):
         stats = run.stats

@@ -84,7 +84,7 @@ def print_hashes(tools, paths):
 
 
 class Screen:
-    """What the user sees: lines, and on a terminal a line that changes."""
+    """Prints progress: lines, and on a terminal one line that is rewritten."""
     def __init__(self, quiet):
         self.quiet, self.terminal = quiet, sys.stderr.isatty() and not quiet
 

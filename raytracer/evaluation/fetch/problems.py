@@ -1,4 +1,4 @@
-"""What a source can do wrong."""
+"""The faults of a source."""
 
 
 class Failed(Exception):

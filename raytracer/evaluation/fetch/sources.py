@@ -60,7 +60,7 @@ class Mesh:
         self.sources = [Source(Fields(f"{path}: {self.file}", one, SOURCE_KEYS), path.parent) for one in sources]
 
     def licence(self):
-        """That of the scene whose first mesh it is, with the names to credit."""
+        """The licence of the scene whose first mesh it is, with the names to credit."""
         scenes = (scene for name in installed("scenes") for scene in find_scenes(name, "."))
         return next((scene["licence"] for scene in scenes if self.file == scene["meshes"][0]), "")
 

@@ -289,6 +289,6 @@ def all_figures(results, paper):
 
 
 def _paper_scenes(results):
-    """Those of the paper, measured or not, and others that have runs on several chips."""
+    """The paper's scenes, measured or not, and others that have runs on several chips."""
     chips = {scene: {run.config for run in results.runs if run.scene == scene} for scene in results.scenes()}
     return results.papers + [scene for scene in chips if scene not in results.papers and len(chips[scene]) > 1]

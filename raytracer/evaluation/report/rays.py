@@ -10,7 +10,7 @@ from .table import Table, figure, number, percent, share, words
 
 LINES = [*STYLES, (0, "dot")]  # styles of kinds
 COMPARED = {*SWEEPS, "simd-programs"}
-# Of a kind's thread-cycles, as page.css has the causes of all threads.
+# The parts of a kind's thread-cycles, with the colours that page.css has for causes.
 SHARES = [(10, "issued", "utilisation"), (11, "instruction fetch", "fetch"),
           (12, "data-cache banks and hits", "dcache"), (13, "off-chip memory", "memory"), (14, "shared units", "units"),
           (17, "other waits", "rest")]

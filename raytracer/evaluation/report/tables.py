@@ -231,7 +231,7 @@ def table3(results, paper):
     return Table("table3", "Table 3: 8 and 16 GB/s, million rays per second", columns, rows)
 
 
-# What section 3 says of the machine, and where the configuration has it.
+# The statements of section 3 about the machine, with their keys of the configuration.
 _DESCRIBED = [
     ("clock", "500 MHz", "chip.clock_mhz", 500),
     ("TPs that share an FPU, one adder and one multiplier", "8", "fpu.tps_per_cluster", 8),

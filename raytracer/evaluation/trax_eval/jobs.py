@@ -39,7 +39,7 @@ OF_THE_HOST = ("program", "host_seconds", "instructions_per_host_second")
 
 # --- jobs
 
-MEASURES = ("error", "hits")  # what trax-render tells of a picture, beside the run
+MEASURES = ("error", "hits")  # figures of a picture from trax-render, beside the run
 ENGINES = {"exact": "fast", "quick": "quick"}
 
 
@@ -175,7 +175,7 @@ def run_process(program, command, scratch, on_start):
 
 
 def run_job(out, tools, key, threads=1, on_start=None):
-    """Makes runs/KEY.json, unless it is there. on_start is told each process."""
+    """Makes runs/KEY.json, unless it is there. on_start receives each process that is started."""
     if is_done(out, key):
         return
     job = read_json(out / "jobs" / f"{key}.json")

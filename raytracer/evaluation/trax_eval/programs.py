@@ -123,7 +123,7 @@ def read_program(path):
 
 
 def find_programs(name, beside, sets=True):
-    """Those of a name: one, or those of a set of programs. beside: the folder that relative names of files begin in."""
+    """The programs of a name: one, or those of a set. beside: the folder that relative names of files begin in."""
     path = find_file("programs", name, beside)
     if not path:
         raise unknown("programs", name, "program")

@@ -58,7 +58,7 @@ def reason(error):
 
 
 def try_job(out, tools, key, threads, on_start=None):
-    """The error, or None. It is kept beside the results, for whoever started the job."""
+    """Runs the job. Returns the error, or None. The error is also written beside the results."""
     try:
         run_job(out, tools, key, threads, on_start)
         return None

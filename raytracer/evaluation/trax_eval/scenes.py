@@ -36,7 +36,7 @@ def inline_scene(path, value):
 
 
 def find_scenes(name, beside, sets=True):
-    """Those of a name: one, or those of a set of scenes. beside: the folder that relative names of files begin in."""
+    """The scenes of a name: one, or those of a set. beside: the folder that relative names of files begin in."""
     path = find_file("scenes", name, beside)
     if not path:
         raise unknown("scenes", name, "scene")

@@ -100,7 +100,8 @@ def rows_of_rays(result, statistics):
     whole, *parts = parts_of_rays(result) or [{}]
     cycles = []
     for kind, row in whole.items():
-        # Of a sampled run by the rays of its parts: cycles of a ray vary less from place to place than rays do.
+        # A sampled run has the ratio of its parts: the cycles of a ray vary less from place to place than the number of
+        # rays.
         rays, spent = (math.fsum(part[kind][name] for part in parts or [whole]) for name in ("rays", "thread_cycles"))
         cycles.append(row | {"mrps": ratio(rate * rays, spent)})
     return [
