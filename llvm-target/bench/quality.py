@@ -2,6 +2,7 @@
 """How good is the code? Our clang against Debian's clang-19 for 32-bit RISC-V.
 
     llvm-target/bench/quality.py --build build [KERNEL...]       executed instructions, kernel by kernel
+    llvm-target/bench/quality.py --build build --short           the same, against the column without contraction alone
     llvm-target/bench/quality.py --build build --compile-time    seconds for the ray tracer's program
     llvm-target/bench/quality.py --build build --code-size       bytes of the ray tracer's program and of the library
 
@@ -37,6 +38,7 @@ from machines import (BENCH, COMMON, ROOT, Failure, Host, Riscv, Trax, build_and
 
 GEOMETRIC_MEAN_LIMIT = 0.87
 ZBB_LIMIT = 0.93
+STRICT_LIMIT = 0.83  # without contraction: what --short requires of the mean
 SECOND_LIMIT = 1.00  # -O2 against -O2
 KERNEL_LIMIT = 1.05  # without contraction
 COMPILE_TIME_LIMIT = 1.30
@@ -49,14 +51,14 @@ RAY_TRACER = ROOT / "raytracer/device/main.c"
 @dataclass
 class Row:
     """Executed instructions of a kernel: ours and RISC-V's, the latter without contraction and with Zbb, and both at
-    -O2."""
+    -O2. --short measures the first two."""
 
     ours: int
-    theirs: int
     strict: int
-    bits: int
-    ours2: int
-    theirs2: int
+    theirs: int = 0
+    bits: int = 0
+    ours2: int = 0
+    theirs2: int = 0
 
     @property
     def ratio(self):
@@ -74,31 +76,35 @@ class Row:
 class Comparison:
     """Every machine that a kernel is run on."""
 
-    def __init__(self, build, work):
+    def __init__(self, build, work, short):
+        self.short = short
         self.trax = Trax(build, work)
-        self.riscv = Riscv(build, work)
         self.riscv_strict = Riscv(build, work, "riscv-strict", ["-ffp-contract=off"])
-        self.riscv_zbb = Riscv(build, work, "riscv-zbb", extensions="_zbb")
         self.host = Host(work, "host")
         check_counter(self.trax)
-        check_counter(self.riscv)
+        check_counter(self.riscv_strict)
+        if not short:
+            self.riscv = Riscv(build, work)
+            self.riscv_zbb = Riscv(build, work, "riscv-zbb", extensions="_zbb")
 
     def measure(self, source):
         """Return executed instructions of one repetition: a Row."""
         ours, our_count = measure_kernel(self.trax, source)
-        theirs, their_count = measure_kernel(self.riscv, source)
         strict, strict_count = measure_kernel(self.riscv_strict, source)
+        expected = build_and_run(self.host, source, "2")[:2]
+        exact = build_and_run(self.host, source, "2", "exact")[:2]
+        check_equal(source, self.trax, ours, exact)
+        check_equal(source, self.riscv_strict, strict, expected)
+        if self.short:
+            return Row(our_count, strict_count)
+        theirs, their_count = measure_kernel(self.riscv, source)
         bits, bits_count = measure_kernel(self.riscv_zbb, source)
         ours2, our_count2 = measure_kernel(self.trax, source, "-O2")
         theirs2, their_count2 = measure_kernel(self.riscv, source, "-O2")
-        expected = build_and_run(self.host, source, "2")[:2]
-        exact = build_and_run(self.host, source, "2", "exact")[:2]
-        for found in (ours, ours2):
-            check_equal(source, self.trax, found, exact)
-        check_equal(source, self.riscv_strict, strict, expected)
+        check_equal(source, self.trax, ours2, exact)
         for found in (theirs, bits, theirs2):
             check_contracted(source, self.riscv, found, expected)
-        return Row(our_count, their_count, strict_count, bits_count, our_count2, their_count2)
+        return Row(our_count, strict_count, their_count, bits_count, our_count2, their_count2)
 
 
 def check_equal(source, machine, found, expected):
@@ -157,15 +163,28 @@ def report_instructions(required, missing, rows):
     return good
 
 
+def report_short(sources, rows):
+    """Print our instructions beside those without contraction; return whether ours are few enough."""
+    for source, row in zip(sources, rows):
+        mark = "*" if row.strictly > KERNEL_LIMIT else ""
+        print(f"{source.stem:18} {row.ours:10} {row.strict:10} {row.strictly:6.3f}{mark}")
+    mean = geometric_mean([row.strictly for row in rows])
+    print(f"{'geometric mean':40} {mean:6.3f}; required: at most {STRICT_LIMIT}, no kernel above {KERNEL_LIMIT} (*)")
+    return mean <= STRICT_LIMIT and all(row.strictly <= KERNEL_LIMIT for row in rows)
+
+
 def compare_instructions(options, work):
-    sources = {path.stem: path for folder in ("kernels", "missing") for path in sorted((BENCH / folder).glob("*.c"))}
+    folders = ("kernels",) if options.short else ("kernels", "missing")
+    sources = {path.stem: path for folder in folders for path in sorted((BENCH / folder).glob("*.c"))}
     unknown = [name for name in options.kernels if name not in sources]
     if unknown:
         raise Failure(f"no kernel '{unknown[0]}'; there are {', '.join(sources)}")
     chosen = [source for name, source in sources.items() if not options.kernels or name in options.kernels]
-    comparison = Comparison(options.build, work)
+    comparison = Comparison(options.build, work, options.short)
     with ThreadPoolExecutor(options.jobs) as pool:
         counts = list(pool.map(comparison.measure, chosen))
+    if options.short:
+        return report_short(chosen, counts)
     required = [source for source in chosen if source.parent.name == "kernels"]
     return report_instructions(required, chosen[len(required):], counts)
 
@@ -229,6 +248,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("kernels", nargs="*", metavar="KERNEL", help="measure these only (default: all)")
     parser.add_argument("--build", type=Path, required=True, help="the build folder")
+    parser.add_argument("--short", action="store_true", help="against the column without contraction alone")
     parser.add_argument("--compile-time", action="store_true", help="compare compile times instead")
     parser.add_argument("--code-size", action="store_true", help="compare code sizes instead")
     parser.add_argument("--runs", type=int, default=15, help="of each compiler, for --compile-time (default: 15)")

@@ -32,35 +32,44 @@ __attribute__((noinline)) static void change(atomic_int *p, int by) {
   *p += by;
 }
 
+/* All threads begin together: if one ends before the next one begins, changes that are not atomic lose nothing. */
+#define TOGETHER(...)                                                                                                  \
+  do {                                                                                                                 \
+    meet(++meetings);                                                                                                  \
+    for (int i = 0; i < ROUNDS; i++) {                                                                                 \
+      __VA_ARGS__;                                                                                                     \
+    }                                                                                                                  \
+  } while (0)
+
+static void next_triple(void) {
+  struct triple old = atomic_load(&shared), fresh;
+  if (old.a + 1 != old.b || old.b + 1 != old.c)
+    __sync_fetch_and_add(&swaps_lost, 1);
+  do
+    fresh = (struct triple){old.a + 1, old.b + 1, old.c + 1};
+  while (!atomic_compare_exchange_weak(&shared, &old, fresh));
+}
+
 int main(void) {
   const int thread = (int)trax_thread();
+  unsigned meetings = 0;
   if (thread == 0)
     atomic_store(&shared, start);
-  meet(1);
-  for (int i = 0; i < ROUNDS; i++) {
-    counted++;
-    up_and_down++;
-    up_and_down--;
-    change(&up_and_down, -1);
-    bytes[thread % 4]++;
-    halves[thread % 2] += 3;
-    wide += 1ull << 31;
-    sum += 0.5f;
-    wide_sum += 0.25;
-    struct triple old = atomic_load(&shared), fresh;
-    if (old.a + 1 != old.b || old.b + 1 != old.c)
-      __sync_fetch_and_add(&swaps_lost, 1);
-    do
-      fresh = (struct triple){old.a + 1, old.b + 1, old.c + 1};
-    while (!atomic_compare_exchange_weak(&shared, &old, fresh));
-  }
+  TOGETHER(counted++);
+  TOGETHER(up_and_down++, up_and_down--, change(&up_and_down, 1));
+  TOGETHER(bytes[thread % 4]++);
+  TOGETHER(halves[thread % 2] += 3);
+  TOGETHER(wide += 1ull << 31);
+  TOGETHER(sum += 0.5f);
+  TOGETHER(wide_sum += 0.25);
+  TOGETHER(next_triple());
   /* A store between the halves of a read-modify-write would be undone by it. */
   if (thread == 7)
     atomic_store(&published, 1 << 20);
   else
     for (int i = 0; i < ROUNDS; i++)
       atomic_fetch_or(&published, 1 << thread % 20);
-  meet(2);
+  meet(++meetings);
   if (thread)
     return 0;
   struct triple end = shared;

@@ -12,7 +12,7 @@
 #include <string.h>
 #include <trax.h>
 
-enum { SLOTS = 12, STEPS = 160, BOXES = 16 };
+enum { SLOTS = 12, STEPS = 100, BOXES = 16 };
 
 struct block {
   unsigned char *memory;

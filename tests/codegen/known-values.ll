@@ -1,9 +1,11 @@
-; A value that a branch has found to be 0 need not be set to 0.
+; A phi takes a value that a branch has found to be a constant, not the constant: no register is set to it.
 ; RUN: %trax_llc -O2 %s -o - | FileCheck %s
 
 ; CHECK-LABEL: known:
-; CHECK-NOT: li r
-; CHECK: ret
+; CHECK: beqz r4, [[END:.LBB[0-9_]+]]
+; CHECK-NEXT: lw r4, 0(r5)
+; CHECK-NEXT: [[END]]:
+; CHECK-NEXT: ret
 define i32 @known(i32 %a, ptr %p) {
 entry:
   %zero = icmp eq i32 %a, 0

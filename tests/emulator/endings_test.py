@@ -353,9 +353,8 @@ class Progress(unittest.TestCase):
         return written.decode()
 
     def test_line(self):
-        with open("items.c", "w") as file:
-            file.write(self.SOURCE)
-        subprocess.run([f"{BIN}/clang", "--target=trax", "-O1", "-o", "forever.elf", "items.c"], check=True)
+        subprocess.run([f"{BIN}/clang", "--target=trax", "-O1", "-o", "forever.elf", "-x", "c", "-"], check=True,
+                       input=self.SOURCE, text=True)
         for engine in ENGINES:
             text = self.on_a_terminal("--engine", engine, "--progress-total", "100000000", "forever.elf")
             shown, _, message = text.rpartition("\r\033[K")  # the line goes before the message comes
@@ -375,7 +374,6 @@ class Progress(unittest.TestCase):
                 self.assertGreater(float(figures[-1][1]), 0)
         self.assertNotIn("million",
                          self.on_a_terminal("--quiet", "--progress-total", "100000000", "forever.elf", seconds=0.5))
-        os.remove("items.c")
 
     def test_summary(self):
         """The line at the end, on a terminal alone."""

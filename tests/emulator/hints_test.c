@@ -58,21 +58,25 @@ static void test_adders(void **state) {
   config.fpu.adders_per_cluster = 2; /* half as busy */
   assert_int_equal(hints(&stats, &config, ""), 0);
   config.fpu.adders_per_cluster = 1;
-  stats.total.fp_mul_ops = busy(0.66);
-  assert_int_equal(hints(&stats, &config, ""), 0);
-  stats.total.fp_mul_ops = 0;
-  stats.total.fp_add_ops = busy(0.9) - 1;
-  assert_int_equal(hints(&stats, &config, ""), 0);
+  for (unsigned comparisons = 0; comparisons < 2; comparisons++) { /* of either rule */
+    config.fpu.compare_units = comparisons == 0;
+    stats.total.fp_add_ops = busy(0.9);
+    stats.total.fp_mul_ops = busy(0.65) + 1;
+    assert_int_equal(hints(&stats, &config, ""), 0);
+    stats.total.fp_mul_ops = 0;
+    stats.total.fp_add_ops = busy(0.9) - 1;
+    assert_int_equal(hints(&stats, &config, ""), 0);
+  }
 }
 
 static void test_multipliers(void **state) {
   (void)state;
   struct trax_config config;
   struct trax_stats stats = quiet_run(&config);
-  stats.total.fp_mul_ops = busy(0.95);
-  stats.total.fp_add_ops = busy(0.7);
-  assert_int_equal(hints(&stats, &config, "multipliers are 95 % busy, the adders 70 %"), 1);
-  stats.total.fp_add_ops = busy(0.71);
+  stats.total.fp_mul_ops = busy(0.9);
+  stats.total.fp_add_ops = busy(0.65);
+  assert_int_equal(hints(&stats, &config, "multipliers are 90 % busy, the adders 65 %"), 1);
+  stats.total.fp_add_ops++;
   assert_int_equal(hints(&stats, &config, ""), 0);
   stats.total.fp_add_ops = 0;
   stats.total.fp_mul_ops = busy(0.9) - 1;

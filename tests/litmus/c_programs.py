@@ -51,7 +51,7 @@ def result(options, model, machine, binary, seed=None):
     tms, tps = machine.split("x")
     environment = os.environ | ({} if seed is None else {"TRAX_SEED": seed})
     done = subprocess.run([os.path.join(options.build, "tests", "bin", model), "--tms", tms, "--tps", tps,
-                           "--memory-mib", "64", "--limit", str(LIMIT), binary],
+                           "--memory-mib", str(options.memory_mib), "--limit", str(LIMIT), binary],
                           env=environment, capture_output=True, check=False)
     return done.returncode, done.stdout, done.stderr.decode(errors="replace").replace("trax-isa-model", "")
 
@@ -89,6 +89,7 @@ def main():
     parser.add_argument("--seeds", default="0", help="of the model's random orders")
     parser.add_argument("--level", default="-O2", choices=["-O0", "-O1", "-O2", "-O3", "-Os", "-Oz"])
     parser.add_argument("--only", default="", help="programs whose names match")
+    parser.add_argument("--memory-mib", type=int, default=64, help="a program fills what is free (default: 64)")
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--verbose", action="store_true")
     arguments = sys.argv[1:]

@@ -31,10 +31,10 @@ without_host all.json >all.txt
 cmp -s exact.txt all.txt || fail "--sample-fraction 1: other figures: $(diff exact.txt all.txt | head -n 4)"
 [ "$(number all.json cycles_low)" = "$(number all.json cycles_high)" ] || fail "--sample-fraction 1: an interval"
 
-# --- some of it, on several chips: all nine are within their intervals
-for chip in 1x32 2x32 4x48; do
+# --- some of it, on two chips: all four are within their intervals
+for chip in 1x32 4x48; do
   render exact --size 320x180 --config $chip
-  for seed in 1 2 3; do
+  for seed in 1 2; do
     render some --size 320x180 --config $chip --sampled --sample-fraction 0.2 --sample-seed $seed
     cmp -s exact.png some.png || fail "$chip: the picture is not the twin's"
     for figure in rays primary shadow items; do

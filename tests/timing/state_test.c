@@ -61,12 +61,12 @@ static void each(size_t (*generate)(uint32_t *), unsigned rounds) {
 
 static void own_words(void **state) {
   (void)state;
-  each(any_program, 30);
+  each(any_program, 15);
 }
 
 static void races(void **state) {
   (void)state;
-  each(any_racing_program, 60);
+  each(any_racing_program, 30);
 }
 
 int main(void) {
