@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
-"""What does a sample profile save? The ray tracer's general program with -fprofile-sample-use and without.
+"""What does a profile save? The ray tracer's general program with -fprofile-sample-use and without.
 
-    llvm-target/bench/profiled.py --build build SCENE...
+    llvm-target/bench/profiled.py --build build [--instrumented] SCENE...
+
+--instrumented: with the counters of -fprofile-instr-generate and -fprofile-instr-use instead.
 
 The profile is that of the first scene; each scene is then rendered by both programs on a chip of 4x32. SCENE is a mesh
 or generate:NAME; its view has its name. Pictures must be the same in every bit.
@@ -41,19 +43,30 @@ def render(options, scene, program, work, *more):
     return view, statistics["cycles"], statistics["instructions"], (folder / "image").read_bytes()
 
 
+def profile_use(options, plain, work):
+    """The option of the compiler that reads a profile of the first scene."""
+    if not options.instrumented:
+        render(options, options.scenes[0], plain, work, "--profile-sample", work / "samples")
+        return f"-fprofile-sample-use={work / 'samples'}"
+    counting = build(options, work / "counting.elf", "-mstack=global", "-fprofile-instr-generate=out/main.profraw")
+    render(options, options.scenes[0], counting, work, "--dir", f"{work}::out")
+    run(["llvm-profdata-19", "merge", work / "main.profraw", "-o", work / "main.profdata"])
+    return f"-fprofile-instr-use={work / 'main.profdata'}"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("scenes", nargs="+", metavar="SCENE")
     parser.add_argument("--build", type=Path, required=True, help="the build folder")
     parser.add_argument("--size", default="160x90", help="of the pictures (default: 160x90)")
+    parser.add_argument("--instrumented", action="store_true", help="count in the program, and not by the emulator")
     options = parser.parse_args()
     options.build = options.build.resolve()
     try:
         with tempfile.TemporaryDirectory() as scratch:
             work = Path(scratch)
             plain = build(options, work / "plain.elf")
-            render(options, options.scenes[0], plain, work, "--profile-sample", work / "samples")
-            profiled = build(options, work / "profiled.elf", f"-fprofile-sample-use={work / 'samples'}")
+            profiled = build(options, work / "profiled.elf", profile_use(options, plain, work))
             print(
                 f"{'4x32, ' + options.size:16} {'cycles':>10} {'profiled':>10} {'ratio':>6} {'instructions':>12} "
                 f"{'profiled':>10} {'ratio':>6}"

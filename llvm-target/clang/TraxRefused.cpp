@@ -29,7 +29,6 @@ const Group Groups[] = {
     {{OPT_fsplit_stack}, {OPT_fno_split_stack}},
     {{OPT_femulated_tls}, {OPT_fno_emulated_tls}},
     {{OPT_fprofile_generate, OPT_fprofile_generate_EQ}, {OPT_fno_profile_generate}},
-    {{OPT_fprofile_instr_generate, OPT_fprofile_instr_generate_EQ}, {OPT_fno_profile_instr_generate}},
     {{OPT_fprofile_arcs}, {OPT_fno_profile_arcs}},
     {{OPT_ftest_coverage}, {OPT_fno_test_coverage}},
     {{OPT_fsanitize_coverage}, {}},
@@ -57,6 +56,12 @@ struct Choice {
 };
 const Choice Choices[] = {{OPT_mcpu_EQ, "generic"}, {OPT_march_EQ, "generic"}, {OPT_mtune_EQ, "generic"},
                           {OPT_stdlib_EQ, "libc++"}, {OPT_fuse_ld_EQ, "trax-ld"}};
+
+bool isOpenCL(const Arg &Given) {
+  const StringRef Value = Given.getNumValues() ? Given.getValue() : "";
+  return Given.getOption().matches(OPT_x) ? Value == "cl" || Value == "clcpp"
+                                          : Given.getOption().matches(OPT_INPUT) && Value.ends_with(".cl");
+}
 
 bool isFixedRegister(const Arg &Given) {
   return isOneOf(Given, {OPT_ffixed_r, OPT_ffixed_r9, OPT_ffixed_r19});
@@ -104,6 +109,13 @@ void trax::refuseOptions(const Driver &D, const llvm::Triple &Triple, const ArgL
       Given->claim();
       if (Given->getValue() != Only)
         RefuseValue(*Given, ("is '" + Only + "' only").str());
+    }
+  for (const Arg *Given : Args)
+    if (isOpenCL(*Given)) {
+      D.getDiags().Report(D.getDiags().getCustomDiagID(
+          clang::DiagnosticsEngine::Error,
+          "OpenCL is not supported for target 'trax': write the kernel in C and pass it to trax_parallel_for"));
+      break;
     }
   if (const Arg *Stack = Args.getLastArg(OPT_mstack_EQ))
     if (!llvm::is_contained({StringRef("local"), StringRef("global"), StringRef("either")}, Stack->getValue()))

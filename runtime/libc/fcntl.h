@@ -19,10 +19,29 @@
 #define O_NOCTTY 0
 #define O_SYNC 0
 
+/* Without effect: there is one process, so that all locks are free, and nothing is inherited. Others are EINVAL. */
+#define F_GETFD 1
+#define F_SETFD 2
+#define F_GETFL 3
+#define F_SETFL 4
+#define F_GETLK 7
+#define F_SETLK 8
+#define F_SETLKW 9
+#define FD_CLOEXEC 1
+#define F_RDLCK 1
+#define F_UNLCK 2
+#define F_WRLCK 3
+struct flock {
+  short l_type, l_whence;
+  off_t l_start, l_len;
+  pid_t l_pid;
+};
+
 #ifdef __cplusplus
 extern "C" {
 #endif
 
+int fcntl(int descriptor, int command, ...);
 int open(const char *path, int flags, ...);
 int creat(const char *path, mode_t mode);
 

@@ -9,6 +9,12 @@ typedef unsigned jmp_buf[15];
 
 __attribute__((returns_twice)) int setjmp(jmp_buf environment);
 __attribute__((noreturn)) void longjmp(jmp_buf environment, int value);
+/* Nothing masks signals. */
+typedef jmp_buf sigjmp_buf;
+#define sigsetjmp(environment, mask) setjmp(environment)
+#define siglongjmp longjmp
+#define _setjmp setjmp
+#define _longjmp longjmp
 
 #ifdef __cplusplus
 }

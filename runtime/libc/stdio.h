@@ -27,6 +27,11 @@ extern "C" {
 #endif
 
 typedef struct trax_stream FILE;
+#ifndef TRAX_RUNTIME_STREAM_H
+struct trax_stream { /* what it has is the library's (stdio/stream.h) */
+  int __words[13];
+};
+#endif
 typedef long long fpos_t;
 extern struct trax_stream __trax_stdin, __trax_stderr;
 #define stdin (&__trax_stdin)
@@ -110,6 +115,14 @@ void clearerr(FILE *stream);
 
 int remove(const char *path);
 int rename(const char *from, const char *to);
+/* Not here: their use is an error. */
+FILE *popen(const char *command, const char *mode) __attribute__((unavailable("there are no processes")));
+int pclose(FILE *stream) __attribute__((unavailable("there are no processes")));
+FILE *fmemopen(void *memory, size_t size, const char *mode)
+    __attribute__((unavailable("a stream is a file; use sscanf and snprintf")));
+FILE *open_memstream(char **to, size_t *size)
+    __attribute__((unavailable("a stream is a file; use asprintf, or snprintf and realloc")));
+
 FILE *tmpfile(void);       /* fails: there is no folder for temporary files */
 char *tmpnam(char *name); /* fails */
 

@@ -102,10 +102,16 @@ int posix_memalign(void **memory, size_t alignment, size_t size);
 void *memalign(size_t alignment, size_t size);
 void *reallocarray(void *memory, size_t count, size_t size);
 
-char *getenv(const char *name); /* NULL: there is no environment */
+/* The environment is empty at the start. */
+char *getenv(const char *name);
+int setenv(const char *name, const char *value, int overwrite);
+int unsetenv(const char *name);
+int putenv(char *text);
+int clearenv(void);
 int system(const char *command); /* 0 for NULL: there is no command processor */
 char *realpath(const char *__restrict path, char *__restrict resolved); /* the path as it is, if there is such a file */
 int mkstemp(char *pattern);
+char *mkdtemp(char *pattern);
 
 #ifdef __cplusplus
 }

@@ -51,6 +51,7 @@ char *asctime(const struct tm *parts);
 char *ctime(const time_t *seconds);
 size_t strftime(char *__restrict to, size_t size, const char *__restrict format, const struct tm *__restrict parts);
 double difftime(time_t end, time_t start);
+char *strptime(const char *__restrict text, const char *__restrict format, struct tm *__restrict parts);
 
 #ifdef __cplusplus
 }

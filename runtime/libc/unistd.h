@@ -32,10 +32,15 @@ extern "C" {
 
 ssize_t read(int descriptor, void *memory, size_t size);
 ssize_t write(int descriptor, const void *memory, size_t size);
+/* Like lseek, read or write, and lseek: not by two threads at once. */
+ssize_t pread(int descriptor, void *memory, size_t size, off_t place);
+ssize_t pwrite(int descriptor, const void *memory, size_t size, off_t place);
 int close(int descriptor);
 off_t lseek(int descriptor, off_t offset, int origin);
 int ftruncate(int descriptor, off_t size);
 int fsync(int descriptor);
+int fdatasync(int descriptor);
+int truncate(const char *path, off_t size);
 int isatty(int descriptor);
 int access(const char *path, int mode);
 int unlink(const char *path);
@@ -52,9 +57,29 @@ gid_t getgid(void);
 gid_t getegid(void);
 int gethostname(char *name, size_t size); /* "trax" */
 long sysconf(int name);
+int getpagesize(void);
+ssize_t readlink(const char *__restrict path, char *__restrict to, size_t size); /* fails: EINVAL, of a link ENOSYS */
+extern char **environ;
 /* They wait for so much simulated time. */
 unsigned sleep(unsigned seconds);
 int usleep(useconds_t microseconds);
+
+/* Not here: their use is an error. */
+#define __TRAX_NO_PROCESSES __attribute__((unavailable("there are no processes")))
+pid_t fork(void) __TRAX_NO_PROCESSES;
+pid_t vfork(void) __TRAX_NO_PROCESSES;
+int execv(const char *path, char *const arguments[]) __TRAX_NO_PROCESSES;
+int execve(const char *path, char *const arguments[], char *const environment[]) __TRAX_NO_PROCESSES;
+int execvp(const char *name, char *const arguments[]) __TRAX_NO_PROCESSES;
+int execl(const char *path, const char *argument, ...) __TRAX_NO_PROCESSES;
+int execlp(const char *name, const char *argument, ...) __TRAX_NO_PROCESSES;
+int pipe(int descriptors[2]) __TRAX_NO_PROCESSES;
+#undef __TRAX_NO_PROCESSES
+int dup(int descriptor) __attribute__((unavailable("open the file again")));
+int dup2(int descriptor, int other) __attribute__((unavailable("pass the new descriptor on")));
+unsigned alarm(unsigned seconds) __attribute__((unavailable("nothing interrupts a thread; compare time()")));
+int link(const char *from, const char *to) __attribute__((unavailable("copy the file")));
+int symlink(const char *from, const char *to) __attribute__((unavailable("copy the file")));
 
 #ifdef __cplusplus
 }

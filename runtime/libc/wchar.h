@@ -1,4 +1,5 @@
-/* Wide characters: Unicode, as UTF-8 in multibyte strings. There are no streams of wide characters. */
+/* Wide characters: Unicode, as UTF-8 in multibyte strings. Streams of wide characters read and write UTF-8;
+   a stream takes both kinds, and widths and %n of their formats count bytes. */
 #ifndef TRAX_WCHAR_H
 #define TRAX_WCHAR_H
 
@@ -59,6 +60,30 @@ struct tm;
 size_t wcsftime(wchar_t *__restrict to, size_t size, const wchar_t *__restrict format,
                 const struct tm *__restrict time);
 int wcwidth(wchar_t c); /* 1, 0 for the null character, -1 for control characters */
+
+struct trax_stream;
+int fwide(struct trax_stream *stream, int mode); /* the mode */
+wint_t fgetwc(struct trax_stream *stream);
+wint_t getwc(struct trax_stream *stream);
+wint_t getwchar(void);
+wint_t ungetwc(wint_t c, struct trax_stream *stream);
+wchar_t *fgetws(wchar_t *__restrict to, int size, struct trax_stream *__restrict stream);
+wint_t fputwc(wchar_t c, struct trax_stream *stream);
+wint_t putwc(wchar_t c, struct trax_stream *stream);
+wint_t putwchar(wchar_t c);
+int fputws(const wchar_t *__restrict text, struct trax_stream *__restrict stream);
+int wprintf(const wchar_t *__restrict format, ...);
+int vwprintf(const wchar_t *__restrict format, __builtin_va_list arguments);
+int fwprintf(struct trax_stream *__restrict stream, const wchar_t *__restrict format, ...);
+int vfwprintf(struct trax_stream *__restrict stream, const wchar_t *__restrict format, __builtin_va_list arguments);
+int swprintf(wchar_t *__restrict to, size_t size, const wchar_t *__restrict format, ...);
+int vswprintf(wchar_t *__restrict to, size_t size, const wchar_t *__restrict format, __builtin_va_list arguments);
+int wscanf(const wchar_t *__restrict format, ...);
+int vwscanf(const wchar_t *__restrict format, __builtin_va_list arguments);
+int fwscanf(struct trax_stream *__restrict stream, const wchar_t *__restrict format, ...);
+int vfwscanf(struct trax_stream *__restrict stream, const wchar_t *__restrict format, __builtin_va_list arguments);
+int swscanf(const wchar_t *__restrict text, const wchar_t *__restrict format, ...);
+int vswscanf(const wchar_t *__restrict text, const wchar_t *__restrict format, __builtin_va_list arguments);
 
 wint_t btowc(int c);
 int wctob(wint_t c);

@@ -1,6 +1,7 @@
 /* scanf from streams. */
-#include "scan.h"
 #include "stream.h"
+
+#include "scan.h"
 
 static int get(struct source *from) {
   return stream_get(from->stream);

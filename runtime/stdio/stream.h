@@ -31,6 +31,9 @@ struct trax_stream {
   struct trax_stream *next, **link; /* in the list of open streams */
   unsigned char last_resort[STREAM_BACK + 1];
 };
+#ifdef __trax__
+_Static_assert(sizeof(struct trax_stream) == 13 * 4, "as <stdio.h> has it");
+#endif
 
 extern struct trax_stream *trax_streams;
 extern struct ticket_lock trax_streams_lock;

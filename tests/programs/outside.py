@@ -2,15 +2,17 @@
 """Programs of others, from the sources of Debian's packages, run on trax-sim as on the host: the same standard output,
 exit status and files.
 
-  outside.py --build build --work DIR [--only NAME,...] [--engine fast]
+  outside.py --build build --work DIR [--only NAME,...] [--engine fast] [--speed]
 
 Run on request: it fetches some 10 MB with apt-get, which it gives a list of sources of its own. DIR keeps what was
 fetched and built. The sources are unchanged: each program is built as its authors say, but with another CC, or with the
-toolchain file for CMake. Exit status: 0 if all programs agree."""
+toolchain file for CMake. Exit status: 0 if all programs agree. --speed: instead, the cycles of the first case of each
+program for many threads, on one TP and on its chip."""
 
 import argparse
 import glob
 import hashlib
+import json
 import os
 import pathlib
 import re
@@ -54,6 +56,15 @@ local words = {} for w in io.read("a"):gmatch("%a+") do words[#words + 1] = w en
 table.sort(words) print(table.concat(words, ","))
 print(pcall(error, {1}), os.time{year=2024, month=2, day=29, hour=12}, string.rep("x", 3, "-"))
 os.rename("out.txt", "renamed.txt") os.exit(7)
+"""
+AWK = b"""BEGIN { FS = "[ ,.]+"; srand(3) }
+{ for (i = 1; i <= NF; i++) words[tolower($i)]++ }
+/[aeiou][0-9]/ { matched++ }
+END { for (w in words) if (words[w] > best) best = words[w]
+  print NR, best, matched + 0, substr("abcdef", 2, 3), index("foobar", "bar"), toupper("x"), length(words)
+  text = "foo boo"; print gsub(/o+/, "0", text), text, sprintf("%05.1f|%-4s|%c", 3.14159, "ab", 65)
+  print match("xxabbb", /ab+/), RSTART, RLENGTH
+  n = split("c,a,b", part, ","); print n, part[1], part[3], exp(1), sin(1), int(-3.7), 2 ^ 10, 1e6, 0.1 + 0.2 }
 """
 JAVASCRIPT = b"""function sieve(n) { var p = [], c = []; for (var i = 2; i < n; i++) {
   if (!c[i]) { p.push(i); for (var j = i * i; j < n; j += i) c[j] = 1 } } return p }
@@ -163,6 +174,16 @@ PROGRAMS = [
     Program("brotli", "brotli", "brotli", [
         Case(["-k", "data.txt"]), Case(["-c", "-q", "5"], text(60)),
         Case(["-d", "missing"])], cmake=[], target="brotli", files=DATA),
+    Program("mawk", "mawk", "mawk", [
+        Case(["-f", "script.awk", "data.txt"]),
+        Case(["{ n += length($0) } END { print NR, n; printf \"%s %.3f %d\\n\", \"x\", n / 7, n % 5 }"], text(40)),
+        Case(["BEGIN { while ((getline line < \"data.txt\") > 0) n++; print n; print n > \"out.txt\"; exit 3 }"])], [
+            ["./configure", "--host=riscv32-unknown-elf", "--build=x86_64-linux-gnu", CC, "--with-builtin-regex"],
+            ["make", "mawk"]], files={**DATA, "script.awk": AWK}),
+    Program("gzip", "gzip", "gzip", [
+        Case(["-k", "data.txt"]), Case(["-9c"], text(60)), Case(["-l", "missing.gz"])], [
+            ["./configure", "--host=riscv32-unknown-elf", "--build=x86_64-linux-gnu", CC],
+            ["make", "-C", "lib"], ["make", "version.c", "version.h"], ["make", "gzip"]], files=DATA),
     # --- renderers ---
     Program("tachyon", "tachyon", "compile/linux/tachyon", [
         Case(["scene.dat", "-format", "PPM", "-o", "out.ppm"]),
@@ -177,6 +198,26 @@ PROGRAMS = [
             "LIBS=-fopenmp -L. -ltachyon -lm", "AR=ar", "ARFLAGS=r", "STRIP=true", "RANLIB=ranlib"]],
             files={"scene.dat": SCENE}, noise=rb"\s*Rendering Progress:.*?complete *\r?|[0-9.]+ seconds|.*CPU.*\n",
             chip=CHIP),
+    Program("mksary-openmp", "libdivsufsort", "examples/mksary", [
+        Case(["data.txt", "out.sa"]),
+        Case(["missing", "out.sa"])], cmake=["-DBUILD_SHARED_LIBS=OFF", "-DUSE_OPENMP=ON"], target="mksary",
+            files=DATA, noise=rb"[0-9.]+ sec", chip=CHIP),
+    Program("bwt-openmp", "libdivsufsort", "examples/bwt", [
+        Case(["small.txt", "out.bwt"]),
+        Case(["-b1", "data.txt", "out.bwt"])], cmake=["-DBUILD_SHARED_LIBS=OFF", "-DUSE_OPENMP=ON"], target="bwt",
+            files=DATA, noise=rb"[0-9.]+ sec", chip=CHIP),
+    Program("soxr-openmp", "libsoxr", "examples/3-options-input-fn", [
+        Case(["6", "4", "8", "3", "3"], bytes(i * i % 251 for i in range(8 * 2 * 300)))],
+            cmake=["-DBUILD_SHARED_LIBS=OFF", "-DBUILD_TESTS=OFF", "-DWITH_OPENMP=ON", "-DWITH_CR32S=OFF",
+                   "-DWITH_CR64S=OFF", "-DBUILD_EXAMPLES=ON"],
+            target="3-options-input-fn", chip=CHIP),
+    Program("suftest-openmp", "libdivsufsort", "examples/suftest", [Case(["small.txt"])],
+            cmake=["-DBUILD_SHARED_LIBS=OFF", "-DUSE_OPENMP=ON"], target="suftest", files=DATA,
+            noise=rb"[0-9.]+ sec", chip=CHIP),
+    *(Program(f"{name}-openmp", "libb2", name, [Case([])], [
+        ["sh", "-c", "touch src/config.h"],  # what configure makes is not needed
+        ["sh", "-c", "{cc} -O2 -std=gnu99 -fopenmp -DSUFFIX= -Isrc -o " + f"{name} src/{name}.c src/{name[:8]}.c "
+         f"src/{name[:7]}-ref.c"]], chip=CHIP) for name in ("blake2sp-test", "blake2bp-test")),
     Program(
         "potrace", "potrace", "src/potrace",
         [Case(["-s", "picture.pbm", "-o", "out.svg"]),
@@ -288,6 +329,21 @@ class Workshop:
         return results
 
 
+def speed(shop, program):
+    """A row of a table: cycles of the whole program on one TP, and on the chip."""
+    binary, cycles = shop.make(program, "trax"), []
+    place = shop.work / "speed" / program.name
+    for chip in ((), program.chip):
+        shutil.rmtree(place, ignore_errors=True)
+        place.mkdir(parents=True)
+        for name, contents in program.files.items():
+            (place / name).write_bytes(contents)
+        run([shop.build / "bin" / "trax-sim", "--quiet", "--stats", "stats.json", *chip, "--dir", ".", binary,
+             *program.cases[0].arguments], place, shop.work / "speed.log")
+        cycles.append(json.loads((place / "stats.json").read_text())["cycles"])
+    return f"| {program.name} | {cycles[0]:,} | {cycles[1]:,} | {cycles[0] / cycles[1]:.1f} |"
+
+
 def compare(shop, program):
     """What differs, one line each; nothing if all is equal."""
     begun, differences = time.monotonic(), []
@@ -311,6 +367,7 @@ def main():
     parser.add_argument("--work", type=pathlib.Path, required=True)
     parser.add_argument("--only", default="")
     parser.add_argument("--engine", default="functional")
+    parser.add_argument("--speed", action="store_true")
     options = parser.parse_args()
     shop = Workshop(options.build.resolve(), options.work.resolve(), options.engine)
     chosen = [program for program in PROGRAMS if not options.only or program.name in options.only.split(",")]
@@ -318,6 +375,11 @@ def main():
     if any(not (shop.work / "sources" / program.source / "unpacked").exists() for program in chosen):
         shop.apt("update")
     failed = 0
+    if options.speed:
+        for program in chosen:
+            if program.chip:
+                print(speed(shop, program), flush=True)
+        return
     for program in chosen:
         differences, seconds = compare(shop, program)
         failed += bool(differences)

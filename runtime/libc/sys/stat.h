@@ -64,6 +64,7 @@ int mkdir(const char *path, mode_t mode);
 /* Permissions stay what they are: these do nothing. */
 int chmod(const char *path, mode_t mode);
 int fchmod(int descriptor, mode_t mode);
+int futimens(int descriptor, const struct timespec times[2]); /* files have no times: does nothing */
 mode_t umask(mode_t mask);
 
 #ifdef __cplusplus

@@ -1,0 +1,10 @@
+/* What clang's header does not know: it includes this one. */
+#ifndef TRAX_LIMITS_H
+#define TRAX_LIMITS_H
+
+#define MB_LEN_MAX 4
+#define PATH_MAX 4096
+#define NAME_MAX 255
+#define SSIZE_MAX __INT_MAX__
+
+#endif
