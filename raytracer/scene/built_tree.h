@@ -22,9 +22,9 @@ struct sah_prim;
 struct sah_arguments {
   const struct trax_build_options *options; /* for progress and interrupt */
   const struct trax_mesh *mesh;
-  struct sah_prim *prims;   /* with their boxes and triangles */
-  uint32_t count;           /* of these, at least 1 */
-  size_t capacity;          /* for parts of triangles that are split */
+  struct sah_prim *prims; /* with their boxes and triangles */
+  uint32_t count;         /* of these, at least 1 */
+  size_t capacity;        /* for parts of triangles that are split */
   unsigned max_depth, max_leaf;
   float traversal_cost;
 };

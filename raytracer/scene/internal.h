@@ -353,7 +353,7 @@ struct scene_links {
     uint32_t child[2];  /* SCENE_NO_LINK: it is a leaf */
     uint32_t height;    /* most inner nodes from here to a leaf; of a leaf that will be divided more than 0 */
     double visits;      /* of scene_reinsert: how often a ray is expected here */
-  } * nodes;
+  } __attribute__((aligned(64))) * nodes; /* each in a line of the host's cache */
   uint32_t count, root;
   uint32_t max_depth; /* of inner nodes from the root to a leaf; it is kept */
 };

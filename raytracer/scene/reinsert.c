@@ -8,8 +8,8 @@
    clearing sees little else. So expected visits are summed over random lines through several boxes with equal weights:
    the root's, and smaller ones on the way down to the children with more triangles, each with a quarter of the surface
    of the one before. */
-#include "crew.h"
 #include "reinsert.h"
+#include "crew.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -108,7 +108,8 @@ static void reinsert(const struct improver *improver, uint32_t part, uint32_t pl
 /* --- the order of the parts --- */
 
 /* Sorts the nodes by expected visits, most first, then by number. keys, other: room for as many. */
-static void rank(uint32_t *ranked, uint32_t *other, uint64_t *keys, uint64_t *other_keys, const struct scene_links *links) {
+static void rank(uint32_t *ranked, uint32_t *other, uint64_t *keys, uint64_t *other_keys,
+                 const struct scene_links *links) {
   enum { BITS = 11, SIZE = 1 << BITS };
   for (uint32_t i = 0; i < links->count; i++) {
     memcpy(&keys[i], &links->nodes[i].visits, sizeof keys[i]); /* not negative: ordered as their bits */
@@ -136,9 +137,9 @@ static void rank(uint32_t *ranked, uint32_t *other, uint64_t *keys, uint64_t *ot
 
 /* --- rounds --- */
 
-/* Parts are searched by all threads at once, then moved in order by one. A search that depends on a node that has changed
-   in this round is repeated, so each part is moved as if it were alone. */
-enum { ROUND = 512, STEP = 16 };
+/* Parts are searched by all threads at once, then moved in order by one. A search that depends on a node that has
+   changed in this round is repeated, so each part is moved as if it were alone. */
+enum { ROUND = 1024, STEP = 64 };
 
 struct round {
   struct improver *improver;
@@ -152,10 +153,37 @@ struct round {
   } found[ROUND];
 };
 
+/* Searches go through all of memory: fetches the nodes above the next parts, one level of each at every step. */
+enum { AHEAD = 16 };
+
+struct fetcher {
+  uint32_t nodes[AHEAD], next; /* next: the part that joins */
+};
+
+static inline void fetch_ahead(struct fetcher *fetcher, const struct scene_link *nodes, const uint32_t *parts,
+                               uint32_t count, uint32_t at) {
+  if (fetcher->next < at || at == 0)
+    *fetcher = (struct fetcher){.next = at};
+  for (uint32_t i = 0; i < AHEAD; i++) {
+    const struct scene_link *node = &nodes[fetcher->nodes[i]];
+    for (int c = 0; c < 2 && node->child[0] != SCENE_NO_LINK; c++)
+      __builtin_prefetch(&nodes[node->child[c]]);
+    if (node->parent != SCENE_NO_LINK) {
+      __builtin_prefetch(&nodes[node->parent]);
+      fetcher->nodes[i] = node->parent;
+    }
+  }
+  for (; fetcher->next < at + AHEAD && fetcher->next < count; fetcher->next++) {
+    __builtin_prefetch(&nodes[parts[fetcher->next]]);
+    fetcher->nodes[fetcher->next % AHEAD] = parts[fetcher->next];
+  }
+}
+
 static void search_some(struct scene_worker *worker, void *pointer) {
   struct round *round = pointer;
   const uint32_t number = scene_worker_number(worker);
   struct search *search = &round->searches[number];
+  struct fetcher fetcher = {.next = 0};
   for (;;) {
     const uint32_t first = __atomic_fetch_add(&round->next, STEP, __ATOMIC_RELAXED);
     if (first >= round->count)
@@ -163,6 +191,7 @@ static void search_some(struct scene_worker *worker, void *pointer) {
     for (uint32_t i = first; i < first + STEP && i < round->count; i++) {
       struct found *found = &round->found[i];
       *found = (struct found){SCENE_NO_LINK, search->read_count, 0, number};
+      fetch_ahead(&fetcher, search->links->nodes, round->parts, round->count, i);
       if (round->parts[i] != round->improver->links->root)
         found->place = scene_find_place(search, round->parts[i]);
       found->end = search->read_count;
@@ -210,6 +239,7 @@ static trax_status work_pass(struct round *round, struct scene_crew *crew, const
                              const struct trax_build_options *options, unsigned pass, trax_error *error) {
   struct improver *improver = round->improver;
   struct search *search = &round->searches[0];
+  struct fetcher fetcher = {.next = 0};
   for (uint32_t i = 0; i < count; i += ROUND) {
     round->parts = ranked + i;
     round->count = count - i < ROUND ? count - i : ROUND;
@@ -223,6 +253,7 @@ static trax_status work_pass(struct round *round, struct scene_crew *crew, const
     else
       for (uint32_t k = 0; k < round->count && good; k++) {
         const uint32_t part = round->parts[k];
+        fetch_ahead(&fetcher, improver->links->nodes, round->parts, round->count, k);
         const uint32_t place = part == improver->links->root ? part : scene_find_place(search, part);
         good = place != SCENE_NO_LINK;
         if (good && place != part)
@@ -261,10 +292,8 @@ trax_status scene_reinsert(struct scene_links *links, unsigned passes, struct sc
     rank(ranked, ranked + links->count, keys, keys + links->count, links);
     result = work_pass(round, crew, ranked, links->count, options, pass, error);
   }
-  for (unsigned i = 0; searches && i < threads; i++) {
-    free(searches[i].heap);
+  for (unsigned i = 0; searches && i < threads; i++)
     free(searches[i].read);
-  }
   free(improver.changed), free(round), free(searches), free(keys), free(ranked);
   return result;
 }

@@ -26,8 +26,7 @@ static inline double visits_of(const struct foci *foci, const struct scene_box *
     for (int axis = 0; axis < 3; axis++)
       size[axis] = _mm_sub_pd(_mm_min_pd(max[axis], _mm_load_pd(&foci->max[axis][i])),
                               _mm_max_pd(min[axis], _mm_load_pd(&foci->min[axis][i])));
-    const __m128d inside =
-        _mm_cmpge_pd(_mm_min_pd(size[0], _mm_min_pd(size[1], size[2])), _mm_setzero_pd());
+    const __m128d inside = _mm_cmpge_pd(_mm_min_pd(size[0], _mm_min_pd(size[1], size[2])), _mm_setzero_pd());
     const __m128d area = _mm_add_pd(_mm_add_pd(_mm_mul_pd(size[0], size[1]), _mm_mul_pd(size[1], size[2])),
                                     _mm_mul_pd(size[2], size[0]));
     const __m128d part = _mm_and_pd(_mm_mul_pd(_mm_load_pd(&foci->scale[i]), area), inside);
@@ -48,15 +47,26 @@ static inline struct scene_box join_boxes(const struct scene_box *a, const struc
 
 /* --- reinsert_search.c --- */
 
+/* Limits a search in trees with many overlapping boxes. */
+enum { MOST_LOOKED_AT = 1000 };
+
+struct place {
+  double least; /* the cost that the part adds to the nodes above, if it is inserted beside or below this node */
+  uint32_t node, depth;
+};
+
 /* What one thread needs to search. */
 struct search {
   const struct scene_links *links;
   const struct foci *foci;
-  struct place *heap; /* the least first */
-  size_t heap_count, heap_capacity;
+  union {
+    struct place heap[MOST_LOOKED_AT + 2]; /* the least first; each node looked at is one less and two more */
+    struct place queue[2 * MOST_LOOKED_AT];
+  };
+  size_t heap_count;
   uint32_t *read; /* the nodes that the search depends on, if `records` */
   size_t read_count, read_capacity;
-  bool records, failed; /* failed: out of memory */
+  bool records;
   /* of the current search */
   const struct scene_link *part;
   uint32_t parent, beside; /* of the part; its other child */

@@ -1,16 +1,7 @@
 /* The search for the best place of a part of the tree. */
 #include "reinsert.h"
 
-#include <math.h>
 #include <stdlib.h>
-
-/* Limits a search in trees with many overlapping boxes. */
-enum { MOST_LOOKED_AT = 1000 };
-
-struct place {
-  double least; /* the cost that the part adds to the nodes above, if it is inserted beside or below this node */
-  uint32_t node, depth;
-};
 
 /* --- the heap --- */
 
@@ -18,27 +9,12 @@ static bool comes_before(const struct place *a, const struct place *b) {
   return a->least != b->least ? a->least < b->least : a->node < b->node;
 }
 
-static bool reserve(struct search *search) {
-  if (search->heap_count + 2 <= search->heap_capacity)
-    return true;
-  const size_t capacity = 2 * search->heap_capacity + 256;
-  struct place *heap = realloc(search->heap, capacity * sizeof *heap);
-  if (!heap)
-    return false;
-  search->heap = heap, search->heap_capacity = capacity;
-  return true;
-}
-
-/* False when out of memory. */
-static bool push(struct search *search, struct place place) {
-  if (!reserve(search))
-    return false;
+static void push(struct search *search, struct place place) {
   __builtin_prefetch(&search->links->nodes[place.node]);
   size_t at = search->heap_count++;
   for (; at > 0 && comes_before(&place, &search->heap[(at - 1) / 2]); at = (at - 1) / 2)
     search->heap[at] = search->heap[(at - 1) / 2];
   search->heap[at] = place;
-  return true;
 }
 
 static struct place pop(struct search *search) {
@@ -122,26 +98,24 @@ static inline double cost_beside(const struct search *search, const struct scene
 static bool may_gain(struct search *search, const double *least, double limit) {
   const struct scene_link *nodes = search->links->nodes;
   const double own = search->part->visits;
-  uint32_t looked_at = search->depth + 1;
-  struct place *stack = search->heap;
-  size_t count = 0;
-  for (uint32_t i = 0; i <= search->depth; i++) { /* the other children of the nodes above, and those of the sibling */
-    if (!(least[i + 1] + own < limit))
-      break;
+  struct place *queue = search->queue;
+  uint32_t first = 0, end = 0; /* first in, first out: nodes are in the cache when they are looked at */
+  for (uint32_t i = 0; i <= search->depth && least[i + 1] + own < limit; i++) {
+    /* The other children of the nodes above, and those of the sibling. */
     const struct scene_link *node = &nodes[i < search->depth ? search->above[i].node : search->beside];
     const uint32_t skipped = i == search->depth      ? SCENE_NO_LINK
                              : i + 1 < search->depth ? search->above[i + 1].node
                                                      : search->parent;
-    if (node->child[0] == SCENE_NO_LINK)
-      break;
-    for (int c = 0; c < 2; c++)
-      if (node->child[c] != skipped)
-        stack[count++] = (struct place){least[i + 1], node->child[c], 0};
+    for (int c = 0; c < 2 && node->child[0] != SCENE_NO_LINK; c++)
+      if (node->child[c] != skipped) {
+        __builtin_prefetch(&nodes[node->child[c]]);
+        queue[end++] = (struct place){least[i + 1], node->child[c], 0};
+      }
   }
-  while (count > 0) {
-    const struct place place = stack[--count];
+  while (first < end) {
+    const struct place place = queue[first++];
     const struct scene_link *node = &nodes[place.node];
-    if (!note(search, place.node) || ++looked_at > MOST_LOOKED_AT)
+    if (first > MOST_LOOKED_AT - TRAX_SCENE_MAX_DEPTH || !note(search, place.node))
       return true;
     const bool leaf = node->child[0] == SCENE_NO_LINK;
     if (leaf && place.least + node->visits >= limit)
@@ -149,20 +123,10 @@ static bool may_gain(struct search *search, const double *least, double limit) {
     const double cost = cost_beside(search, &node->box, place.least);
     if (cost < limit)
       return true;
-    if (leaf)
-      continue;
     const double below = cost - node->visits;
-    if (below + own < limit) {
-      search->heap_count = count;
-      if (!reserve(search)) {
-        search->failed = true;
-        return true;
-      }
-      stack = search->heap;
-      for (int c = 0; c < 2; c++) {
-        __builtin_prefetch(&nodes[node->child[c]]);
-        stack[count++] = (struct place){below, node->child[c], 0};
-      }
+    for (int c = 0; c < 2 && !leaf && below + own < limit; c++) {
+      __builtin_prefetch(&nodes[node->child[c]]);
+      queue[end++] = (struct place){below, node->child[c], 0};
     }
   }
   return false;
@@ -174,8 +138,7 @@ static uint32_t find_best(struct search *search, double best_cost) {
   const double own = search->part->visits;
   uint32_t best = search->beside;
   search->heap_count = 0;
-  if (!push(search, (struct place){0, search->depth ? search->above[0].node : search->beside, 0}))
-    return SCENE_NO_LINK;
+  push(search, (struct place){0, search->depth ? search->above[0].node : search->beside, 0});
   for (int looked_at = 0; looked_at < MOST_LOOKED_AT && search->heap_count; looked_at++) {
     const struct place place = pop(search);
     if (place.least + own >= best_cost)
@@ -195,24 +158,17 @@ static uint32_t find_best(struct search *search, double best_cost) {
     const double below = cost - (changed ? above->visits : node->visits);
     for (int i = 0; i < 2 && below + own < best_cost; i++) {
       const uint32_t child = node->child[i] == search->parent ? search->beside : node->child[i];
-      if (!push(search, (struct place){below, child, place.depth + 1}))
-        return SCENE_NO_LINK;
+      push(search, (struct place){below, child, place.depth + 1});
     }
   }
   return best;
 }
 
 uint32_t scene_find_place(struct search *search, uint32_t part) {
-  search->heap_count = 0;
-  double least[TRAX_SCENE_MAX_DEPTH + 3], limit = INFINITY;
+  double least[TRAX_SCENE_MAX_DEPTH + 3], limit;
   bool cheaper = false;
   if (!take_out(search, part))
     return SCENE_NO_LINK;
-  while (search->heap_capacity < 2 * TRAX_SCENE_MAX_DEPTH + 8) {
-    search->heap_count = search->heap_capacity;
-    if (!reserve(search))
-      return SCENE_NO_LINK;
-  }
   /* least[i]: of the node at depth i on the way to the sibling; the sibling's cost is the limit. */
   double costs[TRAX_SCENE_MAX_DEPTH + 1];
   least[0] = 0;
@@ -225,8 +181,5 @@ uint32_t scene_find_place(struct search *search, uint32_t part) {
   least[search->depth + 1] = limit - beside->visits;
   for (uint32_t i = 0; i < search->depth; i++)
     cheaper |= costs[i] < limit;
-  search->failed = false;
-  if (!cheaper && !may_gain(search, least, limit))
-    return search->beside;
-  return search->failed ? SCENE_NO_LINK : find_best(search, limit);
+  return cheaper || may_gain(search, least, limit) ? find_best(search, limit) : search->beside;
 }

@@ -91,6 +91,13 @@ void sah_partition(const struct sah *sah, const struct sah_split *split, const s
 
 /* --- sah_spatial.c --- */
 
+enum { SAH_SPATIAL_BINS = 16 };
+
+/* The bounds of the parts of a primitive between planes, from the bin `first` to `last`; planes[i] is between the bins
+   i - 1 and i. For tests. */
+void sah_find_parts(struct scene_box parts[SAH_SPATIAL_BINS], const struct sah *sah, const struct sah_prim *prim,
+                    int axis, const float *planes, int first, int last);
+
 /* The best spatial split, unless it needs more room than there is or does not cost less than `most`. */
 struct sah_split sah_find_spatial_split(const struct sah *sah, const struct sah_set *set, float most);
 /* Divides the primitives across the plane. set->end grows. */

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { BINS = 16 };
+enum { BINS = SAH_SPATIAL_BINS };
 
 struct spatial_bins {
   struct sah_box boxes[BINS][3];
@@ -193,7 +193,8 @@ static bool cut_at_once(struct cuts *cuts) {
     if (bin < last)
       ranges[bin].max[axis] = cuts->planes[bin + 1];
     for (int k = 0; k < 3; k++)
-      if (!round_outwards(cuts, bin, k, &ranges[bin], k == axis ? 0 : errors[k]))
+      if (!round_outwards(cuts, bin, k, &ranges[bin],
+                          k == axis && (outline->whole || (bin > first && bin < last)) ? 0 : errors[k]))
         return false;
     if (bin > first)
       cuts->box[bin].min[axis] = cuts->planes[bin];
@@ -204,6 +205,16 @@ static bool cut_at_once(struct cuts *cuts) {
 }
 
 /* --- bins --- */
+
+void sah_find_parts(struct scene_box parts[SAH_SPATIAL_BINS], const struct sah *sah, const struct sah_prim *prim,
+                    int axis, const float *planes, int first, int last) {
+  struct outline outline;
+  find_outline(&outline, sah, prim);
+  struct cuts cuts = {.prim = prim, .outline = &outline, .axis = axis, .first = first, .last = last, .planes = planes};
+  if (!cut_at_once(&cuts))
+    cut_one_by_one(&cuts);
+  memcpy(parts, cuts.box, sizeof cuts.box);
+}
 
 static inline struct sah_box as_vectors(const struct scene_box *box) {
   return (struct sah_box){_mm_set_ps(0, box->min[2], box->min[1], box->min[0]),

@@ -12,8 +12,11 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 from mutation import ROOT, Mutant, failure, main, relinked  # noqa: E402
 
 SOURCE = ROOT / "raytracer/scene"
-TREES, READERS = ("scene-scene-test", "scene-layout-test"), ("scene-material-test", "scene-import-test")
-TESTS = {"clip.c": TREES, "splits.c": TREES, "reinsert.c": TREES, "texture.c": READERS[:1], "gltf_reader.c": READERS,
+TREES = ("scene-builder-test", "scene-scene-test", "scene-layout-test")
+READERS = ("scene-material-test", "scene-import-test")
+TESTS = {"clip.c": TREES, "splits.c": TREES, "reinsert.c": TREES, "reinsert.h": TREES,
+         "reinsert_search.c": TREES, "sah.c": TREES, "sah_spatial.c": TREES, "texture.c": READERS[:1],
+         "gltf_reader.c": READERS,
          "gltf_materials.c": READERS[:1], "gltf_meshes.c": READERS, "gltf_nodes.c": READERS}
 SECONDS = 300
 
@@ -25,20 +28,29 @@ MUTANTS = [
     ("splits-never", "splits.c", "#define BOXES_IN_VAIN 2", "#define BOXES_IN_VAIN 1000000"),
     ("splits-always", "splits.c", "#define BOXES_IN_VAIN 2", "#define BOXES_IN_VAIN 0"),
     ("splits-whole-box", "splits.c", "area -= fabs(", "area -= 0 * fabs("),
-    ("one-focus", "reinsert.c", "MOST_FOCI = 8", "MOST_FOCI = 1"),
+    ("one-focus", "reinsert.h", "MOST_FOCI = 8", "MOST_FOCI = 1"),
     ("close-foci", "reinsert.c", "FOCUS_STEP = 4", "FOCUS_STEP = 2"),
     ("foci-of-few", "reinsert.c", "LEAST_OF_TRIANGLES = 16", "LEAST_OF_TRIANGLES = 2"),
     ("smaller-child", "reinsert.c", "b->triangles > a->triangles ? b : a", "b->triangles > a->triangles ? a : b"),
     ("focus-weight", "reinsert.c", "foci->scale[foci->count++] = 1 / area;", "foci->scale[foci->count++] = 1;"),
-    ("short-search", "reinsert.c", "MOST_LOOKED_AT = 1000", "MOST_LOOKED_AT = 10"),
-    ("stale-boxes", "reinsert.c", "  refit_from(search, nodes[beside].parent);\n", ""),
-    ("stale-visits", "reinsert.c", "    node->visits = visits(&search->foci, &box);\n", ""),
-    ("stale-above", "reinsert.c", "  refit_from(search, nodes[parent].parent);\n", ""),
+    ("short-search", "reinsert.h", "MOST_LOOKED_AT = 1000", "MOST_LOOKED_AT = 10"),
+    ("stale-boxes", "reinsert.c", "    refit_from(improver, nodes[beside].parent);\n", ""),
+    ("stale-visits", "reinsert.c", "    node->visits = visits_of(&improver->foci, &box);\n", ""),
+    ("stale-above", "reinsert.c", "    refit_from(improver, nodes[parent].parent);\n", ""),
     ("clip-one-side", "clip.c", "(side ? da >= 0 : da <= 0)", "(side ? da >= 0 : da < 0)"),
-    ("clip-inwards", "clip.c", "step((float)bounds->min[axis], false)", "step((float)bounds->min[axis], true)"),
+    ("clip-inwards", "clip.c", "next_float((float)bounds->min[axis], false)",
+     "next_float((float)bounds->min[axis], true)"),
     ("clip-no-cut", "clip.c", "        add_value(&sides[1], other, value);\n", ""),
-    ("too-deep", "reinsert.c", " && place.depth + 1 + height <= links->max_depth", ""),
-    ("order-of-parts", "reinsert.c", "left->visits > right->visits ? -1 : 1", "left->visits > right->visits ? 1 : -1"),
+    ("too-deep", "reinsert_search.c", "height <= search->links->max_depth", "height <= 64"),
+    ("order-of-parts", "reinsert.c", "    keys[i] = ~keys[i];\n", ""),
+    ("changes-unseen", "reinsert.c", "return newest == improver->round;", "return false;"),
+    ("stale-visits-above", "reinsert_search.c", "changed ? above->visits : node->visits", "node->visits"),
+    ("leaves-unseen", "reinsert_search.c", "place.least + node->visits >= limit",
+     "place.least + node->visits >= 0.9 * limit"),
+    ("parts-uncertain", "sah_spatial.c", "0x1p-48 * largest", "0 * largest"),
+    ("triangles-uncertain", "sah_spatial.c", "0x1p-46 *", "0 *"),
+    ("budget-of-two", "sah_spatial.c", "prim->budget <= 1) {", "prim->budget <= 2) {"),
+    ("overlap", "sah.c", "0.1f * sah_area", "0.11f * sah_area"),
     ("one-pass", "reinsert.c", "pass < passes && result", "pass < 1 && result"),
     ("texture-gamma", "texture.c", "(uint32_t)(255 * sqrtf(scene_clamp_colour(linear)) + 0.5f)",
      "(uint32_t)(255 * scene_clamp_colour(linear) + 0.5f)"),

@@ -15,8 +15,8 @@ import urllib.parse
 from trax_eval.outputs import IsInput, read, write_output
 from trax_eval.util import Problem, check_files, complain
 
-from . import choices, estimates, machines, rays, simd, tables
-from .charts import all_figures
+from . import choices, estimates, machines, own, rays, simd, tables
+from .charts import all_figures, sweep_figure
 from .claims import AGREES, DIFFERS, FITTED, claims, median, table2_deviations
 from .markup import Html, el, join, table
 from .paper import Paper
@@ -25,6 +25,7 @@ from .results import number, read_results
 from .table import seconds
 
 HERE = pathlib.Path(__file__).resolve().parent
+PAPERS_TITLE = "A mobile accelerator for ray tracing: our figures beside the paper's"
 SHORT = {
     "tables": "Tables", "rays": "Rays by kind", "simd": "SIMD", "stalls": "Time", "units": "Hardware",
     "error": "Error and run time"
@@ -161,7 +162,9 @@ class Page:
     def __init__(self, results, paper, base, folder):
         self.results, self.paper, self.base, self.folder = results, paper, base, folder
         self.programs = results.programs()
-        figures = (*all_figures(results, paper), *rays.figures(results, paper), *simd.figures(results))
+        self.own = own.sweeps(results)
+        figures = self.own_figures() if self.own else all_figures(results, paper)
+        figures = (*figures, *rays.figures(results, paper), *simd.figures(results))
         self.drawn = {figure.identity: draw(figure) for figure in figures}
 
     def figures(self, prefix):
@@ -171,18 +174,28 @@ class Page:
     def of_programs(self, make):
         return [table(make(self.results, self.paper, program)) for program in self.programs]
 
+    def own_figures(self):
+        for sweep in self.own:
+            drawn = sweep_figure(self.results, self.paper, sweep, f"sweep-{self.results.sweeps.index(sweep)}")
+            if drawn:
+                yield own.renamed(drawn, sweep)
+
     def sections(self):
         """Yields (identity, title, content)."""
-        results, paper = self.results, self.paper
-        judged = claims(results, paper, self.programs)
-        verdicts = table(tables.claims_table(results, judged, self.programs)) if self.programs else None
-        by_choice = choices.table(results, paper)
-        yield "summary", "Summary", [
-            summary(results, paper, judged), verdicts, *([table(by_choice)] if by_choice else [])
-        ]
-        yield "tables", "The paper's tables", [
-            table(tables.table1(results, paper)), *self.of_programs(tables.table2), table(tables.table3(results, paper))
-        ]
+        if self.own:
+            yield from own.sections(self.own, self)
+            yield from self.kinds_sections()
+        else:
+            yield from self.papers_sections()
+        if not self.own or any(run.done and run.picture and run.size for run in self.results.runs):
+            yield "pictures", "Pictures", [pictures(self.results, self.base)]
+        listed, of_run = configurations(self.results)
+        runs = tables.run_table(self.results, self.paper, linker(self.base, self.folder), of_run)
+        yield "all-runs", "Runs", [table(runs)]
+        yield "configurations", "Configurations", [listed]
+
+    def kinds_sections(self):
+        results = self.results
         if rays.groups(results):
             yield "rays", "Rays by kind", [
                 el("p", rays.EXPLAINED), self.figures("rays-"),
@@ -193,6 +206,19 @@ class Page:
                 el("p", simd.EXPLAINED), self.figures("simd-"), table(simd.best_table(results)),
                 el("details", el("summary", "By kind of ray"), table(simd.kinds_table(results)))
             ]
+
+    def papers_sections(self):
+        results, paper = self.results, self.paper
+        judged = claims(results, paper, self.programs)
+        verdicts = table(tables.claims_table(results, judged, self.programs)) if self.programs else None
+        by_choice = choices.table(results, paper)
+        yield "summary", "Summary", [
+            summary(results, paper, judged), verdicts, *([table(by_choice)] if by_choice else [])
+        ]
+        yield "tables", "The paper's tables", [
+            table(tables.table1(results, paper)), *self.of_programs(tables.table2), table(tables.table3(results, paper))
+        ]
+        yield from self.kinds_sections()
         text = "Speed-up over the same program on 1x32. Where chips have as many threads, each is a mark of its own."
         yield "scaling", "Scaling", [
             el("p", text), self.figures("scaling-"),
@@ -212,11 +238,6 @@ class Page:
             yield "time", "Over time", [el("p", text), self.figures("series-")]
         if shown := list(self.sweeps()):
             yield "sweeps", "Sweeps", [el("div", *shown, class_="sweeps")]
-        yield "pictures", "Pictures", [pictures(results, self.base)]
-        listed, of_run = configurations(results)
-        runs = tables.run_table(results, paper, linker(self.base, self.folder), of_run)
-        yield "all-runs", "Runs", [table(runs)]
-        yield "configurations", "Configurations", [listed]
 
     def sweeps(self):
         """A section for each sweep; the paper's tables have their own."""
@@ -247,13 +268,13 @@ class Page:
         style, script = ((HERE / name).read_text(encoding="utf-8") for name in ("page.css", "page.js"))
         head = el("head", el("meta", charset="utf-8"),
                   el("meta", name="viewport", content="width=device-width, initial-scale=1"),
-                  el("meta", name="color-scheme", content="light dark"), el("title", "Evaluation of trax"),
-                  el("style", Html(style)))
+                  el("meta", name="color-scheme", content="light dark"),
+                  el("title", own.title(self.own) or "Evaluation of trax"), el("style", Html(style)))
         sections = list(self.sections())
         links = (el("a", SHORT.get(identity, title), href="#" + identity) for identity, title, _ in sections)
         body = el(
             "body", el("svg", shapes(), width="0", height="0", aria_hidden="true", class_="shapes"),
-            el("header", el("h1", "A mobile accelerator for ray tracing: our figures beside the paper's"),
+            el("header", el("h1", own.title(self.own) or PAPERS_TITLE),
                el("p", join([part for part in self.about() if part], " · "), class_="about"),
                el("nav", *links, el("button", "Light or dark", type="button", id="theme"))),
             el("main",

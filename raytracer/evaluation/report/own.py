@@ -1,0 +1,191 @@
+"""The page of sweeps that do not come with trax: their own questions, what the figures cost, and why runs failed."""
+
+import pathlib
+import re
+
+from . import tables
+from .charts import CAUSES, STYLES, shares
+from .markup import el, join, table
+from .plots import Bars, Lines, Series, draw
+from .results import ratio
+from .sweeps import TITLES
+from .table import Cell, Table, figure, words
+
+COME_WITH_TRAX = pathlib.Path(__file__).resolve().parent.parent / "sweeps"
+# What axes are, with units. Keys of the machine have theirs in their names.
+LABELS = {
+    "mrps": "million rays per second", "gflops": "billion FLOPs per second", "cycles": "cycles", "threads": "threads",
+    "values.bytes_per_ray": "bytes a ray", "values.flops_per_ray": "FLOPs a ray", "values.area_units": "area (mm²)",
+    "area_mm2": "area (mm²)", "energy.average_power": "power of chip and caches (W)", "energy.total": "energy (J)",
+    "energy.per_ray": "energy a ray (J)", "memory.bandwidth_gbps": "off-chip bandwidth (GB/s)",
+    "memory.utilisation": "share of the bandwidth in use", "values.frames_per_second": "pictures per second",
+    "seconds": "simulated time (s)", "host.processor_seconds": "processor time of the host (s)",
+    "kind.mrps": "million rays per second", "kind.bytes_per_ray": "bytes a ray",
+    "kind.energy_per_ray": "energy a ray (nJ)", "issue.utilisation": "share of the thread-cycles with an instruction"
+}
+# What a rate costs: identity, statistic, title.
+COSTS = [("area", "values.area_units", "Rays and area"), ("power", "energy.average_power", "Rays and power"),
+         ("bandwidth", "memory.bandwidth_gbps", "Rays and off-chip bandwidth in use")]
+MOST_BARS = 40
+
+
+def sweeps(results):
+    """The sweeps if none of them comes with trax; else none: then the page is about the paper."""
+    found = [sweep for sweep in results.sweeps if isinstance(sweep.get("name"), str)]
+    theirs = any((COME_WITH_TRAX / f"{sweep['name']}.json").exists() for sweep in found)
+    return [] if theirs or len(found) < len(results.sweeps) else found
+
+
+def title_of(sweep):
+    return str(sweep.get("title") or sweep["name"])
+
+
+def title(own):
+    return " · ".join(map(title_of, own))
+
+
+def label(name, per=None):
+    """What a statistic is, with its unit."""
+    text = LABELS.get(name) or TITLES.get(name) or name.removeprefix("values.").replace("_", " ")
+    return f"{text} / {label(per)}" if per else text
+
+
+def renamed(lines, sweep):
+    """The figure of a sweep with axes that name quantities and units."""
+    lines.y = label(sweep.get("y") or "mrps", sweep.get("y_per")) if lines.y != "MRPS" else LABELS["mrps"]
+    lines.x = LABELS.get(lines.x, lines.x)
+    lines.title = f"{lines.y} against {lines.x}"
+    return lines
+
+
+def name_of(run, varying):
+    """What tells a run from the others."""
+    parts = [run.variant, *(f"{key}={value}" for key, value in run.set.items())]
+    parts = [run.config, *(part for part in (run.variant or None, *parts[1:]) if part)]
+    for axis in ("scene", "program", "workload"):
+        if axis in varying and getattr(run, axis):
+            parts.insert(0, getattr(run, axis))
+    return ", ".join(dict.fromkeys(parts))
+
+
+def varying(runs):
+    return [axis for axis in ("scene", "program", "workload") if len({getattr(run, axis) for run in runs}) > 1]
+
+
+# --- what a rate costs ---
+
+
+def groups(runs):
+    """Runs that render the same: by scene, workload and size."""
+    found = {}
+    for run in runs:
+        if run.get("mrps") is not None:
+            found.setdefault((run.scene, run.workload, run.size), []).append(run)
+    return found
+
+
+def front(runs, cost):
+    """The runs that no other has both more rays and less cost than; the least cost first."""
+    known = [run for run in runs if run.get(cost) is not None]
+    best, chosen = None, []
+    for run in sorted(known, key=lambda run: (run.get(cost), -run.get("mrps"))):
+        if best is None or run.get("mrps") > best:
+            best = run.get("mrps")
+            chosen.append(run)
+    return chosen
+
+
+def front_figures(runs):
+    axes = varying(runs)
+    for identity, cost, heading in COSTS:
+        series = []
+        for place, (group, some) in enumerate(groups(runs).items()):
+            points = sorted((run.get(cost), run.get("mrps"), f"{name_of(run, axes)}: {run.get('mrps'):.4g} MRPS, "
+                             f"{run.get(cost):.4g}") for run in some if run.get(cost) is not None)
+            if len({point[0] for point in points}) < 2:
+                continue
+            style, mark = STYLES[place % len(STYLES)]
+            named = ", ".join(part for part in group[:2] if part)
+            series.append(Series(named, style, points, mark, line=False))
+            best = [(run.get(cost), run.get("mrps"), name_of(run, axes)) for run in front(some, cost)]
+            series.append(Series(f"front of {named}", style, best, mark, dashed=True))
+        if series:
+            yield Lines(f"front-{identity}", heading, label(cost), LABELS["mrps"], series)
+
+
+def front_table(runs):
+    axes, rows = varying(runs), []
+    for some in groups(runs).values():
+        fronts = {identity: front(some, cost) for identity, cost, _ in COSTS}
+        for run in some:
+            on = ", ".join(identity for identity, chosen in fronts.items() if run in chosen)
+            rows.append([
+                words(name_of(run, axes)),
+                figure(run.get("mrps")),
+                *(figure(run.get(cost)) for _, cost, _ in COSTS),
+                *(figure(ratio(run.get("mrps"), run.get(cost))) for _, cost, _ in COSTS),
+                Cell(on, on)
+            ])
+    columns = [("run", "t"), ("MRPS", "n"), ("mm²", "n"), ("W", "n"), ("GB/s", "n"), ("MRPS/mm²", "n"),
+               ("MRPS/W", "n"), ("rays/kB", "n"), ("on the front of", "t")]
+    return Table(
+        "fronts", "Rays for area, power and bandwidth", columns, rows,
+        "On the front: no other run of the same scene and rays has more rays for less. GB/s: the bandwidth in use.")
+
+
+# --- the page ---
+
+
+def time_figures(own, results):
+    for place, sweep in enumerate(own):
+        runs = [run for run in results.of_sweep(sweep["name"]) if run.done]
+        axes = varying(runs)
+        # Keys without their section: there is little room.
+        bars = [(re.sub(r"[\w.]+\.(\w+=)", r"\1", name_of(run, axes)), parts) for run in runs[:MOST_BARS]
+                if (parts := shares(run))]
+        if bars:
+            yield Bars(f"time-{place}", f"Where thread-cycles went: {title_of(sweep)}", "share of all thread-cycles",
+                       bars, [(style, text) for style, text, _ in CAUSES])
+
+
+def failures(results):
+    failed = [run for run in results.runs if run.status == "failed"]
+    axes = varying(results.runs)
+    return el("ul", *(el("li", el("b", name_of(run, axes)), ": ", run.error or "no reason is known")
+                      for run in failed), class_="failures") if failed else None
+
+
+def summary(results):
+    done = [run for run in results.runs if run.done]
+    failed = sum(run.status == "failed" for run in results.runs)
+    text = f"{len(done)} of {len(results.runs)} runs {'is' if len(done) == 1 else 'are'} there"
+    text += f", {failed} failed." if failed else "."
+    titles = {name: results.title("programs", name) for name in results.programs()}
+    named = [el("b", f"{name}: {title}") for name, title in titles.items() if title != name]
+    return join([el("p", text), el("p", join(named, ", ")) if named else None])
+
+
+def sections(own, page):
+    """Yields (identity, title, content) of what is known."""
+    results, paper = page.results, page.paper
+    first = [summary(results), failures(results)]
+    for place, sweep in enumerate(own):
+        name = f"sweep-{results.sweeps.index(sweep)}"
+        made = [one for one in tables.of_sweep(results, paper, sweep) if one.rows]
+        yield f"own-{place}", title_of(sweep), [
+            el("p", str(sweep["claim"])) if sweep.get("claim") else None, *first, page.drawn.get(name),
+            *(table(one, f"{name}-") for one in made)
+        ]
+        first = []
+    done = [run for run in results.runs if run.done]
+    shown = [draw(one) for one in front_figures(done)]
+    if shown:
+        yield "fronts", "Rays for area, power and bandwidth", [
+            el("div", *shown, class_="figures"), table(front_table(done))
+        ]
+    shown = [draw(one) for one in time_figures(own, results)]
+    if shown:
+        yield "time", "Where the time goes", [
+            el("p", "Every thread is charged every cycle to one cause (docs/timing.md)."),
+            el("div", *shown, class_="figures")
+        ]

@@ -1,0 +1,98 @@
+#!/usr/bin/env python3
+"""The page of sweeps of one's own: own_test.py RAYTRACER/EVALUATION"""
+
+import html
+import itertools
+import json
+import pathlib
+import re
+import sys
+import tempfile
+import unittest
+
+import example
+
+FOLDER = pathlib.Path(sys.argv.pop(1)).resolve()
+sys.path.insert(0, str(FOLDER))
+from report import make, own  # noqa: E402
+from report.results import read_results  # noqa: E402
+
+
+def mine():
+    """Queues of several lengths on two chips; one run failed."""
+    runs = []
+    for chip, places in itertools.product(("1x32", "4x32"), (4, 8, 16)):
+        made = example.run("ours", "forest", chip, {"memory.queue_entries": places}, experiments=("queues", ),
+                           value=example.threads(chip) * places / (places + 8) / 16)
+        made["values"] = {"area_units": 0.06 * example.threads(chip) + (places == 8)}
+        made["stats"]["energy"]["average_power"] = 2.0 + example.threads(chip) / 100 - places / 50
+        made["stats"]["memory"]["bandwidth_gbps"] = 1.0 + places / 8
+        runs.append(made)
+    runs[2].update(status="failed", error="this program renders <no> textures", stats={}, values={})
+    return example.document(runs, [{
+        "name": "queues", "title": "What does a longer queue buy?", "claim": "Misses overlap.",
+        "x": "memory.queue_entries", "y": "mrps", "y_per": "values.area_units", "file": "mine.json"
+    }])
+
+
+class OwnTest(unittest.TestCase):
+    def setUp(self):
+        self.scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(self.scratch.cleanup)
+
+    def make(self, document):
+        source = pathlib.Path(self.scratch.name, "results.json")
+        source.write_text(json.dumps(document))
+        self.assertEqual(make.main([str(source)]), 0)
+        self.results = read_results(source)
+        return source.with_name("report.html").read_text()
+
+    def headings(self, text):
+        return [html.unescape(one) for one in re.findall("<h2>(.*?)</h2>", text)]
+
+    def test_questions_first(self):
+        text = self.make(mine())
+        self.assertIn("<h1>What does a longer queue buy?</h1>", text)
+        self.assertEqual(self.headings(text)[:3], ["What does a longer queue buy?",
+                                                   "Rays for area, power and bandwidth", "Where the time goes"])
+        body = text[text.index("<main>"):]
+        places = [body.index(one) for one in ("Misses overlap.", "5 of 6 runs are there, 1 failed.",
+                                              "this program renders &lt;no&gt; textures", "<figcaption>", "<table")]
+        self.assertEqual(places, sorted(places))
+        self.assertIn("million rays per second / area (mm²)", text)
+
+    def test_leaves_out(self):
+        text = self.make(mine())
+        for left_out in ("not known", "not measured</", "Nothing was measured", "Table 2", "claims", "No run has"):
+            self.assertNotIn(left_out, text[text.index("<main>"):], left_out)
+        for run in (made := mine())["runs"]:
+            run.update(status="failed", error="no", stats={}, values={})
+        self.assertEqual(self.headings(self.make(made)), ["What does a longer queue buy?", "Runs", "Configurations"])
+
+    def test_fronts(self):
+        """Against the definition: no other run has more rays for less."""
+        self.make(mine())
+        runs = [run for run in self.results.runs if run.done]
+        for _, cost, _ in own.COSTS:
+            expected = [one for one in runs if not any(
+                other.get(cost) <= one.get(cost) and other.get("mrps") >= one.get("mrps") and other is not one
+                for other in runs)]
+            self.assertCountEqual([run.key for run in own.front(runs, cost)], [run.key for run in expected], cost)
+            self.assertLess(len(expected), len(runs) + (cost == "memory.bandwidth_gbps"))
+        rows = own.front_table(runs).rows
+        self.assertEqual(len(rows), 5)
+        by_cost = {cost: {run.key for run in own.front(runs, cost)} for _, cost, _ in own.COSTS}
+        for run, row in zip(runs, rows):
+            on = [identity for identity, cost, _ in own.COSTS if run.key in by_cost[cost]]
+            self.assertEqual(row[-1].shown, ", ".join(on))
+
+    def test_sweeps_of_trax(self):
+        """With a sweep that comes with trax the page is about the paper."""
+        made = mine()
+        made["sweeps"].append({"name": "bandwidth", "x": "memory.bandwidth_gbps"})
+        self.assertIn(make.PAPERS_TITLE.replace("'", "&#x27;"), self.make(made))
+        self.assertEqual(self.headings(self.make(example.complete()))[:2], ["Summary", "The paper's tables"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,9 @@
+#ifndef TRAX_TEST_PLAIN_REINSERT_H
+#define TRAX_TEST_PLAIN_REINSERT_H
+
+#include "../../raytracer/scene/internal.h"
+
+/* As scene_reinsert does, without threads. False when out of memory. */
+bool plain_reinsert(struct scene_links *links, unsigned passes);
+
+#endif
