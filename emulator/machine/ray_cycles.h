@@ -1,5 +1,5 @@
-/* The thread-cycles of the rays of each kind, which the fast engine counts if the run's options ask for them: at each
-   trap that counts rays, the thread's charges since the trap before go to the kind that it worked for. */
+/* The thread-cycles of the rays of each kind, which the engines fast and simt count if the run's options ask for them:
+   at each trap that counts rays, the thread's charges since the trap before go to the kind that it worked for. */
 #ifndef TRAX_MACHINE_RAY_CYCLES_H
 #define TRAX_MACHINE_RAY_CYCLES_H
 

@@ -53,12 +53,13 @@ static void grant_bank(struct trax_ref_tm *tm, uint32_t bank, uint32_t first, ui
       trax_ref_charge(tm, &tm->tp[first + i], t, TRAX_CAUSE_ICACHE_BANK);
 }
 
-void trax_ref_look_up(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
+bool trax_ref_look_up(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
   const uint32_t icache = icache_of(tm, tp), line = line_of(tm, tp);
   if (trax_ref_lines_have(&tm->icache[icache].lines, line)) {
     tm->stats->icache_hits++;
-    hold(tm, tp);
-  } else if (trax_ref_on_its_way(tm, INSTRUCTION_LINE, icache, line)) {
+    return true;
+  }
+  if (trax_ref_on_its_way(tm, INSTRUCTION_LINE, icache, line)) {
     tm->stats->icache_merged++;
     tp->awaits_line = true;
   } else if (trax_ref_request(tm, (struct trax_ref_request){.kind = INSTRUCTION_LINE,
@@ -71,6 +72,7 @@ void trax_ref_look_up(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t
   } else {
     trax_ref_charge(tm, tp, t, TRAX_CAUSE_MEMORY_QUEUE);
   }
+  return false;
 }
 
 void trax_ref_fetch(struct trax_ref_tm *tm, uint64_t t) {
@@ -81,8 +83,8 @@ void trax_ref_fetch(struct trax_ref_tm *tm, uint64_t t) {
     for (uint32_t bank = 0; bank < tm->config->icache.banks; bank++)
       grant_bank(tm, bank, first, first + size < tm->tps ? size : tm->tps - first, t, won);
   for (uint32_t i = 0; i < tm->tps; i++)
-    if (won[i])
-      trax_ref_look_up(tm, &tm->tp[i], t);
+    if (won[i] && trax_ref_look_up(tm, &tm->tp[i], t))
+      hold(tm, &tm->tp[i]);
   for (uint32_t i = 0; i < tm->tps; i++)
     if (tm->tp[i].awaits_line)
       trax_ref_charge(tm, &tm->tp[i], t, TRAX_CAUSE_ICACHE_MISS);

@@ -71,6 +71,8 @@ static trax_fault_kind execute(struct trax_ref_tm *tm, struct trax_ref_tp *tp, u
 
 /* Sets the cycle from which the result is usable. Step 4 has done so for loads that are not from local memory. */
 static void note_result(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
+  if (!trax_ref_is(tp, TRAX_WRITES_RD))
+    return;
   if (trax_ref_accesses_local(tp))
     trax_ref_result(tp, t + tm->config->tp.local_latency_cycles, TRAX_CAUSE_DATA_LOCAL);
   else if (!trax_ref_accesses_memory(tp)) {

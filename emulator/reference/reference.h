@@ -199,8 +199,8 @@ bool trax_ref_is_over(const struct trax_ref_chip *chip, uint64_t t);
 
 /* --- Fetch: fetch.c, lines.c --- */
 void trax_ref_fetch(struct trax_ref_tm *tm, uint64_t t);
-/* Looks up the line of a TP that won its bank: it then holds its instruction, awaits the line, or is charged. */
-void trax_ref_look_up(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t);
+/* Looks up the line of a TP that won its bank. True: it is there. False: the TP awaits the line, or is charged. */
+bool trax_ref_look_up(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t);
 void trax_ref_instruction_arrives(struct trax_ref_tm *tm, uint32_t icache, uint32_t line);
 
 bool trax_ref_lines_create(struct trax_ref_lines *lines, uint32_t bytes, uint32_t line_bytes, uint32_t ways,

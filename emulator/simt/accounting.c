@@ -1,14 +1,6 @@
 /* docs/simt.md, "Accounting", and step 5 of "A cycle". */
+#include "machine/ray_cycles.h"
 #include "simt/simt.h"
-
-uint64_t trax_simt_arbitrate(trax_ref_pointer *pointer, uint64_t asks, uint32_t first, uint32_t n) {
-  if (!asks)
-    return 0;
-  const uint64_t before = trax_simt_bit(first + *pointer) - 1;
-  const uint32_t winner = trax_simt_first(asks & ~before ? asks & ~before : asks);
-  *pointer = (winner - first + 1) % n;
-  return trax_simt_bit(winner);
-}
 
 void trax_simt_charge(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint64_t set, uint64_t t,
                       trax_cause cause) {
@@ -29,8 +21,9 @@ void trax_simt_charge_idle(struct trax_simt_tm *tm, uint64_t t) {
   for (uint64_t awake = tm->awake; awake;) {
     struct trax_simt_warp *warp = &tm->warp[trax_simt_take(&awake)];
     warp->uncharged = warp->group;
-    trax_simt_charge(tm, warp, warp->group & ~warp->running, t, TRAX_CAUSE_HALTED);
-    if (!tm->ref->config->tp.branch_bubble_cycles)
+    if (warp->group & ~warp->running)
+      trax_simt_charge(tm, warp, warp->group & ~warp->running, t, TRAX_CAUSE_HALTED);
+    if (t >= warp->bubble_ends)
       continue;
     uint64_t in_bubble = 0;
     for (uint64_t set = warp->uncharged; set;) {
@@ -61,12 +54,34 @@ void trax_simt_catch_up(struct trax_simt_tm *tm, uint32_t lane, uint64_t t) {
   tm->lane[lane].charged = t;
 }
 
+static const uint64_t *charges_of(const struct trax_simt_tm *tm, uint32_t thread) {
+  return tm->ref->machine->tp_stats[thread].cycles;
+}
+
+/* After a trap, which may count rays. */
+static void count_rays(struct trax_simt_tm *tm, const struct trax_ref_tp *lane, uint32_t value) {
+  struct trax_ray_cycles *rays = tm->ref->machine->ray_cycles;
+  const uint32_t thread = tm->ref->number * tm->ref->tps + lane->number;
+  trax_ray_cycles_trap(&rays->tms[tm->ref->number], &rays->threads[thread], charges_of(tm, thread), lane->inst.imm,
+                       value);
+}
+
+void trax_simt_settle_rays(struct trax_simt_tm *tm) {
+  struct trax_ray_cycles *rays = tm->ref->machine->ray_cycles;
+  const uint32_t first = tm->ref->number * tm->ref->tps;
+  for (uint32_t i = first; rays && i < first + tm->ref->tps; i++)
+    trax_ray_cycles_add(&rays->tms[tm->ref->number], &rays->threads[i], charges_of(tm, i));
+}
+
 /* Issues the instruction on the lanes of the warp that were granted all they asked for. */
 static void issue(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint64_t t) {
   for (uint64_t set = warp->active; set;) {
     struct trax_ref_tp *lane = &tm->ref->tp[trax_simt_take(&set)];
     const uint64_t bit = trax_simt_bit(lane->number);
+    const uint32_t value = lane->reg[lane->inst.ra];
     trax_ref_issue_of(tm->ref, lane, t);
+    if (lane->inst.op == TRAX_OP_TRAP && tm->ref->machine->ray_cycles)
+      count_rays(tm, lane, value);
     trax_simt_note_charge(warp, lane);
     if (!lane->holds) {
       warp->left &= ~bit;
@@ -74,6 +89,8 @@ static void issue(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint64_t
     }
     if (lane->ended)
       warp->running &= ~bit;
+    if (lane->bubble_ends > warp->bubble_ends)
+      warp->bubble_ends = lane->bubble_ends;
   }
   warp->active = 0;
 }
@@ -82,8 +99,10 @@ void trax_simt_issue(struct trax_simt_tm *tm, uint64_t t) {
   for (uint64_t awake = tm->awake; awake;) {
     struct trax_simt_warp *warp = &tm->warp[trax_simt_take(&awake)];
     const bool is_held = warp->left;
-    issue(tm, warp, t);
-    trax_simt_charge(tm, warp, warp->group, t, TRAX_CAUSE_LOCKSTEP);
+    if (warp->active)
+      issue(tm, warp, t);
+    if (warp->uncharged)
+      trax_simt_charge(tm, warp, warp->uncharged, t, TRAX_CAUSE_LOCKSTEP);
     if (is_held && !warp->left)
       trax_simt_dissolve(tm, warp, t);
   }

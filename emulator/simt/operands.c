@@ -1,15 +1,16 @@
 /* docs/simt.md, "Operands": step 2. */
 #include "simt/simt.h"
 
-/* The registers that all lanes of a group need, as a set. */
-static uint32_t needed_registers(const struct trax_ref_tp *lane) {
-  const unsigned flags = trax_ref_info(lane)->flags;
-  uint32_t set = trax_ref_is(lane, TRAX_READS_RD | TRAX_WRITES_RD) ? 1u << lane->inst.rd : 0;
-  for (unsigned n = 0; n < trax_group_a(flags); n++)
-    set |= 1u << (lane->inst.ra + n) % TRAX_NUM_REGISTERS;
-  for (unsigned n = 0; n < trax_group_b(flags); n++)
-    set |= 1u << (lane->inst.rb + n) % TRAX_NUM_REGISTERS;
-  return set;
+/* Successive registers as a set. */
+static uint32_t registers(unsigned first, unsigned count) {
+  const uint64_t set = ((UINT64_C(1) << count) - 1) << first;
+  return (uint32_t)(set | set >> TRAX_NUM_REGISTERS);
+}
+
+/* The registers that an instruction needs, as a set. r0 is always usable. */
+static uint32_t needed_registers(const struct trax_decoded *inst) {
+  return registers(inst->wait_ra, inst->more_ra + 1u) | registers(inst->wait_rb, inst->more_rb + 1u) |
+         1u << inst->wait_rd;
 }
 
 static bool are_usable(const struct trax_ref_tp *lane, uint32_t registers, uint64_t t) {
@@ -41,10 +42,9 @@ static bool check(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint32_t
 
 /* Whether all lanes of the group are accepted. */
 static bool check_group(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint64_t t) {
-  const struct trax_ref_tp *first = trax_simt_speaker(tm, warp->left);
-  const bool is_illegal = !warp->is_checked && trax_ref_is_illegal(tm->ref, first);
-  const bool has_more = trax_ref_accesses_memory(first) || first->inst.op == TRAX_OP_FENCE;
-  const uint32_t needs = has_more ? 0 : needed_registers(first);
+  const bool is_illegal = warp->inst->resource == TRAX_RESOURCE_ILLEGAL && !warp->is_checked;
+  const bool has_more = warp->inst->resource == TRAX_RESOURCE_MEMORY || warp->inst->resource == TRAX_RESOURCE_FENCE;
+  const uint32_t needs = has_more ? 0 : needed_registers(warp->inst);
   bool passes = true;
   for (uint64_t set = warp->left; set;) {
     const uint32_t i = trax_simt_take(&set);
@@ -60,13 +60,32 @@ static bool check_group(struct trax_simt_tm *tm, struct trax_simt_warp *warp, ui
   return passes;
 }
 
+/* Notes what the active lanes ask for. */
+static void note_asks(struct trax_simt_tm *tm, const struct trax_simt_warp *warp, uint64_t bit) {
+  switch (warp->inst->resource) {
+  case TRAX_RESOURCE_UNIT:
+    tm->for_units |= tm->refuses[warp->inst->unit] ? bit : 0;
+    break;
+  case TRAX_RESOURCE_MEMORY:
+    tm->for_memory |= bit;
+    tm->for_turns |= bit;
+    break;
+  case TRAX_RESOURCE_END:
+  case TRAX_RESOURCE_FENCE:
+    tm->for_turns |= bit;
+    break;
+  }
+}
+
 void trax_simt_check_operands(struct trax_simt_tm *tm, uint64_t t) {
+  tm->for_units = tm->for_memory = tm->for_turns = 0;
   for (uint64_t awake = tm->awake; awake;) {
-    struct trax_simt_warp *warp = &tm->warp[trax_simt_take(&awake)];
-    if (warp->left && !warp->has_operands && check_group(tm, warp, t)) {
-      warp->has_operands = true;
-      warp->unit = trax_ref_timing(trax_simt_speaker(tm, warp->left), tm->ref->config).unit;
-    }
+    const uint32_t i = trax_simt_take(&awake);
+    struct trax_simt_warp *warp = &tm->warp[i];
+    if (warp->left && !warp->has_operands)
+      warp->has_operands = check_group(tm, warp, t);
     warp->active = warp->has_operands ? warp->left : 0;
+    if (warp->active)
+      note_asks(tm, warp, trax_simt_bit(i));
   }
 }

@@ -30,25 +30,22 @@ static uint64_t grant_group(struct trax_simt_tm *tm, trax_shared unit, const str
   return won;
 }
 
-static uint64_t lanes_of_group(const struct trax_shared_kind *kind, uint32_t number) {
-  const uint64_t lanes = kind->group_size < 64 ? trax_simt_bit(kind->group_size) - 1 : UINT64_MAX;
-  return lanes << number * kind->group_size;
-}
-
 void trax_simt_grant_units(struct trax_simt_tm *tm, uint64_t t) {
-  uint64_t asks[TRAX_SHARED_COUNT + 1] = {0};
-  for (uint64_t awake = tm->awake; awake;) {
-    const struct trax_simt_warp *warp = &tm->warp[trax_simt_take(&awake)];
-    asks[warp->unit] |= warp->active;
+  if (!tm->for_units)
+    return;
+  uint64_t asks[TRAX_SHARED_COUNT] = {0};
+  for (uint64_t warps = tm->for_units; warps;) {
+    const struct trax_simt_warp *warp = &tm->warp[trax_simt_take(&warps)];
+    asks[warp->inst->unit] |= warp->active;
   }
   for (trax_shared unit = 0; unit < TRAX_SHARED_COUNT; unit++) {
-    if (!asks[unit] || !tm->refuses[unit])
+    if (!asks[unit])
       continue;
     const struct trax_shared_kind kind = trax_shared_kind(unit, tm->ref->config);
     uint64_t lost = 0;
     for (uint64_t left = asks[unit]; left;) {
       const uint32_t number = trax_simt_first(left) / kind.group_size;
-      const uint64_t asking = left & lanes_of_group(&kind, number);
+      const uint64_t asking = left & trax_simt_lanes(number * kind.group_size, kind.group_size);
       lost |= asking & ~grant_group(tm, unit, &kind, number, asking, t);
       left &= ~asking;
     }
@@ -76,20 +73,20 @@ static uint64_t served(const struct trax_simt_tm *tm, uint32_t winner, uint64_t 
 }
 
 void trax_simt_grant_data_banks(struct trax_simt_tm *tm, uint64_t t) {
+  tm->broadcast = 0;
+  if (!tm->for_memory)
+    return;
   const uint32_t banks = trax_ref_data_banks(tm->ref);
   uint64_t asks[MOST], asked = 0, lost = 0;
-  for (uint64_t awake = tm->awake; awake;)
-    for (uint64_t set = tm->warp[trax_simt_take(&awake)].active; set;) {
+  for (uint64_t warps = tm->for_memory; warps;)
+    for (uint64_t set = tm->warp[trax_simt_take(&warps)].active; set;) {
       const struct trax_ref_tp *lane = &tm->ref->tp[trax_simt_take(&set)];
-      if (!trax_ref_accesses_memory(lane))
-        break; /* nor does another one of the group */
       if (!trax_ref_asks_for_bank(lane))
         continue;
       const uint32_t bank = lane->address / 4 % banks;
       asks[bank] = (asked & trax_simt_bit(bank) ? asks[bank] : 0) | trax_simt_bit(lane->number);
       asked |= trax_simt_bit(bank);
     }
-  tm->broadcast = 0;
   while (asked) {
     const uint32_t bank = trax_simt_take(&asked);
     if (t >= tm->ref->dcache_fills_end[bank]) {
@@ -105,17 +102,10 @@ void trax_simt_grant_data_banks(struct trax_simt_tm *tm, uint64_t t) {
 
 /* --- memory queue --- */
 
-static bool needs_turn(const struct trax_ref_tp *lane) {
-  return trax_ref_accesses_memory(lane) || trax_ref_ends_thread(lane) || lane->inst.op == TRAX_OP_FENCE;
-}
-
 void trax_simt_grant_places(struct trax_simt_tm *tm, uint64_t t) {
   uint64_t asks = 0;
-  for (uint64_t awake = tm->awake; awake;) {
-    const uint64_t active = tm->warp[trax_simt_take(&awake)].active;
-    if (active && needs_turn(trax_simt_speaker(tm, active)))
-      asks |= active;
-  }
+  for (uint64_t warps = tm->for_turns; warps;)
+    asks |= tm->warp[trax_simt_take(&warps)].active;
   const uint64_t before = trax_simt_bit(tm->ref->queue_pointer) - 1;
   uint64_t rounds[] = {asks & ~before, asks & before};
   for (unsigned i = 0; i < 2; i++)

@@ -6,11 +6,13 @@
 
 #include <stdlib.h>
 
-static void create_tm(struct trax_simt_tm *tm, struct trax_ref_tm *ref) {
+static void create_tm(struct trax_simt_tm *tm, struct trax_ref_tm *ref, const struct trax_text *text) {
   const uint32_t width = ref->config->simt.width;
   tm->ref = ref;
+  tm->text = text;
   tm->warps = ref->tps / width;
   for (uint32_t i = 0; i < ref->tps; i++) {
+    tm->warp[i / width].first = i / width * width;
     tm->warp[i / width].running |= trax_simt_bit(i);
     tm->awake |= trax_simt_bit(i / width);
     tm->place[i] = TRAX_SIMT_SURFACE << 32 | ref->tp[i].pc;
@@ -22,13 +24,45 @@ static void create_tm(struct trax_simt_tm *tm, struct trax_ref_tm *ref) {
   }
 }
 
+/* Notes when memory is to be visited again. */
+static void look_ahead(struct trax_simt_chip *chip) {
+  const bool is_always = chip->ref.config->l2.bytes || chip->ref.controller.dram;
+  chip->is_waited_for = is_always;
+  chip->arrives = is_always ? 0 : TRAX_NEVER;
+  for (uint32_t i = 0; !is_always && i < chip->ref.tms; i++)
+    for (uint32_t place = 0; place < chip->ref.tm[i].places; place++) {
+      const struct trax_ref_request *request = &chip->ref.tm[i].queue[place];
+      if (request->stage != SERVED)
+        chip->is_waited_for = true;
+      else if (request->completion < chip->arrives)
+        chip->arrives = request->completion;
+    }
+}
+
+/* Decodes the first segment of the text. False: out of memory. */
+static bool decode(struct trax_simt_chip *chip, const struct trax_text *text) {
+  const uint32_t begin = text->count ? text->segments->begin : 0, end = text->count ? text->segments->end : 0;
+  chip->inst = calloc((end - begin) / 4 + 1, sizeof *chip->inst);
+  for (uint32_t pc = begin; chip->inst && pc < end; pc += 4) {
+    uint32_t word = 0;
+    trax_ref_text(chip->ref.tm, pc, &word);
+    chip->inst[(pc - begin) / 4] = trax_decode(word);
+  }
+  for (uint32_t i = 0; chip->inst && i < chip->ref.tms; i++) {
+    chip->tm[i].inst = chip->inst;
+    chip->tm[i].inst_count = (end - begin) / 4;
+  }
+  return chip->inst;
+}
+
 static trax_status create(struct trax_run *run, trax_error *error) {
   struct trax_simt_chip *chip = run->chip = calloc(1, sizeof *chip);
   if (!chip || !trax_ref_create(&chip->ref, run->machine, run->options->output) ||
-      !(chip->tm = calloc(chip->ref.tms, sizeof *chip->tm)))
+      !(chip->tm = calloc(chip->ref.tms, sizeof *chip->tm)) || !decode(chip, &run->text))
     return trax_fail(error, "out of memory");
   for (uint32_t i = 0; i < chip->ref.tms; i++)
-    create_tm(&chip->tm[i], &chip->ref.tm[i]);
+    create_tm(&chip->tm[i], &chip->ref.tm[i], &run->text);
+  look_ahead(chip);
   return TRAX_OK;
 }
 
@@ -38,6 +72,7 @@ static void destroy(void *context) {
     return;
   trax_ref_destroy(&chip->ref);
   free(chip->tm);
+  free(chip->inst);
   free(chip);
 }
 
@@ -54,18 +89,52 @@ static void steps(struct trax_simt_tm *tm, uint64_t t) {
   trax_simt_sleep(tm, t);
 }
 
-static void cycle(struct trax_simt_chip *chip, uint64_t t) {
-  uint64_t has_arrived = 0; /* TMs, as a set */
-  for (uint32_t i = 0; i < chip->ref.tms; i++) {
+/* The requests that arrive in cycle t. Returns the TMs that have any, as a set. */
+static uint64_t arrivals(struct trax_simt_chip *chip, uint64_t t) {
+  uint64_t has_arrived = 0;
+  for (uint32_t i = 0; t >= chip->arrives && i < chip->ref.tms; i++) {
     const uint32_t places = chip->ref.tm[i].places;
     trax_ref_arrivals(&chip->ref.tm[i], t);
     has_arrived |= (uint64_t)(chip->ref.tm[i].places != places) << i;
   }
-  for (uint32_t i = 0; i < chip->ref.tms; i++)
+  return has_arrived;
+}
+
+static void cycle(struct trax_simt_chip *chip, uint64_t t) {
+  const uint64_t has_arrived = arrivals(chip, t);
+  for (uint32_t i = 0; i < chip->ref.tms; i++) {
+    const uint32_t places = chip->ref.tm[i].places;
     if (trax_simt_wake(&chip->tm[i], t, has_arrived >> i & 1))
       steps(&chip->tm[i], t);
-  trax_ref_l2_cycle(&chip->ref, t);
-  trax_ref_controller_cycle(&chip->ref, t);
+    chip->is_waited_for |= chip->ref.tm[i].places > places;
+  }
+  const bool is_waited_for = chip->is_waited_for;
+  if (is_waited_for) {
+    trax_ref_l2_cycle(&chip->ref, t);
+    trax_ref_controller_cycle(&chip->ref, t);
+  }
+  if (is_waited_for || has_arrived)
+    look_ahead(chip);
+}
+
+static bool has_running(const struct trax_simt_tm *tm) {
+  for (uint32_t i = 0; i < tm->warps; i++)
+    if (tm->warp[i].running)
+      return true;
+  return false;
+}
+
+/* The next cycle, from t on, in which anything happens. When all threads have ended, the run's end may be next. */
+static uint64_t next_event(const struct trax_simt_chip *chip, uint64_t t) {
+  uint64_t next = chip->is_waited_for ? t : chip->arrives;
+  bool are_running = false;
+  for (uint32_t i = 0; i < chip->ref.tms && next > t; i++) {
+    if (chip->tm[i].awake)
+      return t;
+    next = chip->tm[i].wakes < next ? chip->tm[i].wakes : next;
+    are_running = are_running || has_running(&chip->tm[i]);
+  }
+  return are_running ? next : t;
 }
 
 static enum trax_advance advance(void *context, uint64_t *t, uint64_t until) {
@@ -78,6 +147,8 @@ static enum trax_advance advance(void *context, uint64_t *t, uint64_t until) {
       return TRAX_HAS_FAULTED;
     if (trax_ref_is_over(&chip->ref, *t))
       return TRAX_HAS_ENDED;
+    const uint64_t next = next_event(chip, *t);
+    chip->t = *t = next < until ? next : until;
   }
   return TRAX_GOES_ON;
 }
@@ -95,6 +166,7 @@ static void settle(void *context, uint64_t t) {
     for (uint32_t warp = 0; warp < tm->warps; warp++)
       if (!(tm->awake & trax_simt_bit(warp)))
         trax_simt_charge_sleep(tm, &tm->warp[warp], t);
+    trax_simt_settle_rays(tm);
   }
 }
 
@@ -117,7 +189,7 @@ static void set_pc(void *context, uint32_t number, uint32_t pc) {
     lane->holds = lane->awaits_line = false;
     tm->lane[lane->number].charged = chip->t;
   }
-  warp->group = warp->left = 0;
+  warp->group = warp->left = warp->stays = 0;
   warp->is_checked = warp->has_operands = false;
   tm->ref->tp[number % tps].pc = pc;
   trax_simt_place(tm, number % tps, 0);
@@ -135,6 +207,7 @@ const struct trax_engine trax_simt_engine = {
     .is_timed = true,
     .is_observed = true,
     .has_warps = true,
+    .counts_rays = true,
     .create = create,
     .destroy = destroy,
     .advance = advance,

@@ -7,6 +7,7 @@
 #ifndef TRAX_SIMT_H
 #define TRAX_SIMT_H
 
+#include "machine/text.h"
 #include "machine/watch.h"
 #include "reference/reference.h"
 
@@ -15,30 +16,39 @@
 struct trax_simt_lane {
   uint64_t charged;  /* the number of cycles for which it is charged, unless it is in a group */
   uint8_t waits_for; /* the register that refused it in the latest step 2; 0: none */
+  uint8_t bank;      /* of the instruction cache, if it asks for one */
 };
 
 struct trax_simt_warp {
-  uint64_t running;    /* lanes whose threads have not ended */
-  uint64_t group;      /* the active mask; 0: none */
-  uint64_t left;       /* lanes of the group that hold its instruction and have not issued it; 0: it is not fetched */
-  uint64_t active;     /* those of them that no step of this cycle has refused so far */
-  uint64_t uncharged;  /* lanes of the group that have not been charged in this cycle */
-  bool is_checked;     /* the lanes of the group have been in step 2 */
-  bool has_operands;   /* step 2 has accepted all of them */
-  trax_shared unit;    /* that they then ask for, unless they access memory */
-  uint64_t issued;     /* what it has issued, by cost (Choice) */
-  uint64_t waits_from; /* no running lane has issued last when `issued` was less */
-  uint32_t turns_lane; /* the lane that has the turn */
-  uint32_t turns_left; /* instructions of its turn; 0: no lane has it */
+  uint32_t first;       /* its first lane */
+  uint64_t running;     /* lanes whose threads have not ended */
+  uint64_t group;       /* the active mask; 0: none */
+  uint64_t left;        /* lanes of the group that hold its instruction and have not issued it; 0: it is not fetched */
+  uint64_t active;      /* those of them that no step of this cycle has refused so far */
+  uint64_t uncharged;   /* lanes of the group that have not been charged in this cycle */
+  bool is_checked;      /* the lanes of the group have been in step 2 */
+  bool has_operands;    /* step 2 has accepted all of them */
+  uint64_t bubble_ends; /* no lane is in a branch bubble from this cycle on */
+  const struct trax_decoded *inst; /* the group's instruction, from step 1 on */
+  uint64_t issued;                 /* what it has issued, by cost (Choice) */
+  uint64_t waits_from;             /* no running lane has issued last when `issued` was less */
+  uint32_t turns_lane;             /* the lane that has the turn */
+  uint32_t turns_left;             /* instructions of its turn; 0: no lane has it */
+  uint64_t stays;                  /* the latest group, if its lanes are at one place and run; 0: otherwise */
+  uint64_t others;     /* the least place of the running lanes outside of it; 0: some of them have another depth */
   uint64_t wakes;      /* asleep: the cycle in which it wakes at the latest */
   uint64_t slept_from; /* asleep: the first cycle for which the lanes of its group are not charged */
 };
 
-/* A warp whose group waits for registers or for a line of instructions sleeps: nothing changes for it before a known
-   cycle or an arrival, and its lanes are charged when it wakes. It is no rule of the page, and shows in nothing. */
+/* Two things are no rules of the page, and show in nothing. A group that has not diverged and is before all other lanes
+   remains the group (`stays`, `others`). A warp whose group waits for registers or for a line of instructions sleeps:
+   nothing changes for it before a known cycle or an arrival, and its lanes are charged when it wakes. */
 struct trax_simt_tm {
   struct trax_ref_tm *ref;
   uint32_t warps;
+  const struct trax_text *text;
+  const trax_inst *inst; /* [inst_count]: of its first segment */
+  uint32_t inst_count;
   bool refuses[TRAX_SHARED_COUNT]; /* whether units of the kind are ever taken */
   uint64_t awake;                  /* warps, as a set; those whose lanes have all ended are not awake either */
   uint64_t wakes;                  /* if no warp is awake: the cycle in which the first one wakes at the latest */
@@ -48,18 +58,29 @@ struct trax_simt_tm {
   uint64_t place[MOST];       /* TRAX_SIMT_SURFACE less its depth, then its pc: the least goes first */
   uint64_t last_issued[MOST]; /* `issued` of its warp when it issued last */
   uint64_t broadcast;         /* lanes that another lane's access to a bank serves in this cycle */
+  /* Warps with active lanes, from step 2 on: those that ask for units, access memory, and take turns for places. */
+  uint64_t for_units, for_memory, for_turns;
 };
 
 struct trax_simt_chip {
   struct trax_ref_chip ref;
   struct trax_simt_tm *tm; /* [ref.tms] */
+  trax_inst *inst;         /* as trax_simt_tm.inst */
   uint64_t t;              /* the next cycle */
+  /* Memory beyond the TMs is visited only when it has something to do. */
+  bool is_waited_for; /* a request may wait for it, or it has rules of its own for every cycle */
+  uint64_t arrives;   /* the cycle of the next arrival of those it has served */
 };
 
 /* --- sets of lanes --- */
 
 static inline uint64_t trax_simt_bit(uint32_t lane) {
   return UINT64_C(1) << lane;
+}
+
+/* The n lanes from `first` on, at least one. */
+static inline uint64_t trax_simt_lanes(uint32_t first, uint32_t n) {
+  return UINT64_MAX >> (64 - n) << first;
 }
 
 /* The first lane of a set that is not empty. */
@@ -90,7 +111,14 @@ static inline bool trax_simt_note_charge(struct trax_simt_warp *warp, struct tra
 }
 
 /* Serves an arbiter over the n lanes from `first` on. Returns the winner, as a set; 0 if nobody asks. */
-uint64_t trax_simt_arbitrate(trax_ref_pointer *pointer, uint64_t asks, uint32_t first, uint32_t n);
+static inline uint64_t trax_simt_arbitrate(trax_ref_pointer *pointer, uint64_t asks, uint32_t first, uint32_t n) {
+  if (!asks)
+    return 0;
+  const uint64_t before = trax_simt_bit(first + *pointer) - 1;
+  const uint32_t winner = trax_simt_first(asks & ~before ? asks & ~before : asks), next = winner - first + 1;
+  *pointer = next == n ? 0 : next;
+  return trax_simt_bit(winner);
+}
 
 /* --- Choice: choice.c --- */
 /* Notes where a lane is: its pc, and the calls that it has gone into or come out of. */
@@ -126,6 +154,8 @@ void trax_simt_issue(struct trax_simt_tm *tm, uint64_t t);
 void trax_simt_charge(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint64_t set, uint64_t t, trax_cause cause);
 void trax_simt_charge_cycles(const struct trax_simt_tm *tm, uint32_t lane, trax_cause cause, uint64_t since,
                              uint64_t cycles);
+/* Gives the charges of all lanes, which must be up to date, to the kinds of rays that they work for. */
+void trax_simt_settle_rays(struct trax_simt_tm *tm);
 /* Charges a lane outside of groups for all cycles before t. */
 void trax_simt_catch_up(struct trax_simt_tm *tm, uint32_t lane, uint64_t t);
 

@@ -102,8 +102,8 @@ trax_status options_check(const struct options *options, trax_error *error) {
   if (options->sampled && (options->compare || options->prepare || options->frames > 1 || options->cost_picture ||
                            options->cost_values || options->ray_trace || trax_explain_wanted(&options->explain)))
     return trax_fail(error, "--sampled leaves out most of the run: there is nothing to compare, explain or prepare");
-  if (options->sampled && options->source)
-    return trax_fail(error, "--sampled: of another --source the native twin's picture would be another one");
+  if (options->sampled && options->source && options->output)
+    return trax_fail(error, "--sampled -o: of another --source the native twin's picture would be another one");
   if (options->engine > ENGINE_REFERENCE) {
     if (options->ray_cycles)
       return trax_fail(error, "--ray-cycles needs the emulator: the other engines simulate no time");

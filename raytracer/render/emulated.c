@@ -167,7 +167,12 @@ static trax_status begin_sampling(struct trax_picture_sampling *sampling, struct
   sampling->slots = job->options->sampling;
   if (!(sampling->slots.fraction > 0) && !(sampling->slots.error > 0))
     sampling->slots.fraction = DEFAULT_FRACTION;
-  return trax_picture_sampling_init(sampling, picture, job->frame, program, machine, &twin, error);
+  const trax_status status = trax_picture_sampling_init(sampling, picture, job->frame, program, machine, &twin, error);
+  if (job->options->source) { /* the twin is of the installed source: of this one it predicts, and counts nothing */
+    sampling->slots.rays = 0;
+    sampling->slots.kinds = NULL;
+  }
+  return status;
 }
 
 /* The picture in a line. */

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """rays_test.py TRAX_SIM RAYS: --ray-kinds against the run's trace and statistics, from both engines and on machines
-with and without a second-level cache; --ray-cycles against --ray-kinds."""
+with and without a second-level cache; --ray-cycles against --ray-kinds, also of warps."""
 import collections
 import csv
 import json
@@ -113,8 +113,20 @@ def check_cycles(directory, stats, machine):
                 equal(int(row[what]), int(kinds[row["kind"]][what]), what, "of", row["kind"], threads, "host threads")
 
 
+def check_warps(directory, machine):
+    """The same of lanes of warps. A width of 1 has the cycles of the fast engine."""
+    for width in (1, 4):
+        place = directory / f"warps-{width}"
+        run(place, "simt", *machine, "--set", f"simt.width={width}", "--ray-kinds", "kinds", "--ray-cycles", "cycles")
+        kinds = {row["kind"]: row for row in rows(place / "kinds")}
+        for row in rows(place / "cycles"):
+            for what in set(row) - {"part", "weight", "kind"}:
+                equal(int(row[what]), int(kinds[row["kind"]][what]), what, "of", row["kind"], "in warps of", width)
+    equal((directory / "warps-1/cycles").read_text(), (directory / "1/cycles").read_text(), "warps of 1")
+
+
 def check_refusals(directory):
-    """Only the fast engine counts them, and from the beginning on."""
+    """Only two engines count them, and from the beginning on."""
     run(directory, "fast", "--checkpoint", "state", "--checkpoint-at", "100")
     for words, message in ((["--engine", "reference"], "--ray-cycles needs the engine fast"),
                            (["--engine", "functional"], "--ray-cycles needs the engine fast"),
@@ -146,6 +158,7 @@ def main(directory):
         counts = read_trace(directory / f"{name}-fast/trace")
         check_kinds(directory / f"{name}-fast", stats, counts, line_bytes)
         check_cycles(directory / f"{name}-fast", stats, machine)
+        check_warps(directory / f"{name}-fast", machine)
         tms = {kind: sum(tm["rays_by_kind"][kind] for tm in stats["tms"]) for kind in KINDS}
         equal(tms, stats["rays_by_kind"], "TMs")
     check_refusals(directory / "refusals")

@@ -166,7 +166,7 @@ typedef struct trax_run_options {
   const char *engine;
   unsigned host_threads; /* of the fast engine; results do not depend on their number; 0: trax_host_processors */
   const trax_slot_sampling *slots; /* NULL: everything is simulated */
-  bool ray_cycles;                 /* also counts the thread-cycles of the rays of each kind, with the fast engine */
+  bool ray_cycles;                 /* also counts the thread-cycles of the rays of each kind (engines fast, simt) */
 } trax_run_options;
 
 /* Runs the program to its end; options may be NULL. Returns TRAX_ERROR without a program, for a second run and for bad

@@ -119,9 +119,11 @@ def command_of(tools, inputs, job, scratch, threads):
     """trax-sim on the job's inputs; what it writes is in scratch."""
     rays = ["--ray-cycles", f"{scratch}/rays.csv"] if job.get("ray_cycles") else []
     if job["engine"] == "quick":
+        # The picture would be the native twin's, which is of no other source.
+        picture = [] if job["inputs"]["whole"]["source"] else ["-o", f"{scratch}/image.png"]
         return [
-            *renderer(tools, inputs, job, scratch, threads), "--sampled", "--stats", f"{scratch}/stats.json", "-o",
-            f"{scratch}/image.png", *rays
+            *renderer(tools, inputs, job, scratch, threads), "--sampled", "--stats", f"{scratch}/stats.json", *picture,
+            *rays
         ]
     command = [
         tools.path("trax-sim"), "--quiet", "--config", f"{scratch}/machine.cfg", "--engine", job["engine"], "--stats",

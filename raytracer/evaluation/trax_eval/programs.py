@@ -51,6 +51,11 @@ class Program:
         return not (self.patches or self.convert or self.counters or self.program.endswith(".c") or
                     self.source and self.specialised)
 
+    @property
+    def can_be_sampled(self):
+        """Returns whether trax-render runs the program: as it is, or compiled from another source."""
+        return self.plain or self.specialised and not (self.convert or self.counters)
+
 
 def check_settings(fields):
     value = fields.value.get("set", {})

@@ -271,7 +271,7 @@ def mode_of(reader, mode, needs_exact):
     chosen = mode or reader.strings("mode", "exact", MODES)[0]
     if needs_exact and chosen != "exact" and "mode" in reader.value and not mode:
         reader.fail(
-            "mode", "series, ray_kinds, error, hits and programs that are compiled or converted "
+            "mode", "series, ray_kinds, error, hits and programs that trax-eval compiles or converts "
             'need "exact"')
     return "exact" if needs_exact else chosen
 
@@ -308,7 +308,7 @@ def read_sweep(path, *, size=None, mode=None, programs=None, chips=None, only_sc
                     if not program or program.name in programs]
     used = used_programs(chosen_programs, variants)
     check_programs(reader, used, rays, error or hits)
-    needs_exact = bool(series or ray_kinds or error or hits) or not all(program.plain for program in used)
+    needs_exact = bool(series or ray_kinds or error or hits) or not all(program.can_be_sampled for program in used)
     chosen_mode = mode_of(reader, mode, needs_exact)
     if mode == "quick" and not size and not ray_kinds and not ray_cycles:
         chosen_size, chosen_mode = quick_size(chosen_size, chosen_mode)
