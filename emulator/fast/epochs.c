@@ -2,6 +2,7 @@
 
 #include "fast/chip.h"
 #include "fast/pool.h"
+#include "fast/schedule.h"
 #include "fast/state.h"
 #include "fast/store_buffer.h"
 #include "fast/time/variant.h"
@@ -35,6 +36,8 @@ enum { BY_SEVERAL = TRAX_MAX_TMS, BY_CONTROLLER };
 struct trax_epochs {
   struct trax_chip *chip;
   struct trax_pool *pool;
+  enum { RUN, SAVE, RESTORE } work;  /* of the pool's items: groups of TMs, or parts of the snapshot */
+  uint32_t groups;                   /* number of items */
   uint32_t interleaved;              /* TMs that one thread runs together */
   struct trax_store_buffer *buffers; /* [tms] */
   uint64_t length;                   /* cycles of the shortest epoch: from a request to its completion */
@@ -47,7 +50,8 @@ struct trax_epochs {
   unsigned snapshot_interval;    /* in shortest epochs */
   struct trax_section *sections; /* [section_count] */
   size_t section_count, snapshot_size;
-  uint8_t *snapshot; /* all sections, one after the other */
+  size_t *places; /* [section_count]: of the sections in the snapshot */
+  uint8_t *snapshot;
   struct undo *undo; /* [undo_count]: writes to global memory since the snapshot */
   size_t undo_count, undo_capacity;
   char *printed; /* [printed_count]: characters printed since the snapshot */
@@ -59,26 +63,49 @@ struct trax_epochs {
   struct trax_map writers;           /* by address: the number of a TM, or BY_..., with EARLY */
   bool failed;                       /* out of memory */
   size_t *next_write, *next_request; /* [tms]: the next one of the TM's store buffer to be handled */
+  struct trax_schedule writes, requests; /* the TMs with some left */
 };
 
 /* --- snapshots --- */
 
 static void record_section(void *context, const struct trax_section *section) {
   struct trax_epochs *epochs = context;
+  if (epochs->sections) {
+    epochs->sections[epochs->section_count] = *section;
+    epochs->places[epochs->section_count] = epochs->snapshot_size;
+  }
   epochs->section_count++;
   epochs->snapshot_size += section->size * section->count;
-  if (epochs->sections)
-    epochs->sections[epochs->section_count - 1] = *section;
 }
 
 /* Counts the sections, and then lists them. */
 static bool record_sections(struct trax_epochs *epochs) {
   trax_state_visit(epochs->chip, record_section, epochs);
   epochs->sections = calloc(epochs->section_count, sizeof *epochs->sections);
+  epochs->places = calloc(epochs->section_count, sizeof *epochs->places);
+  if (!epochs->sections || !epochs->places)
+    return false;
   epochs->section_count = epochs->snapshot_size = 0;
-  if (epochs->sections)
-    trax_state_visit(epochs->chip, record_section, epochs);
-  return epochs->sections;
+  trax_state_visit(epochs->chip, record_section, epochs);
+  return true;
+}
+
+/* Copies a part of the sections to the snapshot, or back. */
+static void copy_sections(const struct trax_epochs *epochs, uint32_t part) {
+  const size_t end = epochs->section_count * (part + 1) / epochs->groups;
+  for (size_t i = epochs->section_count * part / epochs->groups; i < end; i++) {
+    const struct trax_section *section = &epochs->sections[i];
+    uint8_t *const copy = epochs->snapshot + epochs->places[i];
+    if (section->count && epochs->work == SAVE)
+      memcpy(copy, section->bytes, section->size * section->count);
+    else if (section->count)
+      memcpy(section->bytes, copy, section->size * section->count);
+  }
+}
+
+static void run_pool(struct trax_epochs *epochs, unsigned work) {
+  epochs->work = work;
+  trax_pool_run(epochs->pool);
 }
 
 /* Writes what the program has printed, since the chip does not go back beyond it any more. */
@@ -92,13 +119,7 @@ static void print(struct trax_epochs *epochs) {
 static void take_snapshot(struct trax_epochs *epochs, uint64_t t) {
   if (epochs->chip->translation) /* here alone: epochs that are run again have the same bursts */
     trax_translation_extend(epochs->chip->translation);
-  uint8_t *to = epochs->snapshot;
-  for (size_t i = 0; i < epochs->section_count; i++) {
-    const struct trax_section *section = &epochs->sections[i];
-    if (section->count)
-      memcpy(to, section->bytes, section->size * section->count);
-    to += section->size * section->count;
-  }
+  run_pool(epochs, SAVE);
   print(epochs);
   epochs->has_snapshot = true;
   trax_transfer_log_release(&epochs->chip->transfers);
@@ -111,13 +132,7 @@ static void roll_back(struct trax_epochs *epochs) {
   struct trax_chip *chip = epochs->chip;
   trax_transfer_log_discard(&chip->transfers);
   epochs->printed_count = 0;
-  const uint8_t *from = epochs->snapshot;
-  for (size_t i = 0; i < epochs->section_count; i++) {
-    const struct trax_section *section = &epochs->sections[i];
-    if (section->count)
-      memcpy(section->bytes, from, section->size * section->count);
-    from += section->size * section->count;
-  }
+  run_pool(epochs, RESTORE);
   while (epochs->undo_count) {
     const struct undo *undo = &epochs->undo[--epochs->undo_count];
     memcpy(chip->machine->space.bytes + undo->address, &undo->word, sizeof undo->word);
@@ -174,40 +189,42 @@ static bool perform(struct trax_epochs *epochs, const struct trax_store_buffer_w
   return true;
 }
 
-/* Performs the stores of the cycles up to t, in the order of cycles and TMs. *next receives the cycle of the next one.
- */
-static bool write_up_to(struct trax_epochs *epochs, uint64_t t, uint64_t *next) {
-  while (true) {
-    uint32_t first = 0;
-    uint64_t cycle = TRAX_NEVER;
-    for (uint32_t i = epochs->chip->tms; i-- > 0;) {
-      const struct trax_store_buffer *buffer = &epochs->buffers[i];
-      if (epochs->next_write[i] < buffer->write_count && buffer->writes[epochs->next_write[i]].cycle <= cycle) {
-        cycle = buffer->writes[epochs->next_write[i]].cycle;
-        first = i;
-      }
-    }
-    *next = cycle;
-    if (cycle > t)
-      return true;
-    if (!perform(epochs, &epochs->buffers[first].writes[epochs->next_write[first]++], first))
+/* Performs the stores of the cycles up to t, in the order of cycles and TMs. */
+static bool write_up_to(struct trax_epochs *epochs, uint64_t t) {
+  while (trax_schedule_next(&epochs->writes) <= t) {
+    const uint32_t tm = trax_schedule_first(&epochs->writes);
+    const struct trax_store_buffer *buffer = &epochs->buffers[tm];
+    size_t *const write = &epochs->next_write[tm];
+    if (!perform(epochs, &buffer->writes[*write], tm))
       return false;
+    trax_schedule_go_on(&epochs->writes, ++*write < buffer->write_count ? buffer->writes[*write].cycle : TRAX_NEVER);
+  }
+  return true;
+}
+
+/* Submits the requests made up to cycle t. */
+static void submit_requests(struct trax_epochs *epochs, uint64_t t) {
+  while (trax_schedule_next(&epochs->requests) <= t) {
+    const uint32_t tm = trax_schedule_first(&epochs->requests);
+    const struct trax_store_buffer *buffer = &epochs->buffers[tm];
+    size_t *const request = &epochs->next_request[tm];
+    trax_memory_submit(&epochs->chip->memory, &epochs->chip->tm[tm]);
+    trax_schedule_go_on(&epochs->requests,
+                        ++*request < buffer->request_count ? buffer->requests[*request] : TRAX_NEVER);
   }
 }
 
-/* Submits the requests made up to cycle t. Returns the cycle of the next one. */
-static uint64_t submit_requests(struct trax_epochs *epochs, uint64_t t) {
-  struct trax_chip *chip = epochs->chip;
-  uint64_t next = TRAX_NEVER;
-  for (uint32_t i = 0; i < chip->tms; i++) {
+/* Schedules the first writes and requests of all TMs. */
+static void schedule_all(struct trax_epochs *epochs) {
+  epochs->writes.count = epochs->requests.count = 0;
+  for (uint32_t i = 0; i < epochs->chip->tms; i++) {
     const struct trax_store_buffer *buffer = &epochs->buffers[i];
-    size_t *request = &epochs->next_request[i];
-    for (; *request < buffer->request_count && buffer->requests[*request] <= t; ++*request)
-      trax_memory_submit(&chip->memory, &chip->tm[i]);
-    if (*request < buffer->request_count && buffer->requests[*request] < next)
-      next = buffer->requests[*request];
+    epochs->next_write[i] = epochs->next_request[i] = 0;
+    if (buffer->write_count)
+      trax_schedule_add(&epochs->writes, buffer->writes[0].cycle, i);
+    if (buffer->request_count)
+      trax_schedule_add(&epochs->requests, buffer->requests[0], i);
   }
-  return next;
 }
 
 /* Called before the controller increments a word. Before an epoch, bursts that have loaded the word roll back, since
@@ -223,17 +240,15 @@ static void record_increment(void *context, uint32_t address) {
 static bool run_controller(struct trax_epochs *epochs, uint64_t t) {
   struct trax_chip *chip = epochs->chip;
   struct trax_memory *memory = &chip->memory;
-  uint64_t next_request = 0, next_write = 0;
   while (t < epochs->end) {
-    if (next_request <= t)
-      next_request = submit_requests(epochs, t);
-    if (next_write <= t && !write_up_to(epochs, t, &next_write))
+    submit_requests(epochs, t);
+    if (!write_up_to(epochs, t))
       return false;
     trax_memory_cycle(memory, chip->tm, &chip->machine->space, t);
-    const uint64_t next = trax_memory_next_cycle(memory, t);
+    const uint64_t next = trax_memory_next_cycle(memory, t), next_request = trax_schedule_next(&epochs->requests);
     t = next < next_request ? next : next_request;
   }
-  return write_up_to(epochs, epochs->end, &next_write);
+  return write_up_to(epochs, epochs->end);
 }
 
 /* Whether a TM has read a word that another TM or the controller wrote in this epoch. The blocks of such words are
@@ -260,16 +275,19 @@ static bool end_epoch(struct trax_epochs *epochs, uint64_t begin) {
       return false;
   if (!trax_chip_running(chip))
     return false; /* the end of the run must be simulated cycle by cycle */
-  memset(epochs->next_write, 0, chip->tms * sizeof *epochs->next_write);
-  memset(epochs->next_request, 0, chip->tms * sizeof *epochs->next_request);
+  schedule_all(epochs);
   return run_controller(epochs, begin) && !epochs->failed && !has_conflict(epochs);
 }
 
 /* --- epochs --- */
 
-static void run_tms(void *context, uint32_t group) {
+static void work(void *context, uint32_t group) {
   const struct trax_epochs *epochs = context;
   struct trax_chip *chip = epochs->chip;
+  if (epochs->work != RUN) {
+    copy_sections(epochs, group);
+    return;
+  }
   const uint32_t first = group * epochs->interleaved, left = chip->tms - first;
   chip->variant->run_epoch(chip, first, left < epochs->interleaved ? left : epochs->interleaved, epochs->end);
 }
@@ -319,7 +337,7 @@ bool trax_epochs_advance(struct trax_epochs *epochs, uint64_t *t, uint64_t until
     trax_store_buffer_begin(&epochs->buffers[i]);
     chip->tm[i].buffer = &epochs->buffers[i];
   }
-  trax_pool_run(epochs->pool);
+  run_pool(epochs, RUN);
   for (uint32_t i = 0; i < chip->tms; i++)
     chip->tm[i].buffer = NULL;
   const bool ended = end_epoch(epochs, *t);
@@ -363,8 +381,8 @@ trax_status trax_epochs_create(struct trax_chip *chip, unsigned threads, trax_er
   if (!epochs->snapshot)
     return trax_fail(error, "out of memory");
   epochs->interleaved = chip->tms / threads < TRAX_FAST_INTERLEAVED ? chip->tms / threads : TRAX_FAST_INTERLEAVED;
-  const uint32_t groups = (chip->tms + epochs->interleaved - 1) / epochs->interleaved;
-  epochs->pool = trax_pool_create(threads, groups, run_tms, epochs, error);
+  epochs->groups = (chip->tms + epochs->interleaved - 1) / epochs->interleaved;
+  epochs->pool = trax_pool_create(threads, epochs->groups, work, epochs, error);
   return epochs->pool ? TRAX_OK : TRAX_ERROR;
 }
 
@@ -376,6 +394,7 @@ void trax_epochs_destroy(struct trax_epochs *epochs) {
     trax_store_buffer_destroy(&epochs->buffers[i]);
   free(epochs->buffers);
   free(epochs->sections);
+  free(epochs->places);
   free(epochs->snapshot);
   free(epochs->undo);
   free(epochs->printed);

@@ -440,8 +440,9 @@ MUTANTS = [
     ("fast/epochs.c", "  if (trax_fast_is_loaded(&chip->blocks, write->address))\n    return false;",
      "  if (trax_fast_is_loaded(&chip->blocks, write->address) && write->bytes)\n    return false;"),
     # Stores of a cycle in the TMs' order.
-    ("fast/epochs.c", "for (uint32_t i = epochs->chip->tms; i-- > 0;) {",
-     "for (uint32_t i = 0; i < epochs->chip->tms; i++) {"),
+    ("fast/schedule.h", "schedule->key[child + 1] < schedule->key[child];",
+     "schedule->key[child + 1] > schedule->key[child];"),
+    ("fast/schedule.h", "    if (key < schedule->key[child])", "    if (key > schedule->key[child])"),
     # Memory is restored.
     ("fast/epochs.c", "memcpy(chip->machine->space.bytes + undo->address, &undo->word, sizeof undo->word);",
      "memcpy(chip->machine->space.bytes + undo->address, &undo->word, 1);"),
@@ -451,11 +452,13 @@ MUTANTS = [
     ("fast/epochs.c", "epochs->failed |= !record_writer(epochs, address, BY_CONTROLLER);",
      "(void)address; (void)epochs;"),
     # Requests are shown in their cycle.
-    ("fast/epochs.c", "buffer->requests[*request] <= t; ++*request)",
-     "buffer->requests[*request] <= t + 1; ++*request)"),
+    ("fast/epochs.c", "while (trax_schedule_next(&epochs->requests) <= t) {",
+     "while (trax_schedule_next(&epochs->requests) <= t + 1) {"),
     # Stores are performed before the increments of later cycles.
-    ("fast/epochs.c", "if (next_write <= t && !write_up_to",
-     "if (t == 0 && !write_up_to"),
+    ("fast/epochs.c", "    if (!write_up_to(epochs, t))", "    if (t == 0 && !write_up_to(epochs, t))"),
+    # Every part of the snapshot is copied.
+    ("fast/epochs.c", "section_count * (part + 1) / epochs->groups;",
+     "section_count * (part + 1) / epochs->groups - part;"),
     # A TM sees its own stores.
     ("fast/store_buffer.c", "if (own)\n    word",
      "if (own && own->mask == ~0u)\n    word"),
