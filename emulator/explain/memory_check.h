@@ -40,7 +40,7 @@ struct trax_memory_object {
   uint32_t begin, end;         /* what a pointer to the object may access */
   const char *name;            /* of all but blocks */
   uint32_t own_begin, own_end; /* of these: the named object, without its neighbours */
-  bool unnamed;                /* begins and ends as it is named, once that is accessed */
+  bool unnamed;                /* ends where its own memory does, once that is accessed */
   bool freed, reached;         /* of a block; reached: the search for leaks has found a pointer to it */
   struct trax_memory_event allocation, release;
 };

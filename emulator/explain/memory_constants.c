@@ -3,7 +3,7 @@
 #include "explain/memory_check.h"
 #include "trax/grow.h"
 
-enum { SP = 2, NEAR = 16 }; /* A compiler may count from a constant that lies so far outside of an object. */
+enum { NEAR = 16 }; /* A compiler may count from a constant that lies so far outside of an object. */
 
 /* Returns the tag of a key, or 0 after it has given the key the next one. */
 static struct trax_map_entry *entry_of(struct trax_memory_check *check, uint32_t kind, uint32_t value) {
@@ -93,32 +93,28 @@ static const struct trax_memory_variables *variables_at(struct trax_memory_check
   return &check->variables[entry->value];
 }
 
-/* Finds memory of a frame that belongs to no variable, such as alloca's of a constant size: it lies between variables.
-   As long as none of it is accessed, an array near to the address may be meant. */
+/* Finds memory of a frame that belongs to no variable, such as alloca's of a constant size: it ends at the next
+   variable. Where it begins is not known, since variables may lie in its place. As long as none of it is accessed, an
+   array near to the address may be meant. */
 static bool find_unnamed(const struct trax_memory_variables *variables, int32_t offset, uint32_t address,
                          struct trax_memory_object *object) {
-  int32_t own_begin = variables->base == SP ? 0 : INT32_MIN, own_end = INT32_MAX;
-  int32_t near_begin = offset, near_end = offset;
+  int32_t begin = offset, own_end = INT32_MAX, end = INT32_MIN;
   for (size_t i = 0; i < variables->count; i++) {
     const struct trax_frame_variable *it = &variables->items[i];
+    begin = it->begin < begin ? it->begin : begin;
     if (it->begin > offset && it->begin < own_end)
       own_end = it->begin;
-    if (it->end <= offset && it->end > own_begin)
-      own_begin = it->end;
-    if (it->is_array && it->begin <= offset + NEAR && offset <= it->end + NEAR) {
-      near_begin = it->begin < near_begin ? it->begin : near_begin;
-      near_end = it->end > near_end ? it->end : near_end;
-    }
+    if (it->is_array && it->begin <= offset + NEAR && it->end > end)
+      end = it->end;
   }
-  if (own_begin == INT32_MIN || own_end == INT32_MAX || own_begin > offset)
+  if (own_end == INT32_MAX)
     return false;
-  const int32_t begin = near_begin < own_begin ? near_begin : own_begin, end = near_end > own_end ? near_end : own_end;
   *object = (struct trax_memory_object){.kind = MEMORY_LOCAL,
                                         .begin = address + (uint32_t)(begin - offset),
-                                        .end = address + (uint32_t)(end - offset),
+                                        .end = address + (uint32_t)((end > own_end ? end : own_end) - offset),
                                         .name = "memory without a name",
                                         .unnamed = true,
-                                        .own_begin = address + (uint32_t)(own_begin - offset),
+                                        .own_begin = address,
                                         .own_end = address + (uint32_t)(own_end - offset)};
   return true;
 }

@@ -85,10 +85,8 @@ enum trax_memory_finding trax_memory_check_access(struct trax_memory_check *chec
     *object = tag;
     if (it->freed)
       return MEMORY_FREED;
-    if (it->unnamed && address >= it->own_begin && address < it->own_end) {
-      it->begin = it->own_begin;
+    if (it->unnamed && address >= it->own_begin && address < it->own_end)
       it->end = it->own_end;
-    }
     if ((address - it->begin > it->end - it->begin || it->end - address < bytes) &&
         is_plausible(check, thread, it, address))
       return MEMORY_OUTSIDE;

@@ -48,8 +48,9 @@ def profile_use(options, plain, work):
     if not options.instrumented:
         render(options, options.scenes[0], plain, work, "--profile-sample", work / "samples")
         return f"-fprofile-sample-use={work / 'samples'}"
-    counting = build(options, work / "counting.elf", "-mstack=global", "-fprofile-instr-generate=out/main.profraw")
-    render(options, options.scenes[0], counting, work, "--dir", f"{work}::out")
+    counting = build(options, work / "counting.elf", "-mstack=global", "-DEND_THREAD()=exit(0)", "-include", "stdlib.h",
+                     "-fprofile-instr-generate=out/main.profraw")
+    render(options, options.scenes[0], counting, work, "--engine", "functional", "--dir", f"{work}::out")
     run(["llvm-profdata-19", "merge", work / "main.profraw", "-o", work / "main.profdata"])
     return f"-fprofile-instr-use={work / 'main.profdata'}"
 

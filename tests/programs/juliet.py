@@ -2,7 +2,7 @@
 """The C cases of the Juliet test suite under trax-sim --check-memory: each bad variant must be found, each good one
 must be silent.
 
-  juliet.py SUITE --build build [--work DIR] [--only CWE121,...] [--flows 2] [--jobs 2]
+  juliet.py SUITE --build build [--work DIR] [--only CWE121,...] [--flows 1] [--jobs 2]
 
 SUITE is the folder of the suite, with testcases/ and testcasesupport/: Juliet 1.3 for C/C++, which is public at NIST.
 Run on request. Of each functional variant the first flow is taken, and FLOWS - 1 more, in turn. Left out are variants
@@ -90,15 +90,16 @@ def run(options, support, case, kind):
     if built.returncode:
         return None, built.stderr.decode(errors="replace")
     ran = subprocess.run(
-        [options.build / "bin" / "trax-sim", "--engine", "fast", "--check-memory", "--max-cycles", "5000000", program],
+        [options.build / "bin" / "trax-sim", "--engine", "fast", "--check-memory", "--max-cycles", "5000000",
+         *(["--set", "memory.size_mib=16"] if least else []), program],
         capture_output=True, check=False, stdin=subprocess.DEVNULL, timeout=600)
     program.unlink()
     return ran.returncode, ran.stderr.decode(errors="replace")
 
 
 def judge(options, support, case):
-    """(found, false alarm, leaks, messages). The suite's good variants of other classes have leaks, as its comments
-    say ("incidental"). They are counted."""
+    """(found, false alarm, leaks, messages). Good variants of other classes do not free all memory: these leaks are
+    counted."""
     status, bad = run(options, support, case, "bad")
     good_status, good = run(options, support, case, "good")
     if status is None or good_status is None:
@@ -120,7 +121,7 @@ def main():
     parser.add_argument("--build", type=pathlib.Path, required=True)
     parser.add_argument("--work", type=pathlib.Path)
     parser.add_argument("--only", default="")
-    parser.add_argument("--flows", type=int, default=2)
+    parser.add_argument("--flows", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--verbose", action="store_true")
     options = parser.parse_args()

@@ -180,10 +180,6 @@ PROGRAMS = [
         Case(["BEGIN { while ((getline line < \"data.txt\") > 0) n++; print n; print n > \"out.txt\"; exit 3 }"])], [
             ["./configure", "--host=riscv32-unknown-elf", "--build=x86_64-linux-gnu", CC, "--with-builtin-regex"],
             ["make", "mawk"]], files={**DATA, "script.awk": AWK}),
-    Program("gzip", "gzip", "gzip", [
-        Case(["-k", "data.txt"]), Case(["-9c"], text(60)), Case(["-l", "missing.gz"])], [
-            ["./configure", "--host=riscv32-unknown-elf", "--build=x86_64-linux-gnu", CC],
-            ["make", "-C", "lib"], ["make", "version.c", "version.h"], ["make", "gzip"]], files=DATA),
     # --- renderers ---
     Program("tachyon", "tachyon", "compile/linux/tachyon", [
         Case(["scene.dat", "-format", "PPM", "-o", "out.ppm"]),
@@ -207,7 +203,7 @@ PROGRAMS = [
         Case(["-b1", "data.txt", "out.bwt"])], cmake=["-DBUILD_SHARED_LIBS=OFF", "-DUSE_OPENMP=ON"], target="bwt",
             files=DATA, noise=rb"[0-9.]+ sec", chip=CHIP),
     Program("soxr-openmp", "libsoxr", "examples/3-options-input-fn", [
-        Case(["6", "4", "8", "3", "3"], bytes(i * i % 251 for i in range(8 * 2 * 300)))],
+        Case(["6", "4", "8", "3", "11", "0"], bytes(i * i % 251 for i in range(8 * 2 * 300)))],
             cmake=["-DBUILD_SHARED_LIBS=OFF", "-DBUILD_TESTS=OFF", "-DWITH_OPENMP=ON", "-DWITH_CR32S=OFF",
                    "-DWITH_CR64S=OFF", "-DBUILD_EXAMPLES=ON"],
             target="3-options-input-fn", chip=CHIP),
@@ -284,7 +280,8 @@ class Workshop:
         place = self.work / kind / program.name
         binary = place / ("build" if program.build is None else "source") / program.binary
         log = self.work / kind / f"{program.name}.log"
-        if not binary.exists():
+        elf = pathlib.Path(f"{binary}.elf")
+        if not binary.exists() and not elf.exists():
             shutil.rmtree(place, ignore_errors=True)
             shutil.copytree(source, place / "source", symlinks=True)
             log.unlink(missing_ok=True)
@@ -301,9 +298,7 @@ class Workshop:
                     word.format(cc=compiler, kind=kind, host=self.work / "host" / program.name / "source")
                     for word in command if kind == "trax" or not word.startswith(("--host", "--build"))]
                 run(words, place / "source", log, {**os.environ, "CC": compiler})
-        if not binary.exists() and pathlib.Path(f"{binary}.elf").exists():
-            return pathlib.Path(f"{binary}.elf")
-        return binary
+        return elf if elf.exists() else binary
 
     def cases(self, program, kind):
         """What each case prints, its status and the files that it leaves."""
@@ -338,8 +333,9 @@ def speed(shop, program):
         place.mkdir(parents=True)
         for name, contents in program.files.items():
             (place / name).write_bytes(contents)
-        run([shop.build / "bin" / "trax-sim", "--quiet", "--stats", "stats.json", *chip, "--dir", ".", binary,
-             *program.cases[0].arguments], place, shop.work / "speed.log")
+        subprocess.run([shop.build / "bin" / "trax-sim", "--quiet", "--stats", "stats.json", *chip, "--dir", ".",
+                        binary, *program.cases[0].arguments], cwd=place, input=program.cases[0].stdin,
+                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=True)
         cycles.append(json.loads((place / "stats.json").read_text())["cycles"])
     return f"| {program.name} | {cycles[0]:,} | {cycles[1]:,} | {cycles[0] / cycles[1]:.1f} |"
 
@@ -378,7 +374,10 @@ def main():
     if options.speed:
         for program in chosen:
             if program.chip:
-                print(speed(shop, program), flush=True)
+                try:
+                    print(speed(shop, program), flush=True)
+                except subprocess.CalledProcessError:
+                    print(f"| {program.name} | - | - | it needs its threads |", flush=True)
         return
     for program in chosen:
         differences, seconds = compare(shop, program)
