@@ -5,9 +5,9 @@ differs.
     extremes.py --bin build/bin [--short]
 
 --short leaves out what takes longest: random cases on three machines of four, the programs in assembly on two of
-three, those in C on the machine of 4,096 threads. Prints a row for each machine: the cycles of each program, and what the random
-cases of timing-engines-test said. Exit status 0 if all runs of the reference and the fast engine are equal in every
-statistic, every byte of memory and every message.
+three, those in C on the machine of 4,096 threads. Prints a row for each machine: the cycles of each program, and what
+the random cases of timing-engines-test said. Exit status 0 if all runs of the reference and the fast engine are equal
+in every statistic, every byte of memory and every message.
 """
 
 import argparse
