@@ -82,24 +82,25 @@ def cases_of(description, instruction, aliases):
 def different(description, assembler):
     """Whether a wrong statement is not refused as it should be."""
     aliases = {description[name]["AsmString"] for name in description["!instanceof"]["InstAlias"]}
-    statements, expected = [], []
     names = description["!instanceof"]["TraxInst"]
-    for name in names:
-        for statement, column, message in cases_of(description, description[name], aliases):
-            statements.append(statement)
-            expected.append(f"<stdin>:{len(statements)}:{column}: error: {message}")
-    result = subprocess.run([assembler], input="\n".join(statements) + "\n", stdout=subprocess.PIPE,
-                            stderr=subprocess.PIPE, text=True, check=False)
+    cases = [(column, statement, message) for name in names
+             for statement, column, message in cases_of(description, description[name], aliases)]
+    return refused(assembler, cases, f"of {len(names)} instructions")
+
+
+def refused(assembler, cases, what):
+    """Whether one of the cases, (column, statement, message), has not this error alone."""
+    result = subprocess.run([assembler], input="".join(f"{statement}\n" for _, statement, _ in cases),
+                            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
     errors = collections.defaultdict(list)
     for line in result.stderr.splitlines():
         if ": error: " in line:
             errors[line.split(":")[1]].append(line)
     wrong = 0
-    for line, statement in enumerate(statements, 1):
-        wanted = expected[line - 1]
-        got = errors[str(line)]
+    for line, (column, statement, message) in enumerate(cases, 1):
+        wanted, got = f"<stdin>:{line}:{column}: error: {message}", errors[str(line)]
         if got != [wanted]:
             wrong += 1
             print(f"{statement}\n  expected {wanted}\n  got      {'; '.join(got) or 'nothing'}")
-    print(f"{len(statements)} wrong statements of {len(names)} instructions, {wrong} not refused as they should be")
+    print(f"{len(cases)} wrong statements {what}, {wrong} not refused as they should be")
     return wrong != 0 or result.returncode == 0

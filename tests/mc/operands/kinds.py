@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Every kind of operand that the description's instructions have is tested with wrong operands: a file KIND-invalid.s
-beside this one, with a comment line for each mistake that the kind can have, followed by cases. Prints what is missing.
+"""Every kind of operand that the description's instructions have is tested with wrong operands: wrong.txt has a section
+for each, with cases of each mistake that the kind can have. Prints what is missing there, and what is not refused.
 
   kinds.py DESCRIPTION MC    from llvm-tblgen --dump-json isa/Isa.td; the assembler
 
@@ -56,43 +56,54 @@ def message_of(description, kind):
     return description[kind["ParserMatchClass"]["def"]]["DiagnosticString"]
 
 
-def tested(path):
-    """The headings of a file that cases follow."""
-    headings, heading = set(), None
-    with open(path, encoding="ascii") as file:
-        for line in file:
-            if line.startswith("# CHECK:"):
-                headings.add(heading)
+def read_cases():
+    """{kind: [(mistake, column, statement, message, None for the kind's own)]}"""
+    sections, mistake = {}, None
+    with open(os.path.join(HERE, "wrong.txt"), encoding="ascii") as file:
+        for line in file.read().split("\n\n", 1)[1].splitlines():
+            if line.startswith("["):
+                cases = sections.setdefault(line[1:line.index("]")], [])
             elif line.startswith("# "):
-                heading = line[2:].strip()
-    return headings
+                mistake = line[2:]
+            elif line:
+                column, text = line.split(" ", 1)
+                statement, _, message = text.partition(" !! ")
+                cases.append((mistake, int(column), statement, message or None))
+    return sections
 
 
-def missing_cases(description, kinds):
+def missing_cases(description, kinds, sections):
     missing = []
     for name, kind in sorted(kinds.items()):
-        path = os.path.join(HERE, f"{name}-invalid.s")
-        if not os.path.exists(path):
-            missing.append(f"operand kind {name}: there is no {name}-invalid.s")
+        if name not in sections:
+            missing.append(f"operand kind {name}: wrong.txt has no section of it")
             continue
-        headings = tested(path)
-        missing += [f"{name}-invalid.s: no case of: {mistake}" for mistake in mistakes_of(description, kind)
-                    if mistake not in headings]
-        with open(path, encoding="ascii") as file:
-            if f"error: {message_of(description, kind)}\n" not in file.read():
-                missing.append(f"{name}-invalid.s: no case has the kind's own message")
+        tested = {mistake for mistake, *_ in sections[name]}
+        missing += [f"{name}: no case of: {mistake}" for mistake in mistakes_of(description, kind)
+                    if mistake not in tested]
+        if all(message for *_, message in sections[name]):
+            missing.append(f"{name}: no case has the kind's own message")
     return missing
+
+
+def different(description, kinds, sections, assembler):
+    """Whether a case is not refused as wrong.txt says."""
+    cases = [(column, statement, message or message_of(description, kinds[name]))
+             for name, section in sections.items() for _, column, statement, message in section]
+    return every_instruction.refused(assembler, cases, f"of {len(sections)} kinds")
 
 
 def main():
     with open(sys.argv[1], encoding="utf-8") as file:
         description = json.load(file)
     kinds = kinds_of(description)
-    missing = missing_cases(description, kinds)
+    sections = read_cases()
+    missing = missing_cases(description, kinds, sections)
     print("\n".join(missing) or f"{len(kinds)} kinds of operands are tested: {', '.join(sorted(kinds))}")
+    wrong = different(description, kinds, sections, sys.argv[2])
     kinds["uimm9"] = kinds.pop("uimm5")
-    print("with a new kind:", "; ".join(missing_cases(description, kinds)))
-    return bool(missing) or every_instruction.different(description, sys.argv[2])
+    print("with a new kind:", "; ".join(missing_cases(description, kinds, sections)))
+    return bool(missing) or every_instruction.different(description, sys.argv[2]) or wrong
 
 
 if __name__ == "__main__":
