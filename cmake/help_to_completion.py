@@ -12,9 +12,9 @@ SCRIPT = """\
 _%(function)s() {
   local word=${COMP_WORDS[COMP_CWORD]}
   if [[ $word == -* ]]; then
-    COMPREPLY=($(compgen -W '%(options)s' -- "$word"))
+    mapfile -t COMPREPLY < <(compgen -W '%(options)s' -- "$word")
   else
-    COMPREPLY=($(compgen -f -- "$word"))
+    mapfile -t COMPREPLY < <(compgen -f -- "${word//\\\\/}")
   fi
 }
 complete -o filenames -F _%(function)s %(name)s"""

@@ -149,17 +149,20 @@ static const char *function_of(const char *program, char function[64]) {
   return function;
 }
 
+/* The command that offers files, each in a line: names may have blanks. A blank that was typed has a backslash. */
+#define FILES "compgen -f -- \"${word//\\\\/}\""
+
 /* Words, and files if the value may be one. Behind KEY of KEY=VALUE there is no blank. */
 static void put_words(FILE *out, const trax_option *row) {
   const bool is_key = strncmp(row->argument, "KEY=", 4) == 0;
-  fprintf(out, "COMPREPLY=($(compgen %s-W '", is_key ? "-S = " : "");
+  fprintf(out, "mapfile -t COMPREPLY < <(compgen %s-W '", is_key ? "-S = " : "");
   for (size_t i = 0; row->choices && row->choices[i]; i++)
     fprintf(out, "%s%s", i ? " " : "", row->choices[i]);
   if (row->words)
     row->words(out);
-  fputs("' -- \"$word\")", out);
+  fputs("' -- \"$word\"", out);
   if (takes_file(row))
-    fputs(" $(compgen -f -- \"$word\")", out);
+    fputs("; " FILES, out);
   fputs("); ", out);
   if (is_key)
     fputs("compopt -o nospace 2> /dev/null; ", out);
@@ -189,19 +192,19 @@ void trax_command_completion(const trax_command *command, FILE *out) {
     if (row->choices || row->words)
       put_words(out, row);
     else if (takes_file(row))
-      fputs("COMPREPLY=($(compgen -f -- \"$word\")); ", out);
+      fputs("mapfile -t COMPREPLY < <(" FILES "); ", out);
     fputs("return ;;\n", out);
   }
-  fputs("  esac\n  if [[ $word == -* ]]; then\n    COMPREPLY=($(compgen -W '", out);
+  fputs("  esac\n  if [[ $word == -* ]]; then\n    mapfile -t COMPREPLY < <(compgen -W '", out);
   bool first = true;
   for (const trax_option *row = command->rows; row->name; row++)
     if (is_listed(row)) {
       fprintf(out, "%s--%s", first ? "" : " ", row->name);
       first = false;
     }
-  fputs("' -- \"$word\"))\n  else\n    COMPREPLY=($(compgen -f -- \"$word\")", out);
+  fputs("' -- \"$word\")\n  else\n    mapfile -t COMPREPLY < <(" FILES, out);
   if (command->part)
-    fprintf(out, " $(compgen -W '%s' -- \"$word\")", command->part);
+    fprintf(out, "; compgen -W '%s' -- \"$word\"", command->part);
   fputs(")\n  fi\n}\n", out);
   fprintf(out, "complete -o filenames -F %s %s\n", function_of(command->name, function), command->name);
 }

@@ -8,6 +8,7 @@ import pathlib
 import re
 import subprocess
 import sys
+import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 import checking  # noqa: E402
@@ -40,16 +41,16 @@ def table(command):
     return names, {name for name, rest in rows if ".instead" in rest}
 
 
-def completed(command, *words):
+def completed(command, *words, folder=SOURCE / "docs"):
     """What bash offers for the last word, as in a shell that finds the programs."""
     script = BIN.parent / "share/bash-completion/completions" / command
     run = subprocess.run([
         "bash", "--norc", "-c",
         'source "$1"; shift; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); "_${1//-/_}"; printf "%s\\n" "${COMPREPLY[@]}"',
-        "bash", script, command, *words], capture_output=True, text=True, timeout=60, cwd=SOURCE / "docs",
+        "bash", script, command, *words], capture_output=True, text=True, timeout=60, cwd=folder,
                          env=os.environ | {"PATH": f"{BIN}:{os.environ['PATH']}"})
     check(run.returncode == 0 and not run.stderr, command, *words, run.stderr)
-    return set(run.stdout.split())
+    return set(run.stdout.splitlines()) - {""}
 
 
 # Words, and what the completion offers for the last of them, besides files.
@@ -104,6 +105,13 @@ def main():
         check(all(heads) and "\nExamples:\n" in printed(command, "--help"), command, "has no examples")
     check(completed("trax-render", "--size", "1") == set(), "what only the user knows")
     check(completed("trax-sim", "--stats", "manif") == completed("trax-sim", "manif") == {"manifest.md"}, "files")
+    with tempfile.TemporaryDirectory() as folder:
+        pathlib.Path(folder, "two words.elf").touch()
+        for command, *words in (("trax-sim",), ("trax-sim", "--stats"), ("trax-render", "--view"), ("trax-eval",),
+                                ("trax-eval", "report"), ("trax-ld",)):
+            for begun in ("two", "two\\ w"):
+                found = completed(command, *words, begun, folder=folder)
+                check(found == {"two words.elf"}, "a name with a blank:", command, *words, begun, found)
     check("SS View" in printed("trax-render", "--help-man") and "\nView:\n" in printed("trax-render", "--help"),
           "headings")
     evaluation_completion()

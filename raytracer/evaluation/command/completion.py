@@ -28,33 +28,33 @@ _trax_eval() {
 %s
   esac
   if [[ $word == -* ]]; then
-    COMPREPLY=(%s)
+    mapfile -t COMPREPLY < <(%s)
   else
-    COMPREPLY=(%s)
+    mapfile -t COMPREPLY < <(%s)
   fi
 }
 complete -o filenames -F _trax_eval trax-eval"""
 
 
 def words(values, mark=""):
-    """Bash: those of the words that begin as the word does; of a list, its last value."""
+    """A command of bash: those of the words that begin as the word does; of a list, its last value."""
     values = " ".join(values)
     if mark:
-        return f"$(compgen -P \"${{word%\"${{word##*{mark}}}\"}}\" -W '{values}' -- \"${{word##*{mark}}}\")"
-    return f"$(compgen -W '{values}' -- \"$word\")"
+        return f"compgen -P \"${{word%\"${{word##*{mark}}}\"}}\" -W '{values}' -- \"${{word##*{mark}}}\""
+    return f"compgen -W '{values}' -- \"$word\""
 
 
 def files(kind):
-    return f'$(compgen -{kind} -- "$word")'
+    return f'compgen -{kind} -- "${{word//\\\\/}}"'  # a blank that was typed has a backslash
 
 
 def value_of(option, data):
     """A row of `case`: the words that complete the option's value."""
     values = (*option.words, *(stems(data, option.folder) if option.folder else ()))
-    offered = " ".join(
+    offered = "; ".join(
         [*([words(values, option.mark)] if values else []), *([files(option.files)] if option.files else [])])
     begin = f"-{option.letter} | " if option.letter else ""
-    reply = f"COMPREPLY=({offered}); " if offered else ""
+    reply = f"mapfile -t COMPREPLY < <({offered}); " if offered else ""
     return f"    {begin}--{option.name}) {reply}return ;;"
 
 
@@ -66,12 +66,12 @@ def of_command(name, new_parser):
     """A row of `case`: another command of trax-eval has options of its own, and files."""
     names = sorted(name for name in new_parser()._option_string_actions
                    if name.startswith("--"))  # argparse offers no other way
-    return (f"      {name}) if [[ $word == -* ]]; then COMPREPLY=({words(names)}); "
-            f"else COMPREPLY=({files('f')}); fi; return ;;")
+    return (f"      {name}) if [[ $word == -* ]]; then mapfile -t COMPREPLY < <({words(names)}); "
+            f"else mapfile -t COMPREPLY < <({files('f')}); fi; return ;;")
 
 
 def script(data, experiments):
     """experiments: their names."""
     return SCRIPT % ("\n".join(of_command(*command) for command in COMMANDS.items()), "\n".join(
         value_of(option, data) for option in OPTIONS if option.argument), words(
-            f"--{option.name}" for option in OPTIONS), f"{words([*experiments, *COMMANDS])} {files('f')}")
+            f"--{option.name}" for option in OPTIONS), f"{words([*experiments, *COMMANDS])}; {files('f')}")

@@ -15,7 +15,7 @@ cycles; once at the latency of a unit that produces four bits a cycle, once at t
     digits   four bits a cycle
     newton   a table and Newton's iteration
 
-emulator/include/trax/special_latency.h defines both, and both give the paper's 8 cycles for 24 bits. The bunny of
+units.c defines both, and both give the paper's 8 cycles for 24 bits. The bunny of
 Debian's glmark2-data is rendered, and conference if --scenes is given.
 """
 
