@@ -418,6 +418,43 @@ class Page(PageTests, Scratch):
                          rf"most {max(columns['counts.nodes']):,};")
         self.is_quiet()
 
+    def test_end(self):
+        """The last pixel, how long it is alone, and what threads had to do after their last, by the items' file."""
+        stats = json.loads(self.text("q.json"))
+        items = [{name: int(row[name]) for name in ("thread", "place", "begin", "end")}
+                 for row in csv.DictReader(io.StringIO(self.text("items.csv"))) if row["kind"] == "item"]
+        ends = {}
+        for item in items:
+            ends[item["thread"]] = max(ends.get(item["thread"], 0), item["end"])
+        last = max(items, key=lambda item: item["end"])
+        alone, before = (sorted(ends.values())[-1] - sorted(ends.values())[-2],
+                         max(item["begin"] for item in items))
+        idle = 1 - sum(ends.values()) / stats["thread_cycles"]
+        self.load("whole")
+        lines = self.browser.run("Array.from(document.querySelectorAll('#brief li'), li => li.textContent)")
+        begins = (f"The last {alone:,} cycles wait for" if alone >= stats["cycles"] / 100 else
+                  f"The last to end, {alone:,} cycles after all others, was")
+        self.assertIn(f"{begins} pixel ({last['place'] % WIDTH}, {last['place'] // WIDTH}), which was begun in cycle "
+                      f"{last['begin']:,} and took {last['end'] - last['begin']:,}.", lines)
+        self.assertIn(f"After cycle {before:,} no further pixel was begun: threads that had ended theirs had nothing "
+                      f"to do in {100 * idle:.1f} % of all thread-cycles.", lines)
+        self.browser.run("Array.from(document.querySelectorAll('#brief button')).find("
+                         "b => b.textContent.startsWith('pixel')).click()")
+        story = self.browser.run("document.getElementById('story').innerText")
+        self.assertIn(f"Pixel ({last['place'] % WIDTH}, {last['place'] // WIDTH}):", story)
+        own = sum(item["thread"] == last["thread"] for item in items)
+        self.assertIn(f"The {own} pixels of its thread over the run", story)
+        # The chosen one is drawn where it is in time.
+        pink = self.browser.run(
+            "(c => { const d = c.getContext('2d').getImageData(0, 1, 1200, 1).data, found = []; "
+            "for (let i = 0; i < 1200; i++) if (d[4 * i] === 255 && d[4 * i + 1] === 45 && d[4 * i + 3] === 255)"
+            " found.push(i); return [found[0], "
+            "found[found.length - 1]]; })(document.querySelector('canvas.line'))"
+        )
+        for found, cycle in zip(pink, (last["begin"], last["end"])):
+            self.assertAlmostEqual(found, 1200 * cycle / stats["cycles"], delta=3)
+        self.is_quiet()
+
     def test_source(self):
         self.load("whole")
         data, _ = unpack(self.folder / "p.html")

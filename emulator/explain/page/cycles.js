@@ -2,7 +2,7 @@
 
 const locationOf = (run, line) => line.slice(line.lastIndexOf("/") + 1);
 
-function drawHead({ stats, run, causes, lines }) {
+function drawHead({ stats, run, causes, lines, columns }) {
   const chip = stats.configuration.chip, program = stats.program.slice(stats.program.lastIndexOf("/") + 1);
   const title = `${run.title ?? program} on ${chip.tms}x${chip.tps_per_tm}`;
   document.title = `${title}: ${whole(stats.cycles)} cycles`;
@@ -38,7 +38,7 @@ function drawHead({ stats, run, causes, lines }) {
   if (hottest) brief.push(element("li", {}, "The costliest line is ", element("button",
     { type: "button", class: "code", onclick: () => run.openLine(hottest.name) }, locationOf(run, hottest.name)),
     `, with ${percent(hottest.total / stats.thread_cycles)} of the thread-cycles.`));
-  byId("brief").append(...brief);
+  byId("brief").append(...brief, ...linesOfEnd({ stats, run, columns }));
 }
 
 function drawCauses({ stats, causes }) {

@@ -94,6 +94,7 @@ function drawPicture({ stats, run, causes, columns }) {
     }
     return low / pixels;
   };
+  const threads = columns.more ? null : threadsOf(columns);
   const story = (i) => {
     const place = `(${i % width}, ${Math.floor(i / width)})`, thread = columns.thread.values[i] - 1;
     if (thread < 0) {
@@ -113,7 +114,9 @@ function drawPicture({ stats, run, causes, columns }) {
         [rays ? `${whole(rays[i])} rays${kinds.length > 1 ? ` (${byKind.join(", ")})` : ""}` : "",
           ...counts.map((count) => `${whole(count.values[i])} ${count.name}`), `${whole(own.issued ?? 0)} instructions`]
           .filter((part) => part).join(", ") + "."),
-      stack(causes, own, cycles[i]), element("div", { class: "scroll" }, table));
+      stack(causes, own, cycles[i]), element("div", { class: "scroll" }, table),
+      ...(threads ? [threadLine(threads.get(thread), i, stats.cycles, (pixel) => rampAt(cycles[pixel] / costs.white)),
+        element("p", { class: "soft" }, `The ${whole(threads.get(thread).length)} pixels of its thread over the run, this one in pink.`)] : []));
     fillTable("story-table", "", [["cause"], ["cycles", "n"], ["share", "n"], ["times the mean pixel's", "n"]],
       causes.filter(({ name }) => own[name]).sort((a, b) => own[b.name] - own[a.name]).map(({ name, colour }) => {
       const mean = meanOf(columns[`causes.${name}`].values);
@@ -164,5 +167,6 @@ function drawPicture({ stats, run, causes, columns }) {
   const elsewhere = Object.values(run.picture.elsewhere).reduce((total, part) => total + part, 0);
   byId("picture-sum").textContent = `The pixels took ${whole(stats.thread_cycles - elsewhere)} thread-cycles; ` +
     `${whole(elsewhere)} belong to no pixel: after a thread's last, or of items without a place.`;
+  run.showPixel = (i) => { pin(i); section.scrollIntoView(); };
   pin(ranking[0]);
 }

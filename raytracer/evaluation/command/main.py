@@ -29,12 +29,13 @@ from trax_eval.tools import Tools
 from trax_eval.util import Problem, check_files, complain, nearest, remark
 from trax_eval.values import Areas
 
-from . import completion
+from . import completion, space
 from .options import OPTIONS, described, job_parser, new_parser
 
 HELP = """\
 usage: trax-eval [OPTION...] EXPERIMENT... [SCENES]
        trax-eval [OPTION...] --all [SCENES]
+       trax-eval space [OPTION...] SWEEP.json [SCENES]
        trax-eval report RESULTS.json -o PAGE.html
        trax-eval docs [--check] [RESULTS.json...] PAGE.md...
        trax-eval fetch-scenes [OPTION...] [SCENE...]
@@ -121,6 +122,11 @@ def evaluate(options, tools, data, command):
         read_sweep(path, size=options.size, mode=options.mode, programs=options.programs, chips=options.chip,
                    only_scenes=options.scene, only_variants=options.variant) for path in files
     ]
+    return make_runs(options, tools, data, command, begin, files, folder, sweeps)[0]
+
+
+def make_runs(options, tools, data, command, begin, files, folder, sweeps):
+    """Returns the exit status, the value of results.json (None: nothing was run), and (sweep, keys of its points)."""
     check_machines(sweeps, tools)
     check_files(files, [
         *(plan_file(options.output, sweep)
@@ -154,13 +160,13 @@ def evaluate(options, tools, data, command):
         print("\n".join([*missing, f"{len(missing)} of {len(labels)} runs are missing"]))
         if known := estimate(out, plans):
             print("they take about {} of a processor, by the {} that are there".format(seconds(known[0]), known[1]))
-        return 0
+        return 0, None, plans
     for sweep, keys in plans:
         write_plan(out, sweep, keys, tools)
     forget_damaged(out, labels)
     if options.prepare:
         print("".join(f"{key}\n" for key in labels if not is_intact(out, key)), end="")
-        return 1 if without else 0
+        return 1 if without else 0, None, plans
     failed = runners.run_all(out, tools, labels, options)
     results = collect(out, tools, Areas(data / "paper"), command, time.monotonic() - begin)
     if not options.quiet:
@@ -173,7 +179,15 @@ def evaluate(options, tools, data, command):
         )
     unreported = (options.all or options.report) and make.main(
         [str(out / "results.json"), "-o", str(out / "report.html")])
-    return 1 if failed or without or unreported else 0
+    return 1 if failed or without or unreported else 0, results, plans
+
+
+def explore_space(arguments, tools, data):
+    begin, options = time.monotonic(), parse(arguments)
+    files, folder = choose(options, data)
+    command = shlex.join(["trax-eval", "space", *arguments])
+    return space.explore(options, files, lambda sweep: make_runs(options, tools, data, command, begin, files, folder,
+                                                                 [sweep]))
 
 
 def run_one_job(arguments, tools):
@@ -196,6 +210,11 @@ def dispatch(arguments, tools, data):
     if arguments[:1] == ["fetch-scenes"]:
         from fetch import main as fetch  # the network's modules would be a third of every start
         return fetch.main(arguments[1:], tools)
+    if arguments[:1] == ["space"]:
+        if "-h" in arguments or "--help" in arguments:
+            print(space.HELP, end="")
+            return 0
+        return explore_space(arguments[1:], tools, data)
     if "-h" in arguments or "--help" in arguments:
         print(help_text(data), end="")
         return 0

@@ -8,7 +8,7 @@ from .charts import CAUSES, STYLES, shares
 from .markup import el, join, table
 from .plots import Bars, Lines, Series, draw
 from .results import ratio
-from .sweeps import TITLES
+from .sweeps import TITLES, interval_text
 from .table import Cell, Table, figure, words
 
 COME_WITH_TRAX = pathlib.Path(__file__).resolve().parent.parent / "sweeps"
@@ -75,11 +75,16 @@ def varying(runs):
 # --- what a rate costs ---
 
 
+def design(run):
+    """What is estimated or simulated exactly."""
+    return run.scene, run.workload, run.size, run.program, run.config, run.variant, repr(sorted(run.set.items()))
+
+
 def groups(runs):
-    """Runs that render the same: by scene, workload and size."""
-    found = {}
+    """Runs that render the same: by scene, workload and size. Of a design the exact run, where there is one."""
+    found, exact = {}, {design(run) for run in runs if not run.is_estimate()}
     for run in runs:
-        if run.get("mrps") is not None:
+        if run.get("mrps") is not None and not (run.is_estimate() and design(run) in exact):
             found.setdefault((run.scene, run.workload, run.size), []).append(run)
     return found
 
@@ -121,7 +126,7 @@ def front_table(runs):
             on = ", ".join(identity for identity, chosen in fronts.items() if run in chosen)
             rows.append([
                 words(name_of(run, axes)),
-                figure(run.get("mrps")),
+                figure(run.get("mrps"), below=interval_text(run) if run.is_estimate() else ""),
                 *(figure(run.get(cost)) for _, cost, _ in COSTS),
                 *(figure(ratio(run.get("mrps"), run.get(cost))) for _, cost, _ in COSTS),
                 Cell(on, on)
