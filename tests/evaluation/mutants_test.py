@@ -71,7 +71,7 @@ def mutated(source, good):
 def test_files(inside, scratch, seed, count):
     """Sweeps, and programs, scenes and workloads beside a sweep that is good."""
     source = random.Random(seed)
-    for name in ("p.c", "p.patch"):
+    for name in ("p.c", "p.patch", "x"):  # x: a name of ODD
         (scratch / name).write_text("")
     for kind, good in (("sweep", GOOD), ("variants", VARIANTS), ("programs", PROGRAM), ("scenes", SCENE), ("workloads",
                                                                                                            WORKLOAD)):
