@@ -15,7 +15,7 @@ case ${1:-} in
 esac
 ./setup.sh
 python3 -m compileall -q build/lib/trax/evaluation # trax-eval starts hundreds of times
-jobs=${JOBS:-$(($(nproc) + 1))} # one more than processors: evaluation, signals and others wait for part of their time
+jobs=${JOBS:-$(($(nproc) + 2))} # two more than processors: browsers, signals and others wait for part of their time
 if [ ${#without[@]} -gt 0 ]; then
   tests=$(ctest --test-dir build -N | sed -n 's/^ *Test *#[0-9]*: //p')
   for name in ${slow//|/ }; do

@@ -165,7 +165,7 @@ static void special_integer_pairs(void **state) {
 static void random_integers(void **unused) {
   (void)unused;
   uint64_t state = 1;
-  for (int i = 0; i < RANDOM_OPERANDS; i++)
+  for (int i = 0, last = some_of(RANDOM_OPERANDS); i < last; i++)
     check_integers(random_integer(&state), random_integer(&state));
 }
 
@@ -174,7 +174,7 @@ static void random_integers(void **unused) {
 static void quotients_at_the_limits(void **unused) {
   (void)unused;
   uint64_t state = 2;
-  for (int i = 0; i < RANDOM_OPERANDS; i++) {
+  for (int i = 0, last = some_of(RANDOM_OPERANDS); i < last; i++) {
     uint64_t d = random_integer(&state), q = random_integer(&state);
     if (d == 0)
       continue;
@@ -198,7 +198,7 @@ static void special_double_pairs(void **state) {
 static void random_doubles(void **unused) {
   (void)unused;
   uint64_t state = 3;
-  for (int i = 0; i < RANDOM_OPERANDS; i++) {
+  for (int i = 0, last = some_of(RANDOM_OPERANDS); i < last; i++) {
     double a = random_double(&state), b = random_double(&state);
     check_doubles(a, b);
     check_doubles(a, double_of(bits_of(a) + (random64(&state) & 7) - 3)); /* cancellation */
@@ -209,7 +209,7 @@ static void random_doubles(void **unused) {
 static void doubles_near_underflow(void **unused) {
   (void)unused;
   uint64_t state = 4;
-  for (int i = 0; i < RANDOM_OPERANDS; i++) {
+  for (int i = 0, last = some_of(RANDOM_OPERANDS); i < last; i++) {
     uint64_t r = random64(&state);
     double a = double_of((random64(&state) & 0x800FFFFFFFFFFFFFu) | (400 + r % 200) << 52);
     double b = double_of((random64(&state) & 0x800FFFFFFFFFFFFFu) | (500 + (r >> 32) % 100) << 52);
@@ -224,7 +224,7 @@ static void doubles_near_underflow(void **unused) {
 static void floats(void **unused) {
   (void)unused;
   uint64_t state = 5;
-  for (int i = 0; i < RANDOM_OPERANDS; i++) {
+  for (int i = 0, last = some_of(RANDOM_OPERANDS); i < last; i++) {
     float a = random_float(&state), b = random_float(&state);
     check_floats(a, b);
     check_floats(a, a);
@@ -253,7 +253,7 @@ static void halves(void **unused) {
     same_float("__extendhfsf2", rt___extendhfsf2(pattern), (float)x, bits);
   }
   uint64_t state = 8;
-  for (int i = 0; i < RANDOM_OPERANDS; i++) {
+  for (int i = 0, last = some_of(RANDOM_OPERANDS); i < last; i++) {
     uint64_t r = random64(&state);
     /* From below the least half to above the greatest; few bits behind its last place, so that many are halfway. */
     uint32_t bits = (uint32_t)(r & 0x80000000u) | (uint32_t)(127 - 27 + (r >> 32) % 46) << 23 |
@@ -268,7 +268,7 @@ static void halves(void **unused) {
 static void products_that_overflow(void **unused) {
   (void)unused;
   uint64_t state = 9;
-  for (int i = 0; i < RANDOM_OPERANDS; i++) {
+  for (int i = 0, last = some_of(RANDOM_OPERANDS); i < last; i++) {
     int64_t a = (int64_t)random_integer(&state), b = (int64_t)random_integer(&state), want;
     if (i & 1 && a) /* at the limit */
       b = INT64_MAX / a + (int64_t)(random64(&state) % 3) - 1;
@@ -281,7 +281,7 @@ static void products_that_overflow(void **unused) {
 static void integer_powers(void **unused) {
   (void)unused;
   uint64_t state = 6;
-  for (int i = 0; i < 300000; i++) {
+  for (int i = 0, last = some_of(300000); i < last; i++) {
     int n = i < 4 ? (int[]){0, 1, -1, INT32_MIN}[i] : (int)(random64(&state) % 141) - 70;
     double a = random_double(&state);
     float f = random_float(&state);
@@ -344,7 +344,7 @@ static void check_part(const double *v, const char *part, double got, long doubl
 static void complex_quotients_of_all_sizes(void **unused) {
   (void)unused;
   uint64_t state = 11;
-  for (int i = 0; i < 300000; i++) {
+  for (int i = 0, last = some_of(300000); i < last; i++) {
     double v[4];
     for (int j = 0; j < 4; j++)
       v[j] = ldexp((double)(int64_t)random64(&state), (int)(random64(&state) % 2090) - 1130);
@@ -373,7 +373,7 @@ static void complex_numbers(void **unused) {
     check_complex(special[i % n], special[i / n % n], special[i / n / n % n], special[i / n / n / n]);
   }
   uint64_t state = 7;
-  for (int i = 0; i < 300000; i++) {
+  for (int i = 0, last = some_of(300000); i < last; i++) {
     double v[4];
     for (int j = 0; j < 4; j++)
       v[j] = ldexp((double)(int64_t)random64(&state), (int)(random64(&state) % 300) - 200);

@@ -139,7 +139,7 @@ static int sign_of(int x) {
 static void string_functions(void **unused) {
   (void)unused;
   uint64_t state = 7;
-  for (int round = 0; round < 300000; round++) {
+  for (int round = 0, last = some_of(300000); round < last; round++) {
     _Alignas(4) char a[32], b[32], ours[80], theirs[80];
     size_t offset_a = random64(&state) & 3, offset_b = random64(&state) & 3;
     size_t length_a = random64(&state) % 20, length_b = random64(&state) % (round & 1 ? 20 : 4);
@@ -196,7 +196,7 @@ static int sign(int x) {
 static void more_string_functions(void **unused) {
   (void)unused;
   uint64_t state = 16;
-  for (int i = 0; i < 200000; i++) {
+  for (int i = 0, last = some_of(200000); i < last; i++) {
     char a[24], b[24], got[32], want[32];
     size_t size_a = random64(&state) % sizeof a, size_b = random64(&state) % (i & 1 ? 4 : sizeof b),
            n = random64(&state) % 26;
@@ -301,7 +301,7 @@ static void text_to_integer(void **unused) {
     for (size_t j = 0; j < COUNT(bases); j++)
       check_text_to_integer(texts[i], bases[j]);
   uint64_t state = 8;
-  for (int i = 0; i < 200000; i++) {
+  for (int i = 0, last = some_of(200000); i < last; i++) {
     char text[80];
     int64_t x = (int64_t)random_integer(&state);
     snprintf(text, sizeof text, (const char *[]){"%lld", "%llx", "0x%llx", "0%llo", "-%llu", "%lld7"}[i % 6],
@@ -462,7 +462,7 @@ static void text_to_double(void **unused) {
     check_text_to_double(text);
   }
   uint64_t state = 15;
-  for (int i = 0; i < 200000; i++) {
+  for (int i = 0, last = some_of(200000); i < last; i++) {
     double x = random_double(&state);
     snprintf(text, sizeof text, i & 1 ? "%.*e" : "%.*g", (int)(random64(&state) % 40), x);
     check_text_to_double(text);
@@ -541,7 +541,7 @@ static void heap(void **unused) {
   size_t size[SLOTS] = {0};
   uint64_t state = 10;
   int failures = 0;
-  for (int round = 0; round < 200000; round++) {
+  for (int round = 0, last = some_of(200000); round < last; round++) {
     int i = (int)(random64(&state) % SLOTS);
     size_t wanted = random64(&state) % (random64(&state) % 8 ? 200 : 8000);
     for (size_t j = 0; slot[i] && j < size[i]; j++)
@@ -649,7 +649,7 @@ static void formatted_integers(void **unused) {
   (void)unused;
   uint64_t state = 11;
   static const char *const lengths[] = {"", "h", "hh", "l", "ll", "j", "z", "t"};
-  for (int i = 0; i < 400000; i++) {
+  for (int i = 0, last = some_of(400000); i < last; i++) {
     char format[40];
     random_format(&state, format, lengths[i % 8], "diuoxXbB");
     uint64_t x = random_integer(&state);
@@ -673,7 +673,7 @@ static void formatted_wide(void **unused) {
   assert_non_null(setlocale(LC_CTYPE, "C.UTF-8"));
   uint64_t state = 13;
   static const wchar_t ends[] = {1, 0x7F, 0x80, 0x7FF, 0x800, 0xD7FF, 0xE000, 0xFFFF, 0x10000, 0x10FFFF};
-  for (int i = 0; i < 100000; i++) {
+  for (int i = 0, last = some_of(100000); i < last; i++) {
     char format[40];
     wchar_t text[12] = {0};
     for (uint64_t j = random64(&state) % 12; j > 0; j--)
@@ -784,7 +784,7 @@ static void processor_time(void **unused) {
   assert_int_equal(rt_clock(), -1); /* nobody said what the clock is */
   static const unsigned megahertz[] = {1, 3, 250, 333, 500, 1000, 1500, 100000};
   uint64_t state = 14;
-  for (int i = 0; i < 100000; i++) {
+  for (int i = 0, last = some_of(100000); i < last; i++) {
     const unsigned mhz = rt___trax_clock_mhz = megahertz[random64(&state) % COUNT(megahertz)];
     host_cycles = random64(&state) >> (12 + random64(&state) % 52);
     assert_true((unsigned __int128)host_cycles * 1000 / mhz == (unsigned __int128)rt_clock());
@@ -795,14 +795,14 @@ static void processor_time(void **unused) {
 static void formatted_doubles(void **unused) {
   (void)unused;
   uint64_t state = 12;
-  for (int i = 0; i < 400000; i++) {
+  for (int i = 0, last = some_of(400000); i < last; i++) {
     char format[40];
     random_format(&state, format, "", "eEfFgGaA");
     double x = random_double(&state);
     CHECK_FORMAT(format, x);
   }
   /* Decimal ties and runs of nines. */
-  for (int i = 0; i < 200000; i++) {
+  for (int i = 0, last = some_of(200000); i < last; i++) {
     char format[40];
     random_format(&state, format, "", "efg");
     double x = (double)(int64_t)(random64(&state) % 4000001 - 2000000) / (1 << random64(&state) % 12);

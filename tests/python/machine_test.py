@@ -115,6 +115,14 @@ def test_errors_have_places(programs, manifest):
         trax.compile(source, output=source + ".elf")
     with pytest.raises(trax.TraxError, match="no-such.ply"):
         trax.prepare("no-such.ply", folder="nowhere")
+    with pytest.raises(trax.TraxError, match="--paths"):
+        trax.prepare("no-such.ply", folder="nowhere", options=("--paths", "many"))
+
+
+def test_linear_pixels_become_bytes_by_the_srgb_curve():
+    """By hand: 255 times the curve, rounded; below 0.0031308 it is a line."""
+    pixels = numpy.array([[[0.5, 0.2, 0.001, 1], [2, -1, numpy.nan, 0]]], numpy.float32)
+    assert trax.Picture(pixels).bytes().tolist() == [[[188, 124, 3], [255, 0, 0]]]
 
 
 def test_a_machine_runs_once(programs, tmp_path):
