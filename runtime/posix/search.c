@@ -40,7 +40,7 @@ ENTRY *hsearch(ENTRY item, ACTION action) {
   return &table[slot];
 }
 
-/* --- trees: treaps, whose priorities follow from the keys' addresses --- */
+/* --- trees: treaps, with pseudo-random priorities --- */
 
 struct node {
   const void *key; /* first: what tsearch returns points to it */

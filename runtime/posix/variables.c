@@ -8,6 +8,12 @@ static char *nothing[1];
 char **environ = nothing;
 static char **own; /* the array from malloc, if environ is that */
 
+/* Texts of setenv. They stay: a program may have their addresses from getenv. */
+static struct kept {
+  struct kept *next;
+  char text[];
+} * kept;
+
 static char **find(const char *name, size_t length) {
   for (char **it = environ; it && *it; it++)
     if (strncmp(*it, name, length) == 0 && (*it)[length] == '=')
@@ -56,9 +62,12 @@ int setenv(const char *name, const char *value, int overwrite) {
   const size_t length = strlen(name), size = strlen(value) + 1;
   if (!overwrite && find(name, length))
     return 0;
-  char *text = malloc(length + 1 + size); /* stays: a program may have its address from getenv */
-  if (!text)
+  struct kept *made = malloc(sizeof *made + length + 1 + size);
+  if (!made)
     return -1;
+  made->next = kept;
+  kept = made;
+  char *text = made->text;
   memcpy(text, name, length);
   text[length] = '=';
   memcpy(text + length + 1, value, size);

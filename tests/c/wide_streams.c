@@ -1,6 +1,6 @@
-// RUN: rm -rf %t && mkdir %t && %clang -O2 -mstack=global %s -o %t/program && cd %t && %trax_sim --engine functional
-// --dir .::d program | cmp - %S/wide_streams.expected Streams of wide characters: text, and formatted output and input.
-// (Expected output of glibc, in a folder d.)
+// RUN: rm -rf %t && mkdir %t && %clang -O2 -mstack=global %s -o %t/program
+// RUN: cd %t && %trax_sim --engine functional --dir .::d program | cmp - %S/wide_streams.expected
+// Streams of wide characters: text, and formatted output and input. (Expected output of glibc, in a folder d.)
 #include <errno.h>
 #include <locale.h>
 #include <stdarg.h>

@@ -127,6 +127,7 @@ def main():
     options = parser.parse_args()
     if not (options.suite / "testcasesupport" / "std_testcase.h").exists():
         sys.exit(f"juliet.py: error: {options.suite}: is not the folder of the Juliet suite")
+    is_temporary = not options.work
     scratch = options.work or pathlib.Path(tempfile.mkdtemp(prefix="juliet-"))
     options.suite, options.build, options.work = options.suite.resolve(), options.build.resolve(), scratch.resolve()
     options.work.mkdir(parents=True, exist_ok=True)
@@ -157,8 +158,8 @@ def main():
                 print(f"NOT BUILT {case.name}: {text[:300]}", flush=True)
             elif not found and (not reason or options.verbose):
                 print(f"MISSED {case.name}: {reason or summary(text)}", flush=True)
-    if not options.work.samefile(scratch) or not any(options.work.iterdir()):
-        shutil.rmtree(scratch, ignore_errors=True)
+    if is_temporary:
+        shutil.rmtree(options.work, ignore_errors=True)
     print("| class | cases | found | missed | false alarms | leaks in good ones |")
     print("| --- | --- | --- | --- | --- | --- |")
     for cwe, row in sorted(table.items(), key=lambda item: int(item[0])):

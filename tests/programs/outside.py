@@ -203,7 +203,7 @@ PROGRAMS = [
         Case(["-b1", "data.txt", "out.bwt"])], cmake=["-DBUILD_SHARED_LIBS=OFF", "-DUSE_OPENMP=ON"], target="bwt",
             files=DATA, noise=rb"[0-9.]+ sec", chip=CHIP),
     Program("soxr-openmp", "libsoxr", "examples/3-options-input-fn", [
-        Case(["6", "4", "8", "3", "11", "0"], bytes(i * i % 251 for i in range(8 * 2 * 300)))],
+        Case(["6", "4", "64", "3", "11", "0"], bytes(i * i % 251 for i in range(64 * 2 * 100)))],
             cmake=["-DBUILD_SHARED_LIBS=OFF", "-DBUILD_TESTS=OFF", "-DWITH_OPENMP=ON", "-DWITH_CR32S=OFF",
                    "-DWITH_CR64S=OFF", "-DBUILD_EXAMPLES=ON"],
             target="3-options-input-fn", chip=CHIP),
