@@ -170,15 +170,15 @@ trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *me
     const uint32_t count = fill_primitives(primitives, mesh, splits ? &duplicates : NULL);
     tree->bounds = bounds_of(primitives, count);
     tree->split = splits;
-    const struct sah_arguments arguments = {
-        .options = options,
-        .mesh = mesh,
-        .prims = primitives,
-        .count = count,
-        .capacity = splits ? capacity : count,
-        .max_depth = BUILDER_DEPTH,
-        .max_leaf = options->max_leaf ? options->max_leaf : default_max_leaf,
-        .traversal_cost = options->traversal_cost > 0 ? options->traversal_cost : default_traversal_cost};
+    const struct sah_arguments arguments = {.options = options,
+                                            .mesh = mesh,
+                                            .prims = primitives,
+                                            .count = count,
+                                            .capacity = splits ? capacity : count,
+                                            .max_depth = BUILDER_DEPTH,
+                                            .max_leaf = options->max_leaf ? options->max_leaf : default_max_leaf,
+                                            .traversal_cost = options->traversal_cost > 0 ? options->traversal_cost
+                                                                                          : default_traversal_cost};
     struct built_node *root = scene_build_sah(&arguments, crew);
     free(primitives);
     primitives = NULL;
@@ -187,8 +187,8 @@ trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *me
     else if (!root)
       result = scene_out_of_memory(error, "BVH");
     else
-      result = make_tree(tree, root, mesh, splits ? &duplicates : NULL, max_depth, arguments.max_leaf, crew, options,
-                         error);
+      result =
+          make_tree(tree, root, mesh, splits ? &duplicates : NULL, max_depth, arguments.max_leaf, crew, options, error);
   }
   free(primitives);
   scene_duplicates_release(&duplicates);

@@ -37,7 +37,8 @@ static inline void add_value(struct bounds *bounds, int axis, double value) {
 static struct scene_box rounded(const struct bounds *bounds, const struct scene_box *box) {
   struct scene_box result = *box;
   for (int axis = 0; axis < 3 && bounds->min[0] <= bounds->max[0]; axis++) {
-    const float low = scene_next_float((float)bounds->min[axis], false), high = scene_next_float((float)bounds->max[axis], true);
+    const float low = scene_next_float((float)bounds->min[axis], false),
+                high = scene_next_float((float)bounds->max[axis], true);
     result.min[axis] = low > box->min[axis] ? low : box->min[axis];
     result.max[axis] = high < box->max[axis] ? high : box->max[axis];
   }

@@ -214,11 +214,10 @@ static bool work_round(struct round *round, struct scene_crew *crew) {
   const unsigned threads = scene_crew_size(crew);
   round->next = 0;
   improver->round++;
-  for (unsigned i = 0; i < threads; i++) {
+  for (unsigned i = 0; i < threads; i++)
     round->searches[i].read_count = 0;
-    if (i > 0)
-      scene_crew_add(crew, search_some, round);
-  }
+  for (unsigned i = 1; i < threads; i++) /* any worker takes one, so all are ready before */
+    scene_crew_add(crew, search_some, round);
   scene_crew_run(crew, search_some, round);
   struct search *own = &round->searches[0];
   for (uint32_t i = 0; i < round->count; i++) {

@@ -258,11 +258,20 @@ def hostile():
     stats["configuration"] = {HOSTILE: HOSTILE, "list": [1, HOSTILE]}
     runs[1]["machine"] = {HOSTILE: HOSTILE}
     runs[1]["host_seconds"] = float("nan")
-    made = document(runs, [{"name": HOSTILE, "title": HOSTILE, "x": HOSTILE, "y": HOSTILE, "claim": HOSTILE}], [{
+    sweep = {"name": HOSTILE, "title": HOSTILE, "x": HOSTILE, "y": HOSTILE, "claim": HOSTILE}
+    series = {
         "name": HOSTILE, "title": HOSTILE, "run": HOSTILE, "columns": ["cycle", HOSTILE],
         "rows": [[1, float("nan")], [2, 0.5], [3, None], [4, 0.25], "x"]
-    }])
+    }
+    made = document(runs, [sweep, {"name": "size"}], [series])
     made.update(trax=HOSTILE, command=HOSTILE, created=HOSTILE, host={HOSTILE: HOSTILE})
+    return made
+
+
+def hostile_own():
+    """The same without a sweep that comes with trax: its page is that of one's own sweeps."""
+    made = hostile()
+    made["sweeps"] = made["sweeps"][:1]
     return made
 
 

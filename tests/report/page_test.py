@@ -485,7 +485,10 @@ class ReportTest(unittest.TestCase):
         self.assertIn("table3", page.tables)
 
     def test_hostile(self):
-        page = self.make(example.hostile())
+        for made in (example.hostile(), example.hostile_own()):
+            self.check_hostile(self.make(made))
+
+    def check_hostile(self, page):
         self.assertEqual(page.scripts, 1)
         self.assertNotIn("<script>hostile", self.text)
         self.assertNotIn("<img src=x", self.text)

@@ -26,13 +26,14 @@ LABELS = {
 # What a rate costs: identity, statistic, title.
 COSTS = [("area", "values.area_units", "Rays and area"), ("power", "energy.average_power", "Rays and power"),
          ("bandwidth", "memory.bandwidth_gbps", "Rays and off-chip bandwidth in use")]
-MOST_BARS = 40
+MOST_BARS, MOST_LETTERS = 40, 24
 
 
 def sweeps(results):
     """The sweeps if none of them comes with trax; else none: then the page is about the paper."""
     found = [sweep for sweep in results.sweeps if isinstance(sweep.get("name"), str)]
-    theirs = any((COME_WITH_TRAX / f"{sweep['name']}.json").exists() for sweep in found)
+    known = {path.stem for path in COME_WITH_TRAX.glob("*.json")}
+    theirs = any(sweep["name"] in known for sweep in found)
     return [] if theirs or len(found) < len(results.sweeps) else found
 
 
@@ -141,13 +142,17 @@ def front_table(runs):
 # --- the page ---
 
 
+def short(name):
+    """Fits beside a bar: keys without their section."""
+    name = re.sub(r"[\w.]+\.(\w+=)", r"\1", name)
+    return name if len(name) <= MOST_LETTERS else name[:MOST_LETTERS - 1] + "…"
+
+
 def time_figures(own, results):
     for place, sweep in enumerate(own):
         runs = [run for run in results.of_sweep(sweep["name"]) if run.done]
         axes = varying(runs)
-        # Keys without their section: there is little room.
-        bars = [(re.sub(r"[\w.]+\.(\w+=)", r"\1", name_of(run, axes)), parts) for run in runs[:MOST_BARS]
-                if (parts := shares(run))]
+        bars = [(short(name_of(run, axes)), parts) for run in runs[:MOST_BARS] if (parts := shares(run))]
         if bars:
             yield Bars(f"time-{place}", f"Where thread-cycles went: {title_of(sweep)}", "share of all thread-cycles",
                        bars, [(style, text) for style, text, _ in CAUSES])
