@@ -51,7 +51,7 @@ static uint64_t choose_place(const struct trax_simt_tm *tm, struct trax_simt_war
 
 /* Whether the latest group is the group again. */
 static bool is_first(const struct trax_simt_tm *tm, const struct trax_simt_warp *warp) {
-  return warp->stays && !warp->turns_left && warp->issued - warp->waits_from < tm->ref->config->simt.patience &&
+  return warp->stays && warp->issued - warp->waits_from < tm->ref->config->simt.patience &&
          tm->place[trax_simt_first(warp->stays)] < warp->others;
 }
 

@@ -25,7 +25,6 @@ MUTANTS = [
      "least = place[i] >> 32 < least >> 32 ? place[i] : least;"),
     ("choice.c", "    group |= (uint64_t)is_there << i;\n", "    group |= (uint64_t)(is_there && !group) << i;\n"),
     ("choice.c", "tm->place[trax_simt_first(warp->stays)] < warp->others", "true"),
-    ("choice.c", "warp->stays && !warp->turns_left && ", "warp->stays && "),
     ("choice.c", "    if (tm->ref->tp[lane].pc != pc)\n      warp->stays = 0;\n", ""),
     ("choice.c", "warp->others = is_level ? others : 0;", "warp->others = others;"),
     ("choice.c", "if (warp->issued - warp->waits_from >= tm", "if (warp->issued - warp->waits_from > tm"),

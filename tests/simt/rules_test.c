@@ -96,6 +96,16 @@ static void loop_of_different_lengths(void **state) {
   }
 }
 
+/* Lane 0 calls the instruction of cycle 4, and goes on to the one at which lane 1 waits in no call. */
+static void lanes_of_any_depth_join_a_group_that_goes_on(void **state) {
+  (void)state;
+  const struct trax_config config = near_warps(2, 2);
+  struct bench bench = BENCH(config, U(RDSR, 2, TRAX_SR_TP), B(BNE, 2, 0, 16), J(1, 8), HALT, NOP, NOP, HALT);
+  ISSUES(&bench, 0, 1, 2, 3, 4, 5, 6);
+  ISSUES(&bench, 1, 1, 2, 5, 6);
+  bench_end(&bench);
+}
+
 static void a_called_function_goes_first(void **state) {
   (void)state;
   const struct trax_config config = near_warps(2, 2);
@@ -438,6 +448,7 @@ int main(void) {
       cmocka_unit_test(nested),
       cmocka_unit_test(loop_of_different_lengths),
       cmocka_unit_test(a_called_function_goes_first),
+      cmocka_unit_test(lanes_of_any_depth_join_a_group_that_goes_on),
       cmocka_unit_test(warps_are_tps_to_each_other),
       cmocka_unit_test(fewer_units_than_lanes),
       cmocka_unit_test(warps_that_share_a_unit),

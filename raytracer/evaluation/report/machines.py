@@ -1,12 +1,14 @@
 """The machines of a comparison of MIMD with SIMD: the sweeps whose names are below. Of each machine the best of the
 programs that were tried counts, for each workload the one with the most rays, mean of the scenes. Their chips are one
 TM, with a share of the bandwidth as its area has a share of a chip's: so rays for each mm2 are those of chips of one
-area and one bandwidth."""
+area and one bandwidth. Pictures of different sizes are not compared with each other."""
+
+import math
 
 from .results import mean, ratio
 from .sweeps import geometric_mean
 
-SWEEPS = ("simd", "simd-coherent", "simd-units")
+SWEEPS = ("simd", "simd-coherent", "simd-units", "simd-large", "simd-large-coherent")
 PAPERS_ICACHE = 4096  # bytes
 COHERENT = ("primary-shadow", "near")  # workloads without secondary rays
 RULE = ("with every workload of secondary rays, warps of 8 to 32 lanes have fewer rays per mm\u00b2 than MIMD, by the "
@@ -15,9 +17,9 @@ PER_AREA, PER_WATT = ("mrps", "values.area_units"), ("mrps", "energy.average_pow
 
 
 class Machine:
-    """Runs of one workload on one machine, of all programs that were tried."""
-    def __init__(self, workload, run):
-        self.workload, self.runs = workload, {}
+    """Runs of one workload on one machine, of all programs that were tried, with pictures of one size."""
+    def __init__(self, run):
+        self.runs = {}
         self.lanes = int(run.set.get("simt.width", 1))
         self.own_units = run.set.get("fpu.tps_per_cluster") == 1
         self.icache = run.set.get("icache.bytes", PAPERS_ICACHE)
@@ -56,26 +58,47 @@ class Machine:
     def mean(self, name, per=None):
         return mean(self.best(name, per).values())
 
+    def halves(self, name):
+        """By scene, half the width of the rate's interval relative to the rate; 0 for exact runs."""
+        found = {}
+        for run in self.runs.get(self.program, []):
+            low, high = run.get("values.mrps_low"), run.get("values.mrps_high")
+            half = (high - low) / 2 if name == "mrps" and None not in (low, high) else run.get(f"{name}_half")
+            found[run.scene] = ratio(half or 0, run.get(name)) or 0
+        return found
+
     def kinds(self):
         return dict.fromkeys(kind for run in self.runs.get(self.program, []) for kind in run.kinds())
 
 
 def machines(results):
-    """By workload, the machines of the sweeps; a machine without a program measured on all scenes is left out."""
+    """By workload and size, large pictures first, the machines of the sweeps; a machine without a program measured on
+    all scenes is left out."""
     runs = {run.index: run for sweep in SWEEPS for run in results.of_sweep(sweep)}
     scenes = {run.scene for run in runs.values()}
     found = {}
     for run in runs.values():
-        place = run.workload, tuple(sorted(run.set.items()))
-        found.setdefault(place, Machine(run.workload, run)).runs.setdefault(run.program, []).append(run)
-    by_workload = {}
-    for machine in found.values():
+        place = run.workload, run.size, tuple(sorted(run.set.items()))
+        found.setdefault(place, Machine(run)).runs.setdefault(run.program, []).append(run)
+    groups = {}
+    for (workload, size, _), machine in found.items():
         machine.runs = {name: some for name, some in machine.runs.items() if {run.scene for run in some} == scenes}
         if machine.program:
-            by_workload.setdefault(machine.workload, []).append(machine)
-    for some in by_workload.values():
+            groups.setdefault((workload, size), []).append(machine)
+    for some in groups.values():
         some.sort(key=lambda one: (one.lanes > 1, one.icache, not one.own_units and one.lanes > 1, one.lanes))
-    return {name: by_workload[name] for name in results.named("workloads") if name in by_workload}
+    order = list(results.named("workloads"))
+    known = [place for place in groups if place[0] in order]
+    return {place: groups[place] for place in sorted(known, key=lambda one: (order.index(one[0]), -one[1][0]))}
+
+
+def at_true_size(results):
+    """By workload, the machines with the largest pictures that both kinds of machines have rendered."""
+    found = {}
+    for (workload, _), some in machines(results).items():
+        if papers(some) and any(machine.lanes > 1 for machine in some):
+            found.setdefault(workload, some)
+    return found
 
 
 def papers(some):
@@ -88,6 +111,14 @@ def times(machine, base, name, per):
     return [ratio(value, other.get(scene)) for scene, value in own.items()]
 
 
+def half_of_times(machine, base, name):
+    """Half the width of the interval of the geometric mean of the scenes' quotients, relative to it; 0: runs are
+    exact."""
+    own, other = machine.halves(name), base.halves(name)
+    squares = [half**2 + other.get(scene, 0)**2 for scene, half in own.items()]
+    return math.sqrt(math.fsum(squares)) / len(squares) if squares else 0
+
+
 def mean_times(machine, base, name, per):
     """The geometric mean of the scenes."""
     found = times(machine, base, name, per)
@@ -96,13 +127,13 @@ def mean_times(machine, base, name, per):
 
 def tried(results, program):
     """Whether the paper's machine ran the program."""
-    return any(program in papers(some).runs for some in machines(results).values() if papers(some))
+    return any(program in papers(some).runs for some in at_true_size(results).values())
 
 
 def lanes_in_use(results):
     """(share of 32 lanes in use by primary and shadow rays, the program with the most); (None, "") if it is not known.
     With units that lanes do not share, so that nothing but divergence leaves lanes unused."""
-    wide = [machine for machine in machines(results).get(COHERENT[0], [])
+    wide = [machine for machine in at_true_size(results).get(COHERENT[0], [])
             if machine.lanes == 32 and machine.own_units and machine.icache == PAPERS_ICACHE]
     shares = [(share, name) for machine in wide for name in machine.runs
               if (share := mean(machine.of(name, "simt.efficiency").values())) is not None]
@@ -112,10 +143,10 @@ def lanes_in_use(results):
 def judged(results):
     """The paper's claim: (holds, finding); holds is None if it is not known."""
     secondary, coherent = [], []
-    for workload, some in machines(results).items():
+    for workload, some in at_true_size(results).items():
         base = papers(some)
         for machine in some:
-            if base and machine.lanes >= 8 and machine.icache == PAPERS_ICACHE:
+            if machine.lanes >= 8 and machine.icache == PAPERS_ICACHE:
                 gain = mean_times(machine, base, *PER_AREA)
                 (coherent if workload in COHERENT else secondary).append((gain, workload, machine.name))
     if not secondary or any(gain is None for gain, *_ in secondary):

@@ -1,6 +1,7 @@
 """The tables and figures of MIMD against SIMD."""
 
-from .machines import PAPERS_ICACHE, PER_AREA, PER_WATT, machines, mean_times, papers, times
+from .machines import (PAPERS_ICACHE, PER_AREA, PER_WATT, at_true_size, half_of_times, machines, mean_times, papers,
+                       times)
 from .plots import Lines, Series
 from .sweeps import geometric_mean
 from .table import Cell, Table, duration, figure, number, share, words
@@ -19,19 +20,26 @@ def _interval(machine, base, name, per):
         return Cell(None)
     several = len(found) > 1 and machine is not base
     below = f"{number(min(found), 2)} to {number(max(found), 2)}" if several else ""
+    half = half_of_times(machine, base, name) if several else 0
+    below += f"; \u00b1 {number(half * geometric_mean(found), 1)}" if half else ""
     return figure(geometric_mean(found), below=below)
 
 
+def _size(size):
+    return words("{}x{}".format(*size))
+
+
 def best_table(results):
-    columns = [("workload", "t"), ("machine", "t"), ("program", "t"), ("MRPS", "n"), ("mm\u00b2", "n"),
+    columns = [("workload", "t"), ("size", "t"), ("machine", "t"), ("program", "t"), ("MRPS", "n"), ("mm\u00b2", "n"),
                ("MRPS/mm\u00b2", "n"), ("W", "n"), ("MRPS/W", "n"), ("lanes in use", "n"),
                ("MRPS/mm\u00b2 over MIMD's", "n"), ("MRPS/W over MIMD's", "n"), ("processor time", "n")]
     rows = []
-    for workload, some in machines(results).items():
+    for (workload, size), some in machines(results).items():
         base = papers(some)
         for machine in some:
             rows.append([
                 words(workload),
+                _size(size),
                 words(machine.name),
                 words(machine.program),
                 figure(machine.mean("mrps")),
@@ -46,8 +54,8 @@ def best_table(results):
             ])
     return Table(
         "simd-best", "MIMD against SIMD at equal area and equal bandwidth", columns, rows,
-        "Means of the scenes; over MIMD's: the geometric mean of the scenes, and the least and the greatest of them. "
-        "Processor time: of one scene."
+        "Means of the scenes; over MIMD's: the geometric mean of the scenes, the least and the greatest of them and, of "
+        "sampled runs, half the width of the mean's interval. Processor time: of one scene."
     )
 
 
@@ -56,24 +64,25 @@ def kinds_table(results):
     found = machines(results)
     names = list(dict.fromkeys(machine.name for some in found.values() for machine in some if not machine.is_papers))
     rows = []
-    for workload, some in found.items():
+    for (workload, size), some in found.items():
         base = papers(some)
         for kind in base.kinds() if base else ():
             name = f"values.rays.{kind}.mrps"
             own = {machine.name: machine for machine in some}
-            rows.append([words(workload), words(kind), figure(base.mean(name, "values.area_units"))] + [
+            rows.append([words(workload), _size(size), words(kind), figure(base.mean(name, "values.area_units"))] + [
                 _interval(own[other], base, name, "values.area_units") if other in own else Cell(None)
                 for other in names
             ])
     return Table("simd-kinds", "Rays of a kind for each mm\u00b2, over MIMD's",
-                 [("workload", "t"), ("kind", "t"), ("MIMD: MRPS/mm\u00b2", "n"), *((name, "n") for name in names)],
-                 rows, "The geometric mean of the scenes, and the least and the greatest of them.")
+                 [("workload", "t"), ("size", "t"), ("kind", "t"), ("MIMD: MRPS/mm\u00b2", "n"), *((name, "n") for name in names)],
+                 rows, "The geometric mean of the scenes, the least and the greatest of them and, of sampled runs, half "
+                 "the width of the mean's interval.")
 
 
 def _curves(results, identity, title, figure_of):
     series = []
     ticks = [(lanes, str(lanes)) for lanes in (1, 4, 8, 16, 32)]
-    for index, (workload, some) in enumerate(machines(results).items()):
+    for index, (workload, some) in enumerate(at_true_size(results).items()):
         base = papers(some)
         points = [(1, 1.0, f"{workload}, MIMD: 1")]
         for machine in some:

@@ -271,7 +271,7 @@ def mode_of(reader, mode, needs_exact):
     chosen = mode or reader.strings("mode", "exact", MODES)[0]
     if needs_exact and chosen != "exact" and "mode" in reader.value and not mode:
         reader.fail(
-            "mode", "series, ray_kinds, error, hits and programs that trax-eval compiles or converts "
+            "mode", "series, ray_kinds, error, hits and programs that are compiled or converted "
             'need "exact"')
     return "exact" if needs_exact else chosen
 
