@@ -36,6 +36,7 @@ def test_configuration_is_a_file_of_trax_sim(tmp_path):
 def test_sweep(programs):
     table = trax.sweep(programs["triple"], ["1x32", "2x32"], {"memory.latency_cycles": [50, 100]}, jobs=2,
                        setup=lambda machine: machine.bind("data", VALUES))
+    assert list(table.columns[:2]) == ["chip", "memory.latency_cycles"]
     assert list(table["chip"]) == ["1x32", "1x32", "2x32", "2x32"]
     assert list(table["memory.latency_cycles"]) == [50, 100, 50, 100]
     for row in range(4):
