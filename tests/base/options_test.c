@@ -216,8 +216,10 @@ static void test_pages(void **state) {
   out = fmemopen(text, sizeof text, "w");
   trax_command_completion(&command, out);
   fclose(out);
-  assert_non_null(strstr(text, "    --engine) COMPREPLY=($(compgen -W 'quick slow none' -- \"$word\")); return ;;\n"));
-  assert_non_null(strstr(text, "    -o | --output) COMPREPLY=($(compgen -f -- \"$word\")); return ;;\n"));
+  assert_non_null(
+      strstr(text, "    --engine) mapfile -t COMPREPLY < <(compgen -W 'quick slow none' -- \"$word\"); return ;;\n"));
+  assert_non_null(
+      strstr(text, "    -o | --output) mapfile -t COMPREPLY < <(compgen -f -- \"${word//\\\\/}\"); return ;;\n"));
   assert_non_null(strstr(text, "    --stack) return ;;\n"));
   assert_null(strstr(text, "former"));
   assert_null(strstr(text, "Others"));

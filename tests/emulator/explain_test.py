@@ -407,7 +407,6 @@ def main():
     share = slow("lines looked up", "the program has more than 1023 lines of instructions", *icache,
                  "icache.line_bytes=4", program=longest)
     check(20 < share < 100, share, "% of the fetches look up one of 1505 lines")
-    slow("hits one by one", "another way than the first", "--set", "dcache.bytes=256", "--set", "dcache.ways=4")
     slow("hits one by one", "dcache.hit_latency_cycles", "--set", "dcache.hit_latency_cycles=2")
     slow("hits one by one", "dcache.replacement", "--set", "dcache.ways=2", "--set", "dcache.replacement=lru")
 

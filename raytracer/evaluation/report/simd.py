@@ -54,8 +54,8 @@ def best_table(results):
             ])
     return Table(
         "simd-best", "MIMD against SIMD at equal area and equal bandwidth", columns, rows,
-        "Means of the scenes; over MIMD's: the geometric mean of the scenes, the least and the greatest of them and, of "
-        "sampled runs, half the width of the mean's interval. Processor time: of one scene."
+        "Means of the scenes; over MIMD's: the geometric mean of the scenes, the least and the greatest of them and, "
+        "of sampled runs, half the width of the mean's interval. Processor time: of one scene."
     )
 
 
@@ -73,10 +73,12 @@ def kinds_table(results):
                 _interval(own[other], base, name, "values.area_units") if other in own else Cell(None)
                 for other in names
             ])
-    return Table("simd-kinds", "Rays of a kind for each mm\u00b2, over MIMD's",
-                 [("workload", "t"), ("size", "t"), ("kind", "t"), ("MIMD: MRPS/mm\u00b2", "n"), *((name, "n") for name in names)],
-                 rows, "The geometric mean of the scenes, the least and the greatest of them and, of sampled runs, half "
-                 "the width of the mean's interval.")
+    columns = [("workload", "t"), ("size", "t"), ("kind", "t"), ("MIMD: MRPS/mm\u00b2", "n"),
+               *((name, "n") for name in names)]
+    return Table(
+        "simd-kinds", "Rays of a kind for each mm\u00b2, over MIMD's", columns, rows,
+        "The geometric mean of the scenes, the least and the greatest of them and, of sampled runs, half "
+        "the width of the mean's interval.")
 
 
 def _curves(results, identity, title, figure_of):
