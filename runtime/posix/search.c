@@ -11,6 +11,10 @@ static ENTRY *table;
 static size_t slots, taken;
 
 int hcreate(size_t count) {
+  if (count > SIZE_MAX / 4 / sizeof *table) {
+    errno = ENOMEM;
+    return 0;
+  }
   for (slots = 16; slots < 2 * count; slots *= 2)
     continue;
   taken = 0;
