@@ -60,17 +60,30 @@ struct trax_epochs {
   uint64_t cautious_from, cautious_until; /* these cycles are simulated one by one */
   uint64_t pause;
 
-  struct trax_map writers;           /* by address: the number of a TM, or BY_..., with EARLY */
-  bool failed;                       /* out of memory */
-  size_t *next_write, *next_request; /* [tms]: the next one of the TM's store buffer to be handled */
+  struct trax_map writers;               /* by address: the number of a TM, or BY_..., with EARLY */
+  bool failed;                           /* out of memory */
+  size_t *next_write, *next_request;     /* [tms]: the next one of the TM's store buffer to be handled */
   struct trax_schedule writes, requests; /* the TMs with some left */
 };
 
 /* --- snapshots --- */
 
+/* Whether a listed section contains this one, as a structure contains another. */
+static bool is_listed(const struct trax_epochs *epochs, const struct trax_section *section) {
+  const uintptr_t begin = (uintptr_t)section->bytes, end = begin + section->size * section->count;
+  for (size_t i = epochs->section_count; i-- > 0;) {
+    const struct trax_section *other = &epochs->sections[i];
+    if ((uintptr_t)other->bytes <= begin && end <= (uintptr_t)other->bytes + other->size * other->count)
+      return true;
+  }
+  return false;
+}
+
 static void record_section(void *context, const struct trax_section *section) {
   struct trax_epochs *epochs = context;
   if (epochs->sections) {
+    if (section->count == 0 || is_listed(epochs, section))
+      return; /* threads that copy parts of the list must not meet in the same bytes */
     epochs->sections[epochs->section_count] = *section;
     epochs->places[epochs->section_count] = epochs->snapshot_size;
   }
@@ -96,9 +109,9 @@ static void copy_sections(const struct trax_epochs *epochs, uint32_t part) {
   for (size_t i = epochs->section_count * part / epochs->groups; i < end; i++) {
     const struct trax_section *section = &epochs->sections[i];
     uint8_t *const copy = epochs->snapshot + epochs->places[i];
-    if (section->count && epochs->work == SAVE)
+    if (epochs->work == SAVE)
       memcpy(copy, section->bytes, section->size * section->count);
-    else if (section->count)
+    else
       memcpy(section->bytes, copy, section->size * section->count);
   }
 }
