@@ -15,6 +15,7 @@ import math
 import pathlib
 import re
 import shlex
+import shutil
 import struct
 import subprocess
 import sys
@@ -64,7 +65,8 @@ def glb(points, faces):
     return struct.pack("<3I", 0x46546C67, 2, 12 + len(chunks)) + chunks
 
 
-def stand_ins(root, binaries):
+def make_stand_ins(root, binaries):
+    """For all pages: each gets a copy."""
     points, faces = ball()
     corners = [tuple(i + 1 for i in face) for face in faces]
     obj = "".join(["v %g %g %g\n" % point for point in points] + ["f %d %d %d\n" % corner for corner in corners])
@@ -213,6 +215,9 @@ def main():
     source, build = pathlib.Path(words[0]).resolve(), pathlib.Path(words[1]).resolve()
     update, wrong, ran, compared = len(words) + 1 < len(sys.argv), [], 0, 0
     commands = Commands(source, build)
+    scratch = tempfile.TemporaryDirectory()
+    stand_ins = pathlib.Path(scratch.name)
+    make_stand_ins(stand_ins, commands.binaries)
     for page in pages(source):
         name = str(page.relative_to(source))
         if words[2:] and name not in words[2:]:
@@ -227,7 +232,7 @@ def main():
                 root = pathlib.Path(folder)
                 for part in LINKED:
                     (root / part).symlink_to(build if part == "build" else source / part)
-                stand_ins(root, commands.binaries)
+                shutil.copytree(stand_ins, root, dirs_exist_ok=True)
                 printed, _ = run_commands(blocks, root, root, ("sh",), [commands.binaries])
             ran += len(printed)
             new, count = compare(text, blocks, printed, update)

@@ -96,8 +96,8 @@ class Stacks(Programs):
         self.compile("many", text)
         plain = self.run_sim("--stats", "stats", "many")[1]
         cycles = json.loads((self.folder / "stats").read_text())["thread_cycles"]
-        for words in ["--profile", "p", "--profile-folded", "f"], ["--explore", "x"]:
-            self.assertLess(self.run_sim("--quiet", *words, "many")[1] - plain, 200 << 20, words)
+        reports = ["--profile", "p", "--profile-folded", "f", "--explore", "x"]
+        self.assertLess(self.run_sim("--quiet", *reports, "many")[1] - plain, 200 << 20)
         self.assertLess(self.run_sim("--profile-sample", "s", "many")[1] - plain, 8 << 20)
         folded = self.folded("f")
         self.assertEqual(sum(folded.values()), cycles)

@@ -61,11 +61,11 @@ class Evaluation:
         return [self.program, self.file(sweep), str(self.scratch), "-o", str(self.scratch / out), *options]
 
     def run(self, sweep, out, *options):
-        """The finished command. A new folder begins with the scene that test_sweep has imported."""
+        """The finished command, in this process. A new folder begins with the scene that test_sweep has imported."""
         imported, scenes = self.scratch / "undisturbed/scenes", self.scratch / out / "scenes"
         if imported.exists() and not scenes.exists() and "--dry-run" not in options:
             shutil.copytree(imported, scenes)
-        return subprocess.run(self.command(sweep, out, *options), capture_output=True, text=True, timeout=300)
+        return self.inside(*self.command(sweep, out, *options)[1:])
 
     def results(self, out):
         return json.loads((self.scratch / out / "results.json").read_text())
@@ -200,17 +200,17 @@ def test_damaged_job(evaluation, scratch):
                            (scratch / "damaged/runs" / path.name).exists())[:2]
     job = json.loads(victim.read_text())
     victim.write_text(json.dumps(job | {"series": job["series"] + 1}))
-    run = subprocess.run([evaluation.program, "job", scratch / "damaged", victim.stem], capture_output=True, text=True)
+    run = evaluation.inside("job", scratch / "damaged", victim.stem)
     check(run.returncode == 1 and "its name is not its hash" in run.stderr, f"a damaged job: {run.stderr}")
     for words, said in ((["../../escaped"], "is no key of a job"), ([32 * "0"], "has no job"),
                         ([other.stem, "--threads", "0"], "expected a number from 1 to 4096")):
         before = sorted(scratch.rglob("*"))
-        run = subprocess.run([evaluation.program, "job", scratch / "damaged", *words], capture_output=True, text=True)
+        run = evaluation.inside("job", scratch / "damaged", *words)
         check(run.returncode == 1 and said in run.stderr and sorted(scratch.rglob("*")) == before,
               f"job {words}: {run.stderr}")
     for path in (scratch / "damaged/inputs").glob("*/program.elf"):
         path.write_bytes(path.read_bytes()[:-1])
-    run = subprocess.run([evaluation.program, "job", scratch / "damaged", other.stem], capture_output=True, text=True)
+    run = evaluation.inside("job", scratch / "damaged", other.stem)
     check(run.returncode == 1 and "program.elf: " in run.stderr and "bytes, but" in run.stderr,
           f"damaged inputs: {run.stderr}")
     check("bytes, but" in (scratch / "damaged/runs" / f"{other.stem}.error").read_text(), "its reason is kept")
@@ -259,10 +259,7 @@ def test_rays(evaluation, scratch):
     check("two" in run.stdout and "occlusion" in run.stdout, f"the table: {run.stdout}")
     # The paper's tables are of the paper's workload alone.
     page = evaluation.scratch / "rays.html"
-    made = subprocess.run(
-        [evaluation.program, "report",
-         str(evaluation.scratch / "rays/results.json"), "-o",
-         str(page)], capture_output=True, text=True, timeout=120)
+    made = evaluation.inside("report", evaluation.scratch / "rays/results.json", "-o", page)
     check(made.returncode == 0, f"report: {made.stderr}")
     text = page.read_text()
     check('id="rays-table"' in text and 'id="rays-stalls"' in text, "the report's section")
@@ -548,7 +545,7 @@ def test_names(evaluation, scratch):
     for name, sweep in sweeps.items():
         files.append(scratch / f"{name}.json")
         files[-1].write_text(json.dumps({"name": name, "scenes": scenes, "programs": "ours", "size": "8x8"} | sweep))
-    run = subprocess.run([evaluation.program, *files, folder, "-o", out], capture_output=True, text=True)
+    run = evaluation.inside(*files, folder, "-o", out)
     check(run.returncode == 0, f"machines with two names: {run.stderr}")
     results = json.loads((out / "results.json").read_text())
     found = {(one["config"], tuple(one["set"])): sorted(one["experiments"]) for one in results["runs"]}
@@ -563,9 +560,7 @@ def test_names(evaluation, scratch):
     title, table = run.stdout.split("a-sweep: MRPS (")[1].split("\n\n")[:2]
     rows = [line.split("|")[1].strip() for line in table.splitlines()[2:]]
     check("1x32" in title and rows == ["16", "48", "64"], f"the sweep has its own names: {title}, {rows}")
-    check(
-        subprocess.run([evaluation.program, "report", out / "results.json", "-o", out / "report.html"]).returncode == 0,
-        "the report")
+    check(evaluation.inside("report", out / "results.json", "-o", out / "report.html").returncode == 0, "the report")
     page = (out / "report.html").read_text()
     cells = {
         row.split("<td")[1].split(">")[1].split("<")[0]: row.count("not run") + row.count("missing")
@@ -579,19 +574,15 @@ def test_experiments(evaluation, scratch):
     """The sweeps that come with trax ask for machines that there are; without its meshes a scene is left out."""
     empty = scratch / "no-scenes"
     empty.mkdir()
-    run = subprocess.run(
-        [evaluation.program, "--all", empty, "--size", "16x16", "--dry-run", "-o", scratch / "experiments"],
-        capture_output=True, text=True)
+    run = evaluation.inside("--all", empty, "--size", "16x16", "--dry-run", "-o", scratch / "experiments")
     check(run.returncode == 0 and "error" not in run.stderr, f"--all --dry-run: {run.stderr}")
     check(
         run.stdout.count("forest") > 100 and "conference" not in run.stdout,
         "the generated forest needs no mesh, the others do")
     check("occlusion" not in run.stdout, "--all leaves out what the paper has no figure of")
-    run = subprocess.run(
-        [evaluation.program, "rays", empty, "--size", "16x16", "--dry-run", "-o", scratch / "experiments"],
-        capture_output=True, text=True)
+    run = evaluation.inside("rays", empty, "--size", "16x16", "--dry-run", "-o", scratch / "experiments")
     check(run.stdout.count("forest") == 6 * 15, f"rays: every chip with every workload: {run.stdout[-300:]}")
-    known = subprocess.run([evaluation.program, "--help"], capture_output=True, text=True).stdout
+    known = evaluation.inside("--help").stdout
     check(
         all(f"  {name} " in known for name in ("table1", "table2", "table3", "fpu-sharing", "staggering", "simd")),
         "--help lists the experiments")

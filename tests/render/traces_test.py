@@ -2,9 +2,11 @@
 """traces_test.py SOURCE BIN: --memory-trace and --ray-trace against the statistics and against each other's formats, by
 the scripts of docs/traces.md."""
 import collections
+import contextlib
 import csv
 import functools
 import importlib
+import io
 import json
 import math
 import os
@@ -163,15 +165,17 @@ def check_others(name, sim, keys, transfers):
                 for transfer in transfers for at in range(0, transfer.bytes, block)]
     ticks = (key("mtps"), 2 * key("clock_mhz")) if dram else (1, 1)
 
-    pathlib.Path("machine.cfg").write_text(machine)
-
     def convert(form, pattern, status=0):
-        done = subprocess.run([sys.executable, "memory_trace_for.py", form, "fast.bin", "machine.cfg"],
-                              capture_output=True,
-                              text=True)
-        lines = [re.fullmatch(pattern, line) for line in done.stdout.splitlines()]
-        check(done.returncode == status and all(lines), name, form, done.stderr)
-        return lines, done.stderr
+        """As the page's command does, which docs-commands runs."""
+        out, reason = io.StringIO(), None
+        try:
+            with contextlib.redirect_stdout(out):
+                sys.modules["memory_trace_for"].main(form, "fast.bin", machine)
+        except SystemExit as ended:
+            reason = ended.code
+        lines = [re.fullmatch(pattern, line) for line in out.getvalue().splitlines()]
+        check(bool(reason) == bool(status) and all(lines), name, form, reason)
+        return lines, reason
 
     lines, _ = convert("dramsim3", r"0x([0-9A-F]+) (READ|WRITE) (\d+)")
     check([(line[2] == "WRITE", int(line[1], 16), int(line[3])) for line in lines] == [
@@ -263,7 +267,7 @@ def check_rays(reader, name, words):
         check(ray.triangle == 2**32 - 1 or ray.hit, name, "a triangle without a hit", ray)
         check(ray.x < WIDTH and ray.y < HEIGHT and ray.nodes > 0 and ray.distance <= ray.interval[1], name, ray)
 
-    call(*render, "--ray-trace", "rays.csv")
+    call(*render, "--engine", "native", "--ray-trace", "rays.csv")
     with open("rays.csv", newline="") as file:
         rows = list(csv.DictReader(file))
     check([[
