@@ -4,6 +4,7 @@
     // RUN: %run_c %s %t
     // RUN: %run_c %s %t --levels -O2,-Os --cflags "-ffast-math" --simflags "--config 1x32" --status 3
     // RUN: %run_c %s %t --turns -O0,-O2,-Os  (at one of these levels; which one depends on the program and its flags)
+    // RUN: %run_c %s %t --levels -O2 --also -O0      (at -O0 with TRAX_LEVELS=all alone)
     // RUN: %run_c %s %t --clang-only        (compile and link at every level, run nothing)
     // RUN: %run_c %s %t --slow              (of a program that takes seconds to compile: -O2, without the verifier)
 
@@ -81,7 +82,7 @@ def check_level(options, level, expected):
 
 def levels_of(options):
     if options.levels:
-        return options.levels.split(",")
+        return (options.levels + (f",{options.also}" if options.also and whole() else "")).split(",")
     name = os.path.basename(options.source)
     if options.turns:
         levels = options.turns.split(",")
@@ -101,6 +102,7 @@ def main():
                         help="a folder of expected outputs that are not beside their programs")
     parser.add_argument("--levels", help="comma separated (default: -O2, for every third program -O0, too)")
     parser.add_argument("--turns", help="comma separated: one of them, and all with TRAX_LEVELS=all")
+    parser.add_argument("--also", help="more levels with TRAX_LEVELS=all")
     parser.add_argument("--cflags", default="")
     parser.add_argument("--simflags", default="")
     parser.add_argument("--status", type=int, default=0)
@@ -109,7 +111,7 @@ def main():
     parser.add_argument("--slow", action="store_true", help="by default at -O2 alone, not verified")
     # Values such as -O2 or --config begin with a dash: join them to their option first.
     arguments = sys.argv[1:]
-    takes_value = {"--levels", "--turns", "--cflags", "--simflags", "--fault"}
+    takes_value = {"--levels", "--turns", "--also", "--cflags", "--simflags", "--fault"}
     joined = []
     while arguments:
         argument = arguments.pop(0)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""headers.py CLANG FOLDER: every header of C17 that a program finds here, and our own, compiles alone, in C or in C++ by
-turns (with TRAX_LEVELS=all in both, and as gnu2x, too), without warnings, twice in a row; what C17 promises of each is
-declared, and its functions are in the library. Exit status 1 and the compiler's words if not."""
+"""headers.py CLANG FOLDER: every header of C17 that a program finds here, and our own, compiles alone, in C or in C++
+by turns (with TRAX_LEVELS=all in both, and as gnu2x, too), without warnings, twice in a row; what C17 promises of each
+is declared, and its functions are in the library. Exit status 1 and the compiler's words if not."""
 
 import os
 import re
