@@ -3,26 +3,28 @@
 
     // RUN: %run_c %s %t
     // RUN: %run_c %s %t --levels -O2,-Os --cflags "-ffast-math" --simflags "--config 1x32" --status 3
+    // RUN: %run_c %s %t --turns -O0,-O2,-Os  (at one of these levels; which one depends on the program and its flags)
+    // RUN: %run_c %s %t --levels -O2 --also -O0      (at -O0 with TRAX_LEVELS=all alone)
     // RUN: %run_c %s %t --clang-only        (compile and link at every level, run nothing)
-    // RUN: %run_c %s %t --slow              (of a program that takes seconds to compile: -O2)
+    // RUN: %run_c %s %t --slow              (of a program that takes seconds to compile: -O2, without the verifier)
 
 Standard output must equal NAME.expected beside the program, byte for byte. Without that file it must equal the one in
 the folder of --expected, which the build made on the host (c/CMakeLists.txt). The exit status must be the one given
 (default 0). With --fault TEXT the program must end in a fault report that contains TEXT, once for each --fault, with
-the status 1 or, if it aborts, the one given. Without --levels, the level is -O2, and for every third program -O0,
-too; with TRAX_LEVELS=all in the environment, every one. The compiler verifies its machine code at every step. Exit
-status: 0 if every level agrees, else 1 with the first difference of each level that does not.
+the status 1 or, if it aborts, the one given. Without --levels and --turns, the level is -O2, and for every third
+program -O0, too. With TRAX_LEVELS=all in the environment, it is every one, and with --turns every one of these. The
+compiler verifies its machine code at every step; with --slow it does so with TRAX_LEVELS=all. Exit status: 0 if every
+level agrees, else 1 with the first difference of each level that does not.
 """
 
 import argparse
-import difflib
 import os
 import shlex
 import subprocess
 import sys
 import zlib
 
-ALL_LEVELS = "-O0,-O1,-O2,-O3,-Os,-Oz"
+ALL_LEVELS = ["-O0", "-O1", "-O2", "-O3", "-Os", "-Oz"]
 SECONDS = 120  # per step; a program that hangs is a failure, not a wait
 
 
@@ -43,6 +45,8 @@ def describe(command, status, error):
 def check_output(expected, output):
     if output == expected:
         return None
+    import difflib  # here, since its import takes as long as the run of a small program
+
     difference = difflib.unified_diff(
         expected.decode(errors="replace").splitlines(), output.decode(errors="replace").splitlines(), "expected",
         "printed",
@@ -50,11 +54,15 @@ def check_output(expected, output):
     return "\n".join(list(difference)[:40]) or "the output differs in its line ends"
 
 
+def whole():
+    return os.environ.get("TRAX_LEVELS") == "all"
+
+
 def check_level(options, level, expected):
     """Compile and run at one level; return None or what went wrong."""
     binary = f"{options.binary}{level}"
-    compile_command = [options.clang, "--target=trax", level, "-g", "-Wall", "-Werror", "-mllvm",
-                       "-verify-machineinstrs",
+    verifier = [] if options.slow and not whole() else ["-mllvm", "-verify-machineinstrs"]
+    compile_command = [options.clang, "--target=trax", level, "-g", "-Wall", "-Werror", *verifier,
                        *shlex.split(options.cflags), options.source, "-o", binary]
     status, _, error = run(compile_command)
     if status != 0:
@@ -72,10 +80,16 @@ def check_level(options, level, expected):
     return None if expected is None else check_output(expected, output)
 
 
-def default_levels(source, slow):
-    if os.environ.get("TRAX_LEVELS") == "all":
+def levels_of(options):
+    if options.levels:
+        return (options.levels + (f",{options.also}" if options.also and whole() else "")).split(",")
+    name = os.path.basename(options.source)
+    if options.turns:
+        levels = options.turns.split(",")
+        return levels if whole() else [levels[zlib.crc32((name + options.cflags).encode()) % len(levels)]]
+    if whole():
         return ALL_LEVELS
-    return "-O0,-O2" if not slow and zlib.crc32(os.path.basename(source).encode()) % 3 == 0 else "-O2"
+    return ["-O0", "-O2"] if not options.slow and zlib.crc32(name.encode()) % 3 == 0 else ["-O2"]
 
 
 def main():
@@ -87,15 +101,17 @@ def main():
     parser.add_argument("--expected", required=True,
                         help="a folder of expected outputs that are not beside their programs")
     parser.add_argument("--levels", help="comma separated (default: -O2, for every third program -O0, too)")
+    parser.add_argument("--turns", help="comma separated: one of them, and all with TRAX_LEVELS=all")
+    parser.add_argument("--also", help="more levels with TRAX_LEVELS=all")
     parser.add_argument("--cflags", default="")
     parser.add_argument("--simflags", default="")
     parser.add_argument("--status", type=int, default=0)
     parser.add_argument("--fault", action="append", default=[])
     parser.add_argument("--clang-only", action="store_true")
-    parser.add_argument("--slow", action="store_true", help="by default at -O2 alone")
+    parser.add_argument("--slow", action="store_true", help="by default at -O2 alone, not verified")
     # Values such as -O2 or --config begin with a dash: join them to their option first.
     arguments = sys.argv[1:]
-    takes_value = {"--levels", "--cflags", "--simflags", "--fault"}
+    takes_value = {"--levels", "--turns", "--also", "--cflags", "--simflags", "--fault"}
     joined = []
     while arguments:
         argument = arguments.pop(0)
@@ -114,7 +130,7 @@ def main():
         return 1
 
     failed = False
-    for level in (options.levels or default_levels(options.source, options.slow)).split(","):
+    for level in levels_of(options):
         problem = check_level(options, level, expected)
         if problem:
             print(f"{options.source} at {level}:\n{problem}", file=sys.stderr)

@@ -42,6 +42,8 @@ public:
 
 protected:
   clang::driver::Tool *buildLinker() const override;
+  /// --emit-static-lib is refused, but only after the driver has asked for its tool: any does.
+  clang::driver::Tool *buildStaticLibTool() const override { return buildLinker(); }
 
 private:
   const std::string RuntimeDir;

@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O2,-Os --cflags "-Wno-atomic-alignment" --simflags "--config 1x32"
+// RUN: %run_c %s %t --turns -O0,-O2,-Os --cflags "-Wno-atomic-alignment" --simflags "--config 1x32"
 // Operations of every kind on one object at once: nothing is lost, whichever of them the machine does by itself.
 // (Expected output by hand.)
 #include <stdatomic.h>

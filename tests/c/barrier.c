@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O2,-Os --simflags "--config 1x32 --max-cycles 3000000"
+// RUN: %run_c %s %t --turns -O0,-O2,-Os --simflags "--config 1x32 --max-cycles 3000000"
 // A barrier that is used again and again: the threads sort by exchanges of neighbours and sum by halves, step by step
 // together. (Expected output by hand.)
 #include <stdio.h>

@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O1,-O3,-Os
+// RUN: %run_c %s %t --turns -O0,-O1,-O3,-Os
 // Numbers of many words: a factorial, a power, a remainder, digits of pi.
 #include <stdint.h>
 #include <stdio.h>

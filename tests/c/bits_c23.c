@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O2
+// RUN: %run_c %s %t --turns -O0,-O2
 // <stdbit.h>. (Expected output by hand: the host of Debian 12 has no such header.)
 #include <stdbit.h>
 #include <stdio.h>

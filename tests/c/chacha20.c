@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O2,-Os
+// RUN: %run_c %s %t --turns -O0,-O2,-Os
 // The ChaCha20 block function (RFC 8439, 2.3.2) on its test vector: sixteen words that stay in registers.
 #include <stdint.h>
 #include <stdio.h>

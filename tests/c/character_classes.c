@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O2
+// RUN: %run_c %s %t --turns -O0,-O2
 // <ctype.h> for every character of ASCII and EOF.
 #include <ctype.h>
 #include <stdio.h>

@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O1,-O3,-Os
+// RUN: %run_c %s %t --turns -O0,-O1,-O3,-Os
 // Compression there and back: copies from a window, run lengths, a Huffman code; the tables in global memory.
 #include <stdint.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
 // clang-format off
-// RUN: %run_c %s %t --levels -O0,-O2 --cflags "-mstack=global" --simflags "--set chip.tms=2 --set chip.tps_per_tm=4 --main-on 0 --max-cycles 9000000"
+// RUN: %run_c %s %t --levels -O2 --also -O0 --cflags "-mstack=global" --simflags "--set chip.tms=2 --set chip.tps_per_tm=4 --main-on 0 --max-cycles 9000000"
 // RUN: %trax_sim --set chip.tms=2 --set chip.tps_per_tm=4 --main-on 0 --check-races %t-O2 | diff %S/created_threads.expected -
 // clang-format on
 // C11's threads: creation, conditions, values of a thread, limits of time. (Expected output by hand.)

@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O1 --cflags "-DPURE -fno-inline" --status 134 --fault "call of a pure virtual"
+// RUN: %run_c %s %t --turns -O0,-O1 --cflags "-DPURE -fno-inline" --status 134 --fault "call of a pure virtual"
 // RUN: %run_c %s %t --levels -O2 --cflags "-DMEMORY" --status 134 --fault "operator new: no memory left"
 // RUN: %run_c %s %t --levels -O2 --cflags "-DSELF" \
 // RUN:   --status 134 --fault "the initialisation of a function-local static object enters itself"

@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O2,-Os --cflags "-mstack=global -std=c++20"
+// RUN: %run_c %s %t --turns -O0,-O2,-Os --cflags "-mstack=global -std=c++20"
 // C++ without exceptions and type information, as far as the language goes: what clang++ prints for the host.
 #include <compare>
 #include <initializer_list>

@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O2 --cflags "-mstack=global" --simflags "--config 1x32"
+// RUN: %run_c %s %t --turns -O0,-O2 --cflags "-mstack=global" --simflags "--config 1x32"
 // Objects that threads share and that each has of its own: when they begin and end. (Expected output by hand.)
 #include <atomic>
 #include <cstdio>

@@ -1,5 +1,4 @@
-// RUN: %clangxx -std=c++20 -O2 %s -o %t && %trax_sim %t --engine functional | diff %trax_build/tests/c/cxx_to_chars.expected -
-// RUN: %clangxx -std=c++20 -Os %s -o %t && %trax_sim %t --engine functional | diff %trax_build/tests/c/cxx_to_chars.expected -
+// RUN: %run_c %s %t --turns -O2,-Os --cflags -std=c++20 --simflags "--engine functional"
 // std::to_chars of float and double. Expected output by g++ -std=c++20 -O2 (libstdc++).
 #include <charconv>
 #include <cmath>

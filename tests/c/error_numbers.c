@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O2 --simflags "--config 1x32 --max-cycles 3000000"
+// RUN: %run_c %s %t --turns -O0,-O2 --simflags "--config 1x32 --max-cycles 3000000"
 // errno and the random sequence belong to the thread. (Expected output by hand.)
 #include <errno.h>
 #include <stdio.h>

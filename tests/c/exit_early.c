@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O2 --simflags "--config 1x32 --max-cycles 3000000" --status 4
+// RUN: %run_c %s %t --turns -O0,-O2 --simflags "--config 1x32 --max-cycles 3000000" --status 4
 // A thread that exits ends alone: the others go on, and the run ends with the last. Its status counts before those of
 // later threads. (Expected output by hand.)
 #include <stdio.h>

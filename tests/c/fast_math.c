@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O1,-O2,-O3,-Os --cflags -ffast-math
+// RUN: %run_c %s %t --turns -O1,-O2,-O3,-Os --cflags -ffast-math
 // RUN: %run_c %s %t --levels -O2
 // Results under -ffast-math stay near the exact ones. (Expected output by hand.)
 #include <math.h>

@@ -1,12 +1,12 @@
-// RUN: %run_c %s %t --levels -O0,-O2 --cflags -DLOAD_HALF --fault misaligned --fault "load of 2" \
+// RUN: %run_c %s %t --turns -O0,-O2 --cflags -DLOAD_HALF --fault misaligned --fault "load of 2" \
 // RUN:   --fault fault_alignment.c:22
-// RUN: %run_c %s %t --levels -O0,-O2 --cflags -DSTORE_HALF --fault misaligned --fault "store of 2" \
+// RUN: %run_c %s %t --turns -O0,-O2 --cflags -DSTORE_HALF --fault misaligned --fault "store of 2" \
 // RUN:   --fault fault_alignment.c:25
-// RUN: %run_c %s %t --levels -O0,-O2 --cflags -DLOAD_WORD --fault misaligned --fault "load of 4" \
+// RUN: %run_c %s %t --turns -O0,-O2 --cflags -DLOAD_WORD --fault misaligned --fault "load of 4" \
 // RUN:   --fault fault_alignment.c:28
-// RUN: %run_c %s %t --levels -O0,-O2 --cflags -DSTORE_WORD --fault misaligned --fault "store of 4" \
+// RUN: %run_c %s %t --turns -O0,-O2 --cflags -DSTORE_WORD --fault misaligned --fault "store of 4" \
 // RUN:   --fault fault_alignment.c:31
-// RUN: %run_c %s %t --levels -O0,-O2 --cflags -DLOCAL --fault misaligned --fault "load of 4" \
+// RUN: %run_c %s %t --turns -O0,-O2 --cflags -DLOCAL --fault misaligned --fault "load of 4" \
 // RUN:   --fault fault_alignment.c:35
 // Halves at odd addresses and words at addresses that are no multiple of 4, in global and local memory.
 #include <stdint.h>

@@ -1,8 +1,8 @@
-// RUN: %run_c %s %t --levels -O0,-O2 --cflags -DTARGET=0 --fault execut --fault fault_calls.c:23
-// RUN: %run_c %s %t --levels -O0,-O2 --cflags -DTARGET=data --fault execut --fault fault_calls.c:23
-// RUN: %run_c %s %t --levels -O0,-O2 --cflags -DTARGET=local --fault execut --fault fault_calls.c:23
-// RUN: %run_c %s %t --levels -O0,-O2 --cflags -DTARGET=constants --fault execut --fault fault_calls.c:23
-// RUN: %run_c %s %t --levels -O0,-O2 --cflags "-DTARGET=((char*)function+2)" --fault "multiple of 4" \
+// RUN: %run_c %s %t --turns -O0,-O2 --cflags -DTARGET=0 --fault execut --fault fault_calls.c:23
+// RUN: %run_c %s %t --turns -O0,-O2 --cflags -DTARGET=data --fault execut --fault fault_calls.c:23
+// RUN: %run_c %s %t --turns -O0,-O2 --cflags -DTARGET=local --fault execut --fault fault_calls.c:23
+// RUN: %run_c %s %t --turns -O0,-O2 --cflags -DTARGET=constants --fault execut --fault fault_calls.c:23
+// RUN: %run_c %s %t --turns -O0,-O2 --cflags "-DTARGET=((char*)function+2)" --fault "multiple of 4" \
 // RUN:   --fault fault_calls.c:23
 // Calls of what is no function: nothing, data, the stack, constants, the middle of an instruction. The report names the
 // call.

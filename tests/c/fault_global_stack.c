@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O2 --cflags "-mstack=global -mstack-size=5000" --simflags "--set chip.tps_per_tm=4" \
+// RUN: %run_c %s %t --turns -O0,-O2 --cflags "-mstack=global -mstack-size=5000" --simflags "--set chip.tps_per_tm=4" \
 // RUN:   --fault "stack overflow" --fault "fault_global_stack.c:1" --fault "deep" \
 // RUN:   --fault "the thread's stack is 0x3fffb4c0 to 0x3fffc87f, 5056 bytes"
 // RUN: %run_c %s %t --levels -O1 --cflags "-mstack=global" --simflags "--set chip.tps_per_tm=4 --engine fast" \

@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O2 --fault fault_inlined.c:9 --fault fault_inlined.c:15
+// RUN: %run_c %s %t --turns -O0,-O2 --fault fault_inlined.c:9 --fault fault_inlined.c:15
 // RUN: %run_c %s %t --levels -O2 --fault "inlined into" --fault fault_inlined.c:19
 // A fault in a function that is inlined into another: the report names all the places.
 struct list {

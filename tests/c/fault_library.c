@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O2 --fault "null page" --fault string/memory.c: --fault fault_library.c:9
+// RUN: %run_c %s %t --turns -O0,-O2 --fault "null page" --fault string/memory.c: --fault fault_library.c:9
 // A fault within the library: the report names its source, and the line of the call.
 #include <string.h>
 

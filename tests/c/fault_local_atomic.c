@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O2 --fault "fault_local_atomic.c:8"
+// RUN: %run_c %s %t --turns -O0,-O2 --fault "fault_local_atomic.c:8"
 // The atomic increment works in global memory only.
 #include <trax.h>
 

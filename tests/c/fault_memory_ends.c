@@ -1,7 +1,7 @@
-// RUN: %run_c %s %t --levels -O0,-O2 --cflags -DBELOW --fault "load of 4" --fault 0x00000ffc \
+// RUN: %run_c %s %t --turns -O0,-O2 --cflags -DBELOW --fault "load of 4" --fault 0x00000ffc \
 // RUN:   --fault fault_memory_ends.c:21
-// RUN: %run_c %s %t --levels -O0,-O2 --cflags -DBEHIND --fault "store of 4" --fault fault_memory_ends.c:24
-// RUN: %run_c %s %t --levels -O0,-O2 --cflags -DUNDER --fault "stack overflow" --fault 0xfffffdff \
+// RUN: %run_c %s %t --turns -O0,-O2 --cflags -DBEHIND --fault "store of 4" --fault fault_memory_ends.c:24
+// RUN: %run_c %s %t --turns -O0,-O2 --cflags -DUNDER --fault "stack overflow" --fault 0xfffffdff \
 // RUN:   --fault fault_memory_ends.c:27
 // The first and the last bytes of memory are accessible; those before, behind and under the stack are not.
 #include <stdint.h>

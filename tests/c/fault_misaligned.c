@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O2 --fault "misaligned" --fault "fault_misaligned.c:9"
+// RUN: %run_c %s %t --turns -O0,-O2 --fault "misaligned" --fault "fault_misaligned.c:9"
 // A word at an address that is no multiple of 4.
 static _Alignas(4) char bytes[8] = {1};
 static char *volatile start = bytes;

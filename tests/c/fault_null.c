@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O2 --fault "null" --fault "fault_null.c:8" --fault "0x00000010"
+// RUN: %run_c %s %t --turns -O0,-O2 --fault "null" --fault "fault_null.c:8" --fault "0x00000010"
 // A load through a null pointer.
 struct list {
   int values[4], next;

@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O2 --fault "null page" --fault "store of 1 byte" --fault fault_null_store.c:8
+// RUN: %run_c %s %t --turns -O0,-O2 --fault "null page" --fault "store of 1 byte" --fault fault_null_store.c:8
 // A store through a null pointer.
 struct object {
   char padding[40], flag;

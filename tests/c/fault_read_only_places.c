@@ -1,7 +1,7 @@
-// RUN: %run_c %s %t --levels -O0,-O2 --cflags -DSTRING --fault read-only --fault fault_read_only_places.c:16
-// RUN: %run_c %s %t --levels -O0,-O2 --cflags -DTABLE --fault read-only \
+// RUN: %run_c %s %t --turns -O0,-O2 --cflags -DSTRING --fault read-only --fault fault_read_only_places.c:16
+// RUN: %run_c %s %t --turns -O0,-O2 --cflags -DTABLE --fault read-only \
 // RUN:   --fault fault_read_only_places.c:19 --fault table
-// RUN: %run_c %s %t --levels -O0,-O2 --cflags -DTEXT --fault read-only --fault fault_read_only_places.c:22 --fault main
+// RUN: %run_c %s %t --turns -O0,-O2 --cflags -DTEXT --fault read-only --fault fault_read_only_places.c:22 --fault main
 // Stores to a string literal, to a table of pointers that is constant, and to instructions.
 #include <stdint.h>
 

@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O2 --fault "stack overflow" --fault "fault_stack.c:8" --fault "deep"
+// RUN: %run_c %s %t --turns -O0,-O2 --fault "stack overflow" --fault "fault_stack.c:8" --fault "deep"
 // More recursion than 512 bytes hold.
 static volatile int limit = 1000;
 

@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O2 --fault "stack overflow" --fault fault_stack_array.c:9 --fault "sum+"
+// RUN: %run_c %s %t --turns -O0,-O2 --fault "stack overflow" --fault fault_stack_array.c:9 --fault "sum+"
 // An array on the stack, larger than what is left of it.
 static volatile int size = 130;
 

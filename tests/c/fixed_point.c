@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O2,-Os
+// RUN: %run_c %s %t --turns -O0,-O2,-Os
 // Fixed point: products and quotients by 64 bits, sine and cosine by shifts (CORDIC), saturation, half floats.
 #include <stdint.h>
 #include <stdio.h>

@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O2 --cflags "-mstack=global -mstack-size=1M" \
+// RUN: %run_c %s %t --turns -O0,-O2 --cflags "-mstack=global -mstack-size=1M" \
 // RUN:   --simflags "--set chip.tps_per_tm=2 --set memory.size_mib=4"
 // RUN: %clang %s -mstack=global -mstack-size=2M -o %t.large
 // RUN: not %trax_sim --set chip.tps_per_tm=2 --set memory.size_mib=4 %t.large 2>&1 | FileCheck %s --check-prefix=LARGE

@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O2,-Os
+// RUN: %run_c %s %t --turns -O0,-O2,-Os
 // Graphs and tables: shortest paths with a binary heap, union and find, a knapsack, a common subsequence, strong
 // components.
 #include <stdint.h>

@@ -1,5 +1,5 @@
 // clang-format off
-// RUN: %run_c %s %t --levels -O0,-O2 --simflags "--set chip.tms=2 --set chip.tps_per_tm=8 --max-cycles 9000000"
+// RUN: %run_c %s %t --levels -O2 --also -O0 --simflags "--set chip.tms=2 --set chip.tps_per_tm=8 --max-cycles 9000000"
 // RUN: %trax_sim --set chip.tms=2 --set chip.tps_per_tm=8 --check-races %t-O2 | diff %S/heap_model.expected -
 // RUN: %trax_sim --config 4x32 --set memory.size_mib=24 --engine functional %t-O2 | diff %S/heap_model.expected -
 // clang-format on

@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O2 --simflags "--config 1x32 --max-cycles 3000000"
+// RUN: %run_c %s %t --turns -O0,-O2 --simflags "--config 1x32 --max-cycles 3000000"
 // The heap shared by all threads: no block is given to two, all come back. (Expected output by hand.)
 #include <stdint.h>
 #include <stdio.h>

@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O2 --cflags -finstrument-functions
+// RUN: %run_c %s %t --turns -O0,-O2 --cflags -finstrument-functions
 // The hooks of -finstrument-functions are the program's own. (Expected output by hand.)
 #include <stdio.h>
 

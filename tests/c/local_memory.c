@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O2,-Os --simflags "--config 2x32 --max-cycles 3000000"
+// RUN: %run_c %s %t --turns -O0,-O2,-Os --simflags "--config 2x32 --max-cycles 3000000"
 // Local memory: locals and thread-local objects lie in the last 512 bytes, at the same addresses in every thread and
 // yet apart, and all of it can be used. (Expected output by hand.)
 #include <stdint.h>

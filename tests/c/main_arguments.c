@@ -1,5 +1,5 @@
 // RUN: %run_c %s %t
-// RUN: %run_c %s %t --cflags "-mstack=global" --simflags "--set chip.tps_per_tm=4" --levels -O0,-O2
+// RUN: %run_c %s %t --cflags "-mstack=global" --simflags "--set chip.tps_per_tm=4" --turns -O0,-O2
 // Expected output by hand.
 // Without arguments argc is 1, and argv has the program's name and the null pointer that ends the list.
 #include <stdio.h>

@@ -1,5 +1,5 @@
 // clang-format off
-// RUN: %run_c %s %t --levels -O0,-O2 --cflags "-mstack=global -fopenmp" --simflags "--set chip.tms=2 --set chip.tps_per_tm=8 --main-on 0 --max-cycles 20000000"
+// RUN: %run_c %s %t --levels -O2 --also -O0 --cflags "-mstack=global -fopenmp" --simflags "--set chip.tms=2 --set chip.tps_per_tm=8 --main-on 0 --max-cycles 20000000"
 // RUN: %run_c %s %t --levels -O2 --cflags "-mstack=global -fopenmp" --simflags "--max-cycles 20000000"
 // RUN: %trax_sim --set chip.tms=2 --set chip.tps_per_tm=8 --main-on 0 --check-races %t-O2 > %t.out
 // clang-format on

@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O2
+// RUN: %run_c %s %t --turns -O0,-O2
 // Every way to print, in turn: the order is that of the calls, whatever the machine does for each.
 #include <stdarg.h>
 #include <stdio.h>

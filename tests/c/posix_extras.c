@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O2 --cflags "-mstack=global -D_GNU_SOURCE"
+// RUN: %run_c %s %t --turns -O0,-O2 --cflags "-mstack=global -D_GNU_SOURCE"
 // The environment, paths, patterns, tables and trees, times from text, byte orders, and jumps, as the host has them.
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE

@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O2 --cflags "-mstack=global -D_GNU_SOURCE"
+// RUN: %run_c %s %t --turns -O0,-O2 --cflags "-mstack=global -D_GNU_SOURCE"
 // Functions of POSIX, BSD and GNU that programs of others call, as the host has them.
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE

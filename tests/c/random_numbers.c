@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O2,-Oz
+// RUN: %run_c %s %t --turns -O0,-O2,-Oz
 // Generators: PCG, xorshift, Mersenne Twister, a linear congruence modulo a prime, floats from bits, a shuffle.
 #include <stdint.h>
 #include <stdio.h>

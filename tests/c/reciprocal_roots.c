@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O2
+// RUN: %run_c %s %t --turns -O0,-O2
 // The iSQRT unit and division to the bit, on significands of both exponent parities and at the ends.
 #include <math.h>
 #include <stdio.h>

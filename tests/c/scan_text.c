@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O2 --cflags "-mstack=global"
+// RUN: %run_c %s %t --turns -O0,-O2 --cflags "-mstack=global"
 // sscanf: every conversion, widths, sets, what does not match, and the end of the text.
 #include <stdio.h>
 #include <string.h>

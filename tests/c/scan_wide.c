@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O2 --cflags "-mstack=global"
+// RUN: %run_c %s %t --turns -O0,-O2 --cflags "-mstack=global"
 // sscanf into wide characters: %ls, %lc, %l[, of one to four bytes each. (Expected output by hand: glibc gives 0 instead of EOF
 // for what is no character.)
 #include <errno.h>

@@ -1,5 +1,5 @@
 // clang-format off
-// RUN: %run_c %s %t --levels -O0,-O2 --simflags "--set chip.tms=2 --set chip.tps_per_tm=16 --main-on 0 --max-cycles 3000000"
+// RUN: %run_c %s %t --turns -O0,-O2 --simflags "--set chip.tms=2 --set chip.tps_per_tm=16 --main-on 0 --max-cycles 3000000"
 // RUN: %run_c %s %t --levels -O2 --cflags "-mstack=global" --simflags "--set chip.tms=2 --set chip.tps_per_tm=16 --main-on 0 --max-cycles 3000000"
 // clang-format on
 // main on one thread, which starts the others. (Expected output by hand.)

@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O2,-Os
+// RUN: %run_c %s %t --turns -O0,-O2,-Os
 // String functions at their edges: nothing, one byte, bytes above 127, every alignment, sizes that stop them, overlaps.
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O2 --cflags "-mstack=global"
+// RUN: %run_c %s %t --turns -O0,-O2 --cflags "-mstack=global"
 // ERANGE: not for a subnormal number that is exact.
 #include <errno.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
 // Numbers from text, correctly rounded; the functions of <inttypes.h>, <string.h> and <stdlib.h> that go with them.
-// RUN: %run_c %s %t --levels -O0,-O2,-Os
+// RUN: %run_c %s %t --turns -O0,-O2,-Os
 #include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>

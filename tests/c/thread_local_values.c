@@ -1,5 +1,5 @@
 // RUN: %run_c %s %t --simflags "--config 1x32"
-// RUN: %run_c %s %t --levels -O0,-O2 --cflags "-mstack=global" --simflags "--config 1x32"
+// RUN: %run_c %s %t --turns -O0,-O2 --cflags "-mstack=global" --simflags "--config 1x32"
 // Initialised thread-local objects: every thread finds the values, and changes its own. (Expected output by hand.)
 #include <stdatomic.h>
 #include <stdio.h>

@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O2,-Os --simflags "--config 1x32 --max-cycles 3000000"
+// RUN: %run_c %s %t --turns -O0,-O2,-Os --simflags "--config 1x32 --max-cycles 3000000"
 // RUN: %run_c %s %t --levels -O2 --simflags "--config 2x32 --max-cycles 3000000"
 // A lock from two counters and the atomic increment: one thread at a time, first come, first served.
 // (Expected output by hand.)

@@ -1,4 +1,4 @@
-// RUN: %run_c %s %t --levels -O0,-O2 --cflags "-mstack=global"
+// RUN: %run_c %s %t --turns -O0,-O2 --cflags "-mstack=global"
 // Numbers, words and times of wide characters; UTF-16 and UTF-32. at_quick_exit.
 #include <errno.h>
 #include <inttypes.h>
