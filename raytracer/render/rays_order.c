@@ -1,5 +1,4 @@
-/* Orders of rays. Each ray gets a key of 128 bits, whose last part is its place in the file, so that no two are equal.
- */
+/* Orders of rays. A key ends with the place of its ray in the file, so that no two keys are equal. */
 #include "rays.h"
 
 #include <math.h>
