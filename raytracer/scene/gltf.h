@@ -18,6 +18,16 @@ struct gltf_bytes {
   bool owned;               /* to be released */
 };
 
+/* A node's transform: a matrix, or translation, rotation (a quaternion) and scale, applied from the last to the first.
+ */
+struct gltf_pose {
+  bool is_matrix;
+  double matrix[3][4], move[3], turn[4], scale[3];
+  double global[3][4]; /* with those of the nodes above it; of an animation only */
+  double *weights;     /* of the mesh's morph targets, as an animation sets them; NULL: it does not */
+  uint32_t weight_count;
+};
+
 struct gltf {
   const char *path; /* without .xz or .gz */
   const struct trax_import_options *options;
@@ -30,7 +40,8 @@ struct gltf {
   uint64_t bytes_read;        /* of all files */
   struct trax_mesh *mesh;
   struct scene_textures textures;
-  struct gltf_uvs *uvs; /* of each material of the mesh */
+  struct gltf_uvs *uvs;    /* of each material of the mesh */
+  struct gltf_pose *poses; /* of each node at the time of an animation; NULL: as the file has them */
 };
 
 /* The element of a top-level array that `reference`, a number, names; NULL: there is none. */
@@ -56,7 +67,7 @@ struct gltf_accessor {
   const unsigned char *data;
   uint32_t count; /* of elements */
   size_t stride;
-  unsigned components; /* of an element, 1 to 4 */
+  unsigned components; /* of an element, 1 to 4; 16: a matrix by columns */
   int type;            /* of a component, glTF's number */
   bool normalised;     /* integers stand for 0 to 1 or -1 to 1 */
 };
@@ -72,6 +83,26 @@ trax_status gltf_copy_materials(struct gltf *gltf);
 /* gltf_nodes.c: checks that nodes form trees, and copies the meshes and cameras of the scene's nodes. */
 trax_status gltf_copy_nodes(struct gltf *gltf);
 
+/* The first three rows of matrices. */
+void gltf_rest(struct gltf_pose *pose, const json_t *node); /* as the file has it */
+void gltf_transform(double m[3][4], const struct gltf_pose *pose);
+void gltf_multiply(double out[3][4], const double a[3][4], const double b[3][4]);
+
+/* gltf_animation.c: the nodes' poses at options->at, if an animation is wanted and there is one. parents: of each node
+   its number and 1, 0: none. */
+trax_status gltf_find_poses(struct gltf *gltf, const uint32_t *parents);
+void gltf_release_poses(struct gltf *gltf);
+
+/* How a node's mesh differs from the file's vertices. */
+struct gltf_deform {
+  double *weights; /* of morph targets */
+  uint32_t weight_count, joint_count;
+  double (*joints)[3][4]; /* from the mesh's coordinates to the scene's; NULL: the node's matrix is for all vertices */
+};
+
+trax_status gltf_find_deform(struct gltf_deform *deform, struct gltf *gltf, size_t node_number);
+void gltf_release_deform(struct gltf_deform *deform);
+
 /* gltf_meshes.c: the size of a mesh, added up over the nodes that have it. */
 struct gltf_size {
   uint64_t vertices, triangles, primitives;
@@ -80,6 +111,7 @@ struct gltf_size {
 
 trax_status gltf_measure_mesh(struct gltf_size *size, struct gltf *gltf, size_t number);
 /* Appends a mesh, transformed by the first three rows of a matrix; the arrays have room for it. */
-trax_status gltf_copy_mesh(struct gltf *gltf, size_t number, const double matrix[3][4]);
+trax_status gltf_copy_mesh(struct gltf *gltf, size_t number, const double matrix[3][4],
+                           const struct gltf_deform *deform);
 
 #endif

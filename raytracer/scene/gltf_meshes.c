@@ -2,13 +2,16 @@
 #include "gltf.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { POINTS, LINES, LINE_LOOP, LINE_STRIP, TRIANGLES, TRIANGLE_STRIP, TRIANGLE_FAN };
 
 struct primitive {
   struct gltf_accessor positions, normals, uvs, indices;
-  bool has_normals, has_uvs, has_indices;
+  struct gltf_accessor joints, weights; /* of a vertex four each */
+  bool has_normals, has_uvs, has_indices, has_joints;
+  const json_t *targets; /* that morph it */
   int mode;
   uint32_t corners; /* of all triangles or lines, as the file lists them */
   uint32_t material;
@@ -25,6 +28,23 @@ static trax_status find_attribute(struct gltf_accessor *accessor, bool *found, s
   if (accessor->components != components || accessor->count < count)
     return trax_fail(gltf->error, "%s: an accessor of %s has %u elements of %u numbers instead of %u of %u", gltf->path,
                      name, accessor->count, accessor->components, count, components);
+  return TRAX_OK;
+}
+
+/* What an animation moves vertices by. Their normals are computed: those of the file would have to be moved, too. */
+static trax_status find_deformed(struct primitive *primitive, struct gltf *gltf, const json_t *attributes,
+                                 const json_t *item) {
+  const uint32_t count = primitive->positions.count;
+  bool has_weights;
+  if (find_attribute(&primitive->joints, &primitive->has_joints, gltf, attributes, "JOINTS_0", 4, count) != TRAX_OK ||
+      find_attribute(&primitive->weights, &has_weights, gltf, attributes, "WEIGHTS_0", 4, count) != TRAX_OK)
+    return TRAX_ERROR;
+  if (has_weights != primitive->has_joints || json_object_get(attributes, "JOINTS_1"))
+    return trax_fail(gltf->error, "%s: a mesh has joints without weights, or more than four joints for a vertex",
+                     gltf->path);
+  primitive->targets = json_object_get(item, "targets");
+  if (primitive->has_joints || json_array_size(primitive->targets))
+    primitive->has_normals = false;
   return TRAX_OK;
 }
 
@@ -55,6 +75,8 @@ static trax_status find_primitive(struct primitive *primitive, struct gltf *gltf
     return TRAX_ERROR;
   if (indices)
     primitive->corners = primitive->indices.count;
+  if (gltf->poses && find_deformed(primitive, gltf, attributes, item) != TRAX_OK)
+    return TRAX_ERROR;
   if (json_object_get(attributes, "COLOR_0"))
     gltf->report->unread |= TRAX_UNREAD_COLOURS;
   return TRAX_OK;
@@ -108,14 +130,88 @@ static void find_corners(uint32_t corners[3], const struct primitive *primitive,
     corners[0] = triangle + 1, corners[1] = triangle + 2, corners[2] = 0;
 }
 
-static void copy_vertex(float out[3], const struct primitive *primitive, uint32_t index, const double m[3][4],
-                        bool keep) {
-  float v[3];
-  gltf_read(v, 3, &primitive->positions, index);
+static void transform(double out[3], const double m[3][4], const double v[3]) {
   for (int axis = 0; axis < 3; axis++)
-    out[axis] =
-        keep ? v[axis]
-             : (float)(m[axis][0] * (double)v[0] + m[axis][1] * (double)v[1] + m[axis][2] * (double)v[2] + m[axis][3]);
+    out[axis] = m[axis][0] * v[0] + m[axis][1] * v[1] + m[axis][2] * v[2] + m[axis][3];
+}
+
+/* The mean of where its joints put the vertex, by their weights. False: it has a joint that is not there. */
+static bool follow_joints(double v[3], const struct primitive *primitive, uint32_t index,
+                          const struct gltf_deform *deform) {
+  float joints[4], weights[4];
+  double sum = 0, moved[3] = {0, 0, 0};
+  gltf_read(joints, 4, &primitive->joints, index);
+  gltf_read(weights, 4, &primitive->weights, index);
+  for (int i = 0; i < 4; i++) {
+    double place[3];
+    if (!(weights[i] > 0))
+      continue;
+    if (!(joints[i] >= 0 && joints[i] < (float)deform->joint_count))
+      return false;
+    transform(place, deform->joints[(uint32_t)joints[i]], v);
+    sum += (double)weights[i];
+    for (int axis = 0; axis < 3; axis++)
+      moved[axis] += (double)weights[i] * place[axis];
+  }
+  for (int axis = 0; axis < 3 && sum > 0; axis++)
+    v[axis] = moved[axis] / sum;
+  return true;
+}
+
+/* A primitive's morph targets, and where its vertices go. */
+struct placing {
+  const struct primitive *primitive;
+  const double (*matrix)[4];
+  const struct gltf_deform *deform;
+  struct gltf_accessor *targets; /* of as many as have weights and positions */
+  double *weights;
+  uint32_t target_count;
+  bool keep; /* vertices stay as they are in the file */
+};
+
+static trax_status place_vertex(float out[3], const struct placing *placing, uint32_t index, struct gltf *gltf) {
+  const struct primitive *primitive = placing->primitive;
+  float at[3];
+  gltf_read(at, 3, &primitive->positions, index);
+  if (placing->keep) {
+    memcpy(out, at, sizeof at);
+    return TRAX_OK;
+  }
+  double v[3] = {(double)at[0], (double)at[1], (double)at[2]}, placed[3];
+  for (uint32_t i = 0; i < placing->target_count; i++) {
+    gltf_read(at, 3, &placing->targets[i], index);
+    for (int axis = 0; axis < 3; axis++)
+      v[axis] += placing->weights[i] * (double)at[axis];
+  }
+  if (placing->deform->joints && primitive->has_joints) {
+    if (!follow_joints(v, primitive, index, placing->deform))
+      return trax_fail(gltf->error, "%s: vertex %u has a joint that its skin has not", gltf->path, index);
+    memcpy(placed, v, sizeof v);
+  } else
+    transform(placed, placing->matrix, v);
+  for (int axis = 0; axis < 3; axis++)
+    out[axis] = (float)placed[axis];
+  return TRAX_OK;
+}
+
+static trax_status find_targets(struct placing *placing, struct gltf *gltf) {
+  const json_t *targets = placing->primitive->targets;
+  const size_t most = placing->deform->weight_count < json_array_size(targets) ? placing->deform->weight_count
+                                                                               : json_array_size(targets);
+  placing->targets = calloc(most + 1, sizeof *placing->targets);
+  placing->weights = calloc(most + 1, sizeof *placing->weights);
+  if (!placing->targets || !placing->weights)
+    return scene_out_of_memory(gltf->error, gltf->path);
+  for (size_t i = 0; i < most; i++) {
+    bool found;
+    const uint32_t number = placing->target_count;
+    if (find_attribute(&placing->targets[number], &found, gltf, json_array_get(targets, i), "POSITION", 3,
+                       placing->primitive->positions.count) != TRAX_OK)
+      return TRAX_ERROR;
+    placing->weights[number] = placing->deform->weights[i];
+    placing->target_count += found && placing->weights[number] != 0;
+  }
+  return TRAX_OK;
 }
 
 /* By the cofactors of the matrix, which is the inverse's transpose but for its length. */
@@ -147,15 +243,14 @@ static void copy_uv(float out[2], const struct gltf *gltf, const struct primitiv
     out[axis] = map->map[axis][0] * uv[0] + map->map[axis][1] * (1 - uv[1]) + map->map[axis][2];
 }
 
-static trax_status copy_primitive(struct gltf *gltf, const struct primitive *primitive, size_t number,
-                                  const double matrix[3][4]) {
-  static const double identity[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
+static trax_status copy_triangles(struct gltf *gltf, const struct placing *placing, size_t number) {
+  const struct primitive *primitive = placing->primitive;
   struct trax_mesh *mesh = gltf->mesh;
-  const bool keep = !memcmp(matrix, identity, sizeof identity), mirror = mirrors(matrix);
-  const bool shared = shares_vertices(primitive);
+  const bool mirror = mirrors(placing->matrix), shared = shares_vertices(primitive);
   const uint32_t first = mesh->vertex_count;
   for (uint32_t i = 0; shared && i < primitive->positions.count; i++)
-    copy_vertex(mesh->vertices[mesh->vertex_count++], primitive, i, matrix, keep);
+    if (place_vertex(mesh->vertices[mesh->vertex_count++], placing, i, gltf) != TRAX_OK)
+      return TRAX_ERROR;
   for (uint32_t i = 0; i < triangles_of(primitive); i++) {
     uint32_t corners[3];
     find_corners(corners, primitive, i);
@@ -168,27 +263,42 @@ static trax_status copy_primitive(struct gltf *gltf, const struct primitive *pri
       if (index >= primitive->positions.count)
         return trax_fail(gltf->error, "%s: mesh %zu: vertex index %u is out of range (%u vertices)", gltf->path, number,
                          index, primitive->positions.count);
-      if (!shared)
-        copy_vertex(mesh->vertices[mesh->vertex_count++], primitive, index, matrix, keep);
+      if (!shared && place_vertex(mesh->vertices[mesh->vertex_count++], placing, index, gltf) != TRAX_OK)
+        return TRAX_ERROR;
       triangle->vertices[corner] = shared ? first + index : mesh->vertex_count - 1;
       if (mesh->uvs && primitive->has_uvs)
         copy_uv(mesh->uvs[triangle_number][corner], gltf, primitive, index);
       if (mesh->normals && primitive->has_normals)
-        copy_normal(mesh->normals[triangle_number][corner], primitive, index, matrix, mirror);
+        copy_normal(mesh->normals[triangle_number][corner], primitive, index, placing->matrix, mirror);
     }
   }
   gltf->report->other_primitives += points_and_lines_of(primitive);
   return scene_is_interrupted(gltf->options->interrupt) ? TRAX_INTERRUPTED : TRAX_OK;
 }
 
-trax_status gltf_copy_mesh(struct gltf *gltf, size_t number, const double matrix[3][4]) {
+static trax_status copy_primitive(struct gltf *gltf, const struct primitive *primitive, size_t number,
+                                  const double matrix[3][4], const struct gltf_deform *deform) {
+  static const double identity[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
+  struct placing placing = {.primitive = primitive, .matrix = matrix, .deform = deform};
+  trax_status result = find_targets(&placing, gltf);
+  placing.keep = !memcmp(matrix, identity, sizeof identity) && placing.target_count == 0 &&
+                 !(deform->joints && primitive->has_joints);
+  if (result == TRAX_OK)
+    result = copy_triangles(gltf, &placing, number);
+  free(placing.targets);
+  free(placing.weights);
+  return result;
+}
+
+trax_status gltf_copy_mesh(struct gltf *gltf, size_t number, const double matrix[3][4],
+                           const struct gltf_deform *deform) {
   const json_t *primitives = primitives_of(gltf, number);
   trax_status result = TRAX_OK;
   for (size_t i = 0; i < json_array_size(primitives) && result == TRAX_OK; i++) {
     struct primitive primitive;
     result = find_primitive(&primitive, gltf, json_array_get(primitives, i), number);
     if (result == TRAX_OK)
-      result = copy_primitive(gltf, &primitive, number, matrix);
+      result = copy_primitive(gltf, &primitive, number, matrix, deform);
   }
   return result;
 }

@@ -76,29 +76,34 @@ static trax_status check_trees(const struct nodes *nodes) {
 
 /* --- transforms: the first three rows of a matrix --- */
 
-/* A node's transform: a matrix by columns, or translation, rotation (a quaternion) and scale. */
-static void own_transform(double m[3][4], const json_t *node) {
-  double columns[16], move[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1}, scale[3] = {1, 1, 1};
-  if (gltf_numbers(columns, 16, node, "matrix")) {
-    for (int row = 0; row < 3; row++)
-      for (int column = 0; column < 4; column++)
-        m[row][column] = columns[4 * column + row];
+void gltf_rest(struct gltf_pose *pose, const json_t *node) {
+  double columns[16];
+  *pose = (struct gltf_pose){.turn = {0, 0, 0, 1}, .scale = {1, 1, 1}};
+  pose->is_matrix = gltf_numbers(columns, 16, node, "matrix");
+  for (int i = 0; i < 12 && pose->is_matrix; i++)
+    pose->matrix[i / 4][i % 4] = columns[4 * (i % 4) + i / 4];
+  gltf_numbers(pose->move, 3, node, "translation");
+  gltf_numbers(pose->turn, 4, node, "rotation");
+  gltf_numbers(pose->scale, 3, node, "scale");
+}
+
+void gltf_transform(double m[3][4], const struct gltf_pose *pose) {
+  const double *q = pose->turn, *scale = pose->scale;
+  const double square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3], s = square > 0 ? 2 / square : 0;
+  if (pose->is_matrix) {
+    memcpy(m, pose->matrix, sizeof pose->matrix);
     return;
   }
-  gltf_numbers(move, 3, node, "translation");
-  gltf_numbers(q, 4, node, "rotation");
-  gltf_numbers(scale, 3, node, "scale");
-  const double square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3], s = square > 0 ? 2 / square : 0;
   for (int row = 0; row < 3; row++) {
     const int next = (row + 1) % 3, last = (row + 2) % 3;
     m[row][row] = (1 - s * (q[next] * q[next] + q[last] * q[last])) * scale[row];
     m[row][next] = s * (q[row] * q[next] - q[3] * q[last]) * scale[next];
     m[row][last] = s * (q[row] * q[last] + q[3] * q[next]) * scale[last];
-    m[row][3] = move[row];
+    m[row][3] = pose->move[row];
   }
 }
 
-static void multiply(double out[3][4], const double a[3][4], const double b[3][4]) {
+void gltf_multiply(double out[3][4], const double a[3][4], const double b[3][4]) {
   for (int row = 0; row < 3; row++)
     for (int column = 0; column < 4; column++)
       out[row][column] = a[row][0] * b[0][column] + a[row][1] * b[1][column] + a[row][2] * b[2][column] +
@@ -147,17 +152,29 @@ static trax_status measure_node(struct nodes *nodes, const json_t *node) {
   return TRAX_OK;
 }
 
-static trax_status copy_node(struct gltf *gltf, const json_t *node, const double above[3][4]) {
+static trax_status copy_mesh(struct gltf *gltf, size_t node_number, size_t mesh, const double matrix[3][4]) {
+  struct gltf_deform deform;
+  trax_status result = gltf_find_deform(&deform, gltf, node_number);
+  if (result == TRAX_OK)
+    result = gltf_copy_mesh(gltf, mesh, matrix, &deform);
+  gltf_release_deform(&deform);
+  return result;
+}
+
+static trax_status copy_node(struct gltf *gltf, size_t number, const double above[3][4]) {
+  const json_t *node = node_at(gltf, number);
   const json_t *children = json_object_get(node, "children"), *mesh = json_object_get(node, "mesh");
   const json_t *camera = gltf_item(gltf, "cameras", json_object_get(node, "camera"));
+  struct gltf_pose rest;
   double own[3][4], matrix[3][4];
-  own_transform(own, node);
-  multiply(matrix, above, own);
-  trax_status result = mesh ? gltf_copy_mesh(gltf, gltf_index(gltf, "meshes", mesh), matrix) : TRAX_OK;
+  gltf_rest(&rest, node);
+  gltf_transform(own, gltf->poses ? &gltf->poses[number] : &rest);
+  gltf_multiply(matrix, above, own);
+  trax_status result = mesh ? copy_mesh(gltf, number, gltf_index(gltf, "meshes", mesh), matrix) : TRAX_OK;
   if (camera)
     copy_camera(gltf, node, camera, matrix);
   for (size_t i = 0; result == TRAX_OK && i < json_array_size(children); i++)
-    result = copy_node(gltf, gltf_item(gltf, "nodes", json_array_get(children, i)), matrix);
+    result = copy_node(gltf, gltf_index(gltf, "nodes", json_array_get(children, i)), matrix);
   return result;
 }
 
@@ -173,9 +190,9 @@ static trax_status for_roots(struct nodes *nodes, bool copy) {
   const size_t count = scene ? json_array_size(roots) : nodes->count;
   trax_status result = TRAX_OK;
   for (size_t i = 0; result == TRAX_OK && i < count; i++) {
-    const json_t *node = scene ? gltf_item(gltf, "nodes", json_array_get(roots, i)) : node_at(gltf, i);
+    const size_t node = scene ? gltf_index(gltf, "nodes", json_array_get(roots, i)) : i;
     if (scene || !nodes->parents[i])
-      result = copy ? copy_node(gltf, node, identity) : measure_node(nodes, node);
+      result = copy ? copy_node(gltf, node, identity) : measure_node(nodes, node_at(gltf, node));
   }
   return result;
 }
@@ -214,12 +231,15 @@ trax_status gltf_copy_nodes(struct gltf *gltf) {
   trax_status result =
       nodes.parents && nodes.sizes ? check_trees(&nodes) : scene_out_of_memory(gltf->error, gltf->path);
   if (result == TRAX_OK)
+    result = gltf_find_poses(gltf, nodes.parents);
+  if (result == TRAX_OK)
     result = for_roots(&nodes, false);
   if (result == TRAX_OK)
     result = allocate(&nodes);
   if (result == TRAX_OK)
     result = for_roots(&nodes, true);
   gltf->report->source_triangles += gltf->mesh->triangle_count;
+  gltf_release_poses(gltf);
   free(nodes.parents);
   free(nodes.sizes);
   return result;

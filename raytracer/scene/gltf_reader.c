@@ -165,6 +165,8 @@ static size_t bytes_of(int type) {
 
 static unsigned components_of(const char *type) {
   static const char *const types[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
+  if (!strcmp(type, "MAT4"))
+    return 16;
   for (unsigned i = 0; i < sizeof types / sizeof *types; i++)
     if (!strcmp(type, types[i]))
       return i + 1;

@@ -323,6 +323,13 @@ trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *me
                              const struct trax_build_options *options, trax_error *error);
 void scene_tree_release(struct scene_tree *tree);
 
+/* --- refit.c --- */
+
+/* The tree of options->refit around the mesh's triangles, which have the same numbers in their files. *positions: as of
+   struct scene_order, to be freed. */
+trax_status scene_refit_tree(struct scene_tree *tree, uint32_t **positions, const struct trax_mesh *mesh,
+                             const struct trax_build_options *options, trax_error *error);
+
 /* --- splits.c --- */
 
 struct scene_duplicates;

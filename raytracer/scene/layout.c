@@ -374,22 +374,25 @@ trax_status trax_scene_build(struct trax_scene *scene, const struct trax_mesh *m
   if (mesh->triangle_count == 0 && !options->allow_empty)
     return trax_fail(error, "the mesh has no triangles");
   struct scene_tree tree;
-  trax_status result = scene_build_tree(&tree, mesh, options, error);
+  struct scene_order order = {0};
+  struct trax_build_options chosen = *options;
+  trax_status result = options->refit ? scene_refit_tree(&tree, &order.position, mesh, options, error)
+                                      : scene_build_tree(&tree, mesh, options, error);
   if (result != TRAX_OK)
     return result;
-  struct trax_build_options chosen = *options;
-  if (chosen.choose_nodes && tree.inner_count)
+  if (options->refit)
+    chosen.nodes = options->refit->header->node_layout;
+  else if (chosen.choose_nodes && tree.inner_count)
     chosen.nodes = scene_grid_suits(&tree) ? TRAX_NODES_QUANTISED : TRAX_NODES_BINARY;
   chosen.splits = tree.split ? TRAX_DEFAULT_SPLITS : 0;
   options = &chosen;
   scene_report(options, SCENE_LAY_OUT, 0);
   struct palette palette = {0};
-  struct scene_order order = {0};
   if (!tree.split)
     result = scene_order_duplicates(&tree, mesh, error);
   if (result == TRAX_OK && scene_is_interrupted(options->interrupt))
     result = TRAX_INTERRUPTED;
-  if (result == TRAX_OK)
+  if (result == TRAX_OK && !order.position)
     result =
         scene_order_nodes(&order, &tree, options->nodes,
                           options->cache_lines ? options->cache_lines : default_cache_lines, options->interrupt, error);
@@ -398,8 +401,8 @@ trax_status trax_scene_build(struct trax_scene *scene, const struct trax_mesh *m
     if (result == TRAX_OK)
       result = lay_out(scene, mesh, &tree, &palette, order.position, options, error);
     palette_release(&palette);
-    scene_order_release(&order);
   }
+  scene_order_release(&order);
   scene_tree_release(&tree);
   if (result == TRAX_OK && options->tree_nodes) { /* checks that the leaves of a triangle cover it */
     result = trax_scene_check(NULL, scene->bytes, scene->size, options->tree_nodes, error);

@@ -2,6 +2,7 @@
 
 #include "internal.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -29,6 +30,16 @@ trax_status trax_take_diffuse(void *target, const trax_option *option, const cha
 
 trax_status trax_take_material(void *target, const trax_option *option, const char *value, trax_error *error) {
   return add_override(member(target, option), value, error, trax_override_material);
+}
+
+trax_status trax_take_at(void *target, const trax_option *option, const char *value, trax_error *error) {
+  struct trax_import_options *import = member(target, option);
+  char *end;
+  import->at = strtod(value, &end);
+  import->moves = true;
+  return end != value && !*end && isfinite(import->at)
+             ? TRAX_OK
+             : trax_option_refuse(option, value, error, "is neither a time in seconds nor the number of a frame");
 }
 
 const char *const trax_node_words[] = {"auto", "binary", "quantised", NULL};

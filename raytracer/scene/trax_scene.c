@@ -143,32 +143,61 @@ static double most_resident(void) {
   return getrusage(RUSAGE_SELF, &usage) == 0 ? 1024.0 * (double)usage.ru_maxrss : 0;
 }
 
+/* The scene whose tree is refitted: from a file, or that of another moment. */
+static trax_status find_base(struct trax_scene *base, const struct arguments *arguments, trax_error *error) {
+  struct trax_import_options import = arguments->import;
+  struct trax_build_options build = arguments->build;
+  struct trax_mesh mesh;
+  if (arguments->refit)
+    return trax_scene_read_within(base, arguments->refit, import.unpack_limit, error);
+  import.at = arguments->base.at;
+  build.choose_splits = false;
+  trax_status result =
+      trax_mesh_import(&mesh, (const char *const *)arguments->meshes, arguments->mesh_count, &import, NULL, error);
+  if (result == TRAX_OK)
+    result = trax_scene_build(base, &mesh, &build, error);
+  trax_mesh_release(&mesh);
+  return result;
+}
+
+static trax_status build_scene(struct trax_scene *scene, struct figures *figures, const struct trax_mesh *mesh,
+                               const struct arguments *arguments, trax_error *error) {
+  struct trax_build_options build = arguments->build;
+  struct trax_scene base = {0};
+  trax_status result = TRAX_OK;
+  if (mesh->triangle_count == 0)
+    return trax_fail(error, "%s: no triangles%s%s", arguments->meshes[0],
+                     arguments->mesh_count > 1 ? " in it and the other meshes" : "",
+                     figures->import.source_triangles ? " are left: all are of zero area or not finite" : "");
+  if (arguments->refit || arguments->base.moves) {
+    result = find_base(&base, arguments, error);
+    build.refit = &base;
+    build.refit_name = arguments->refit ? arguments->refit : "--refit-from";
+  }
+  const double began = trax_seconds();
+  if (result == TRAX_OK)
+    result = trax_scene_build(scene, mesh, &build, error);
+  figures->build_seconds = trax_seconds() - began;
+  trax_scene_release(&base);
+  return result;
+}
+
 static trax_status import_and_build(struct trax_scene *scene, struct figures *figures,
                                     const struct arguments *arguments, trax_error *error) {
   struct trax_mesh mesh;
-  double began = trax_seconds();
+  const double began = trax_seconds();
   trax_status result = trax_mesh_import(&mesh, (const char *const *)arguments->meshes, arguments->mesh_count,
                                         &arguments->import, &figures->import, error);
   if (result != TRAX_OK)
     return result;
-  double imported = trax_seconds();
+  figures->import_seconds = trax_seconds() - began;
   figures->import_bytes = most_resident();
   if (arguments->write_triangles)
     result = trax_mesh_write_triangles(&mesh, arguments->write_triangles, error);
-  if (result != TRAX_OK || !arguments->output) {
-    trax_mesh_release(&mesh);
-    return result;
-  }
-  if (mesh.triangle_count == 0) {
-    result = trax_fail(error, "%s: no triangles%s%s", arguments->meshes[0],
-                       arguments->mesh_count > 1 ? " in it and the other meshes" : "",
-                       figures->import.source_triangles ? " are left: all are of zero area or not finite" : "");
-  } else
-    result = trax_scene_build(scene, &mesh, &arguments->build, error);
+  figures->imported = result == TRAX_OK && arguments->output;
+  if (figures->imported)
+    result = build_scene(scene, figures, &mesh, arguments, error);
   trax_mesh_release(&mesh);
-  figures->imported = true;
-  figures->import_seconds = imported - began;
-  figures->build_seconds = trax_seconds() - imported;
   figures->build_bytes = most_resident();
   return result;
 }

@@ -54,6 +54,9 @@ static const trax_option rows[] = {
      .meaning = "at most N texels a side, a power of two (default 4096)"},
     {"unpack-limit", .argument = "SIZE", PARSED(trax_take_unpack_limit, import.unpack_limit),
      .meaning = "most bytes of a packed file or a pipe, unpacked; K, M and G are powers of 1024 (default 1G)"},
+    {"at", .argument = "X", PARSED(trax_take_at, import),
+     .meaning = "the meshes of a moment: of a name with %d or %04d frame X, of glTF second X of an animation"},
+    {"animation", .argument = "NAME", FIELD(import.animation), .meaning = "of glTF, instead of the first"},
     {"drop-nonfinite", FIELD(import.drop_nonfinite),
      .meaning = "leave triangles with NaN or infinite vertices out instead of refusing the mesh"},
     {"keep-degenerate", .instead = "no ray hits triangles of zero area"},
@@ -85,6 +88,11 @@ static const trax_option rows[] = {
      .meaning = "the triangles of its leaves"},
     {"tree-boxes", .argument = "FILE.npy", FIELD(build.tree_boxes), .file = TRAX_OPTION_INPUT,
      .meaning = "the boxes of its nodes, for triangles that stand in several leaves"},
+    {"refit", .argument = "SCENE", FIELD(refit), .file = TRAX_OPTION_INPUT,
+     .meaning = "instead of building one: that of a scene file whose mesh has moved since, with new\n"
+                "boxes; layout and order of its nodes stay"},
+    {"refit-from", .argument = "X", PARSED(trax_take_at, base),
+     .meaning = "the same with the tree of another moment, as of --at, which is built first"},
     {"write-triangles", .argument = "FILE.npy", OUTPUT(write_triangles),
      .meaning = "writes the meshes' triangles as such a tree numbers them; needs no -o"},
     TRAX_OPTION_GROUP("Normals"),
@@ -139,6 +147,18 @@ trax_parsed arguments_parse(struct arguments *arguments, int argc, char **argv, 
             arguments->build.traversal_cost > 0))
     trax_fail(error, "--tree is a tree that is built: --leaf, --splits, --passes and --traversal-cost are for "
                      "trax-scene's builder");
+  else if (arguments->base.moves && (arguments->refit || !arguments->import.moves))
+    trax_fail(error, "--refit-from needs --at, and excludes --refit");
+  else if (arguments->import.animation && !arguments->import.moves)
+    trax_fail(error, "--animation without --at");
+  else if (arguments->base.moves && (arguments->splits || arguments->build.tree_nodes))
+    trax_fail(error, "--refit-from builds a tree without splits: --splits and --tree are not for it");
+  else if (arguments->refit &&
+           (arguments->build.max_leaf || arguments->splits || arguments->build.passes != TRAX_DEFAULT_PASSES ||
+            arguments->build.traversal_cost > 0 || arguments->build.tree_nodes || arguments->build.max_depth ||
+            arguments->build.cache_lines || arguments->check))
+    trax_fail(error, "--refit keeps a tree that is built: --leaf, --splits, --passes, --traversal-cost, --depth, "
+                     "--cache-lines, --tree and --check are not for it");
   else if (!arguments->check && !arguments->output &&
            (!arguments->write_triangles || arguments->stats || arguments->stats_json))
     trax_fail(error, "no output; give one with -o");

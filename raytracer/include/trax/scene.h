@@ -104,6 +104,9 @@ struct trax_import_options {
   bool no_textures;        /* images are not read; materials keep only their colours */
   unsigned texture_size;   /* limit of texels a side; a power of two up to 4096; 0: 4096 */
   size_t unpack_limit;     /* bytes; 0: TRAX_DEFAULT_UNPACK_LIMIT */
+  bool moves;              /* meshes are those of a moment: `at` */
+  double at;               /* seconds of glTF's animations; the number of a frame for names with %d */
+  const char *animation;   /* its name in the glTF file; NULL: the first one */
   const trax_files *files; /* of the command; meshes must not refer to its outputs; may be NULL */
   const struct trax_material_override *overrides; /* applied in order */
   size_t override_count;
@@ -124,6 +127,7 @@ struct trax_import_report {
   char first_missing_file[256]; /* its name */
   uint32_t bad_images;          /* textures that exist but are no readable PNG or JPEG */
   char first_bad_image[256];    /* its name and the reason */
+  bool moved;                   /* a mesh depends on `at` */
   unsigned unread;              /* TRAX_UNREAD_: features of the meshes that the ray tracer does not have */
 };
 
@@ -140,10 +144,10 @@ bool trax_mesh_is_generated(const char *path);
 /* Checks that the path is of a file that can be read, or a valid "generate:forest". */
 trax_status trax_mesh_check(const char *path, trax_error *error);
 
-/* Reads and merges the files: PLY, OBJ with MTL, glTF, GLB, plain or compressed as .xz or .gz; or "generate:forest", see
-   docs/scene-file.md. Node transforms are applied and polygons cut into triangles, in the order of the files. report
-   may be NULL. Errors: a file that cannot be read or is no mesh, indices out of range, vertices that are not finite
-   (unless dropped), overrides that match no material. A mesh without triangles is no error here. */
+/* Reads and merges the files: PLY, OBJ with MTL, glTF, GLB, plain or compressed as .xz or .gz; or "generate:forest",
+   see docs/scene-file.md. Node transforms are applied and polygons cut into triangles, in the order of the files.
+   report may be NULL. Errors: a file that cannot be read or is no mesh, indices out of range, vertices that are not
+   finite (unless dropped), overrides that match no material. A mesh without triangles is no error here. */
 trax_status trax_mesh_import(struct trax_mesh *mesh, const char *const *paths, size_t path_count,
                              const struct trax_import_options *options, struct trax_import_report *report,
                              trax_error *error);
@@ -205,23 +209,27 @@ void trax_node_read(struct trax_node_children *children, const struct trax_scene
 
 struct trax_build_options {
   enum trax_node_layout nodes;
-  bool choose_nodes;       /* quantised nodes instead, if the scene's grid is fine enough for nearly all boxes */
-  unsigned max_leaf;       /* triangles in a leaf, 1 to TRAX_SCENE_MAX_LEAF; 0: default */
-  unsigned max_depth;      /* inner nodes on a path, at most TRAX_SCENE_MAX_DEPTH; 0: default */
-  unsigned cache_lines;    /* of the direct-mapped data cache that nodes are ordered for; 0: default; 1: depth first */
-  float splits;            /* large triangles are split until leaves have `splits` times as many; 0 or 1: none */
-  bool choose_splits;      /* the default instead, if many triangles' boxes are much larger than they; never of lamps */
-  unsigned passes;         /* over the tree that was built, to improve it: at most TRAX_SCENE_MAX_PASSES */
-  float traversal_cost;    /* of a node, relative to a triangle's; 0: default */
+  bool choose_nodes;    /* quantised nodes instead, if the scene's grid is fine enough for nearly all boxes */
+  unsigned max_leaf;    /* triangles in a leaf, 1 to TRAX_SCENE_MAX_LEAF; 0: default */
+  unsigned max_depth;   /* inner nodes on a path, at most TRAX_SCENE_MAX_DEPTH; 0: default */
+  unsigned cache_lines; /* of the direct-mapped data cache that nodes are ordered for; 0: default; 1: depth first */
+  float splits;         /* large triangles are split until leaves have `splits` times as many; 0 or 1: none */
+  bool choose_splits;   /* the default instead, if many triangles' boxes are much larger than they; never of lamps */
+  unsigned passes;      /* over the tree that was built, to improve it: at most TRAX_SCENE_MAX_PASSES */
+  float traversal_cost; /* of a node, relative to a triangle's; 0: default */
   /* Another builder's tree instead, from arrays (docs/own-tree.md): .npy files. NULL: none; without tree_boxes each
      triangle is in one leaf. */
   const char *tree_nodes, *tree_triangles, *tree_boxes;
-  bool allow_empty;        /* a mesh without triangles gives a scene without triangles instead of an error */
-  bool without_source_ids; /* leave that section out */
-  bool smooth;             /* with normals for smooth shading, across edges of up to crease_degrees */
-  bool compute_normals;    /* even if the mesh has normals */
-  float crease_degrees;    /* up to 180; 0: default */
-  unsigned threads;        /* of the host; the bytes do not depend on their number; 0: one for each processor */
+  /* An earlier scene of the same mesh, whose vertices have moved since: its tree, its layout and the order of its
+     nodes, with new boxes. NULL: none. Its name, for messages. */
+  const struct trax_scene *refit;
+  const char *refit_name;
+  bool allow_empty;              /* a mesh without triangles gives a scene without triangles instead of an error */
+  bool without_source_ids;       /* leave that section out */
+  bool smooth;                   /* with normals for smooth shading, across edges of up to crease_degrees */
+  bool compute_normals;          /* even if the mesh has normals */
+  float crease_degrees;          /* up to 180; 0: default */
+  unsigned threads;              /* of the host; the bytes do not depend on their number; 0: one for each processor */
   trax_scene_progress *progress; /* may be NULL */
   void *progress_context;
   const volatile int *interrupt; /* polled; may be NULL */
@@ -244,7 +252,8 @@ bool trax_splits_choose(const char *text, struct trax_build_options *build);
 trax_status trax_scene_build(struct trax_scene *scene, const struct trax_mesh *mesh,
                              const struct trax_build_options *options, trax_error *error);
 
-/* Writes the triangles of a mesh as a tree of one's own numbers them: an array of floats (.npy) of the shape (n, 3, 3). */
+/* Writes the triangles of a mesh as a tree of one's own numbers them: an array of floats (.npy) of the shape (n, 3, 3).
+ */
 trax_status trax_mesh_write_triangles(const struct trax_mesh *mesh, const char *path, trax_error *error);
 
 /* path is replaced at once or stays as it was (trax/output.h). */

@@ -9,6 +9,8 @@
 trax_status trax_take_diffuse(void *target, const trax_option *option, const char *value, trax_error *error);
 trax_status trax_take_material(void *target, const trax_option *option, const char *value, trax_error *error);
 void trax_put_material_kinds(FILE *out); /* what the completion offers */
+/* The moment; the row's member is a struct trax_import_options. */
+trax_status trax_take_at(void *target, const trax_option *option, const char *value, trax_error *error);
 /* An unsigned. */
 trax_status trax_take_texture_size(void *target, const trax_option *option, const char *value, trax_error *error);
 /* A size_t. */
