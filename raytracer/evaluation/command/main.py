@@ -139,7 +139,7 @@ def make_runs(options, tools, data, command, begin, files, folder, sweeps):
     if not options.dry_run:
         out.mkdir(parents=True, exist_ok=True)
         clean_scratch(out)
-    plans, labels, without = [], {}, 0
+    plans, labels, statistics, without = [], {}, [], 0
     with contextlib.ExitStack() as stack:
         scratch = new_scratch(None if options.dry_run else out)
         stack.callback(shutil.rmtree, scratch, ignore_errors=True)
@@ -150,6 +150,7 @@ def make_runs(options, tools, data, command, begin, files, folder, sweeps):
         for sweep in sweeps:
             keys = {point: planner.key(sweep, point) for point in sweep.points}
             plans.append((sweep, keys))
+            statistics.append({point: planner.statistics(sweep, point) for point in sweep.points})
             labels |= {key: label(point) for point, (key, _) in keys.items() if key}
             without += sum(key is None for key, _ in keys.values())
     if options.dry_run:
@@ -161,8 +162,8 @@ def make_runs(options, tools, data, command, begin, files, folder, sweeps):
         if known := estimate(out, plans):
             print("they take about {} of a processor, by the {} that are there".format(seconds(known[0]), known[1]))
         return 0, None, plans
-    for sweep, keys in plans:
-        write_plan(out, sweep, keys, tools)
+    for (sweep, keys), known in zip(plans, statistics):
+        write_plan(out, sweep, keys, tools, known)
     forget_damaged(out, labels)
     if options.prepare:
         print("".join(f"{key}\n" for key in labels if not is_intact(out, key)), end="")

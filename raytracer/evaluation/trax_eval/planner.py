@@ -11,7 +11,7 @@ from .jobs import key_of, make_job, write_job
 from .programs import Program, build
 from .scenes import import_scenes, order_options, plan_scene
 from .sweep import CHIPS, TAKEN, option_of, option_words
-from .util import Problem, hash_value, nearest
+from .util import Problem, hash_value, nearest, read_sealed
 
 
 def check_names(options, sweeps):
@@ -132,6 +132,14 @@ class Planner:
 
         self.once(("imported", imported.path), check)
         return imported.path
+
+    def statistics(self, sweep, point):
+        """Returns what trax-scene --stats-json said of a point's scene, by name; nothing of a scene that an earlier
+        version imported."""
+        with contextlib.suppress(Problem):
+            imported = self.scene(sweep, point)
+            return read_sealed(imported.record).get("statistics", {}) if imported else {}
+        return {}
 
     def request(self, sweep, point):
         """Returns the request for a point's inputs; None if its scene is only looked at and has not been imported."""

@@ -79,9 +79,9 @@ def references(sweep, keys):
     return found
 
 
-def write_plan(out, sweep, keys, tools):
+def write_plan(out, sweep, keys, tools, statistics):
     """Writes a sweep's requests, so that results.json can be made of all sweeps in the folder. keys: point -> key, or
-    the reason why there is none."""
+    the reason why there is none. statistics: point -> those of its scene."""
     points, compared = [], references(sweep, keys)
     for point in sweep.points:
         key, reason = keys[point]
@@ -96,7 +96,8 @@ def write_plan(out, sweep, keys, tools):
             "variant": point.variant, "chip_file": point.chip_file, "import": [*order, *imported] if imported else [],
             "options": point.options("trax-render",
                                      workload), "elf": None if point.program.specialised else str(point.program.source),
-            "plain": point.program.plain, "reference": compared.get(point), "key": key, "error": reason
+            "plain": point.program.plain, "reference": compared.get(point), "key": key, "error": reason,
+            "statistics": statistics[point]
         })
     used = {point.workload for point in sweep.points}
     write_sealed(
@@ -206,7 +207,9 @@ def run_of(out, tools, areas, point):
             "picture": f"pictures/{result['picture']}.png" if result["picture"] else None,
             "host_seconds": host.get("host_seconds"), "host": host or None,
             "stats": {name: value for name, value in statistics.items() if name not in LEFT_OUT
-                      }, "values": values_of(result, areas) | compared(out, result, point.get("reference"))
+                      }, "values": values_of(result, areas) | compared(out, result, point.get("reference")) | {
+                f"scene.{name}": value for name, value in point.get("statistics", {}).items()
+            }
         }
     elif error:
         run |= {"status": "failed", "error": error}

@@ -8,7 +8,7 @@ import typing
 from .fields import Fields, find_file, read_fields, unknown
 from .manifest import xxh128_of_file
 from .tools import run_tools
-from .util import Problem, hash_file, hash_value, read_sealed, remark, write_sealed
+from .util import Problem, hash_file, hash_value, read_json, read_sealed, remark, write_sealed
 
 KEYS = ("name", "title", "meshes", "view", "licence", "paper")
 INLINE_KEYS = ("name", "title", "meshes", "view")
@@ -46,12 +46,18 @@ def find_scenes(name, beside, sets=True):
     return [scene for member in members for scene in find_scenes(member, path.parent, False)]
 
 
+def is_there(path):
+    """Whether there is the mesh, or a frame of it: its number stands for %d or %04d in the name."""
+    pattern = re.sub(r"%(0[1-9])?d", "*", re.sub(r"[*?\[]", "[\\g<0>]", path.name), count=1)
+    return path.is_file() or "%" in path.name and any(path.parent.glob(pattern))
+
+
 def find_mesh(directory, name, beside=None):
     """Finds a mesh in the folder `beside`, or in that of scenes, where it may be packed."""
     if name.startswith("generate:"):
         return name
     for candidate in (*([pathlib.Path(beside, name)] if beside else []), directory / name, directory / (name + ".xz")):
-        if candidate.is_file():
+        if is_there(candidate):
             return str(candidate.resolve())
     raise Problem(f"{directory}: neither {name} nor {name}.xz is there; trax-eval fetch-scenes fetches the scenes")
 
@@ -69,7 +75,7 @@ class Imported(typing.NamedTuple):
     """A scene file in the folder of results, its record, and what makes both."""
 
     path: pathlib.Path
-    record: pathlib.Path  # every file that the importer read, with its hash or None, and the scene file's hash
+    record: pathlib.Path  # every file that the importer read, with its hash or None, the scene file's hash, statistics
     command: list  # trax-scene's, without its outputs; None: the scene file is as it was imported
 
 
@@ -128,15 +134,17 @@ def read_list(path):
 def import_scenes(wanted, jobs, scratch):
     """wanted: Imported, by path. Returns what went wrong, by path."""
     wanted, problems = list(wanted.values()), {}
-    made = [(pathlib.Path(scratch, one.path.name), pathlib.Path(scratch, f"{one.path.stem}.files")) for one in wanted]
-    commands = [[*one.command, "-o", str(path), "--list-files", str(files)] for one, (path, files) in zip(wanted, made)]
+    made = [[pathlib.Path(scratch, f"{one.path.stem}.{ending}") for ending in ("trax", "files", "json")]
+            for one in wanted]
+    commands = [[*one.command, "-o", str(path), "--list-files", str(files), "--stats-json", str(statistics)]
+                for one, (path, files, statistics) in zip(wanted, made)]
     for one in wanted:
         one.path.parent.mkdir(parents=True, exist_ok=True)
         one.record.unlink(missing_ok=True)
     for place, run in run_tools(commands, jobs):
-        one, (path, files) = wanted[place], made[place]
+        one, (path, files, statistics) = wanted[place], made[place]
         if run.returncode == 0:
-            known = {"files": read_list(files), "scene": hash_file(path)}
+            known = {"files": read_list(files), "scene": hash_file(path), "statistics": read_json(statistics)}
             os.replace(path, one.path)
             write_sealed(one.record, known)
         else:
