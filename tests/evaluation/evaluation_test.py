@@ -464,7 +464,7 @@ def test_refusals(evaluation, scratch):
         "the other scene was not run")
 
 
-READING = {"trax-scene": ("tree", "tree-triangles", "tree-boxes"),
+READING = {"trax-scene": ("tree", "tree-triangles", "tree-boxes", "refit"),
            "trax-render": ("view", )}  # options with files that are not refused
 
 

@@ -131,6 +131,11 @@ def read_list(path):
     return files
 
 
+def same_statistics(statistics):
+    """Those that every import of the meshes gives: without times and memory."""
+    return {name: value for name, value in statistics.items() if not re.search(r"\.seconds$|^memory\.", name)}
+
+
 def import_scenes(wanted, jobs, scratch):
     """wanted: Imported, by path. Returns what went wrong, by path."""
     wanted, problems = list(wanted.values()), {}
@@ -144,7 +149,8 @@ def import_scenes(wanted, jobs, scratch):
     for place, run in run_tools(commands, jobs):
         one, (path, files, statistics) = wanted[place], made[place]
         if run.returncode == 0:
-            known = {"files": read_list(files), "scene": hash_file(path), "statistics": read_json(statistics)}
+            known = {"files": read_list(files), "scene": hash_file(path),
+                     "statistics": same_statistics(read_json(statistics))}
             os.replace(path, one.path)
             write_sealed(one.record, known)
         else:
