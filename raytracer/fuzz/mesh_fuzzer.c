@@ -1,11 +1,28 @@
 /* Meshes under libFuzzer: a case's first file is one, by its ending, and refers to the others. What is accepted makes a
-   scene that passes every check. The words of the first line are materials as --material takes them. */
+   scene that passes every check. The words of the first line are materials as --material takes them; "moves" is for
+   half a second of its animation, whose tree is then also that of its beginning, refitted. */
 #include "files.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 enum { most_triangles = 3000 }; /* with more no tree is built */
+
+static void refit(const struct trax_mesh *mesh, const char *path, struct trax_import_options options) {
+  struct trax_mesh first;
+  trax_error error = {.message = ""};
+  options.at = 0;
+  if (trax_mesh_import(&first, &path, 1, &options, NULL, &error) != TRAX_OK)
+    return;
+  struct trax_scene base, scene;
+  if (trax_scene_build(&base, &first, NULL, &error) == TRAX_OK) {
+    const struct trax_build_options build = {.choose_nodes = true, .refit = &base, .refit_name = "base"};
+    if (trax_scene_build(&scene, mesh, &build, &error) == TRAX_OK)
+      fuzz_check_built(&scene);
+    trax_scene_release(&base);
+  }
+  trax_mesh_release(&first);
+}
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
   enum { most_words = 8 };
@@ -18,13 +35,19 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
   struct trax_import_options options = {.overrides = overrides, .texture_size = 64, .drop_nonfinite = size % 2};
   trax_error error = {.message = ""};
   for (size_t i = 0; i < count; i++)
-    options.override_count += trax_override_material(&overrides[options.override_count], words[i], &error) == TRAX_OK;
+    if (strcmp(words[i], "moves") == 0)
+      options.moves = true, options.at = 0.5;
+    else
+      options.override_count += trax_override_material(&overrides[options.override_count], words[i], &error) == TRAX_OK;
   const char *path = fuzz_case.file_count ? fuzz_case.files[0].name : "none.obj";
   struct trax_mesh mesh;
   error.message[0] = 0;
   if (trax_mesh_import(&mesh, &path, 1, &options, NULL, &error) == TRAX_OK) {
-    if (mesh.triangle_count <= most_triangles)
+    if (mesh.triangle_count <= most_triangles) {
       fuzz_build(&mesh);
+      if (options.moves)
+        refit(&mesh, path, options);
+    }
     trax_mesh_release(&mesh);
   } else if (!error.message[0]) {
     abort(); /* an error without a reason */
@@ -36,7 +59,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
 /* --- mutation: within files, by words of their formats --- */
 
 size_t LLVMFuzzerCustomMutator(uint8_t *bytes, size_t size, size_t capacity, unsigned seed) {
-  static const char *const words[] = {"mirror", "glass:2", "a=ggx:0.5", "emit:1,2,3", "b=lambert", NULL};
+  static const char *const words[] = {"moves", "mirror", "glass:2", "a=ggx:0.5", "emit:1,2,3", "b=lambert", NULL};
   static const char *const lines[] = {"f 1/1/1 2/2/2 3/3/3\n",
                                       "f -1 -2 -3 -4 -5\n",
                                       "vt 0.5 1e9\n",
@@ -60,6 +83,9 @@ size_t LLVMFuzzerCustomMutator(uint8_t *bytes, size_t size, size_t capacity, uns
                                       "\"rotation\":[0,0,1,1],\"scale\":[1,-2,0],",
                                       "\"TEXCOORD_1\":1,\"COLOR_0\":0,",
                                       "\"byteOffset\":4294967295,\"count\":1e9,",
+                                      "\"interpolation\":\"CUBICSPLINE\",",
+                                      "\"target\":{\"node\":0,\"path\":\"weights\"},",
+                                      "\"skin\":0,\"weights\":[1,-2],",
                                       "\"extensions\":{\"KHR_texture_transform\":{\"texCoord\":1}},"};
   fuzz_random random = {seed + 1u};
   fuzz_case fuzz_case;
