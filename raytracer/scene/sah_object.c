@@ -84,7 +84,7 @@ static inline bool is_left(const struct sah_split *split, const struct sah_prim 
     place = _mm_mul_ps(place, _mm_set1_ps(0.5f));
   __m128i bins = sah_bins(place, split);
   if (split->spatial)
-    bins = sah_clamp(bins, 15);
+    bins = sah_clamp(bins, SAH_SPATIAL_BINS - 1);
   return _mm_movemask_ps(_mm_castsi128_ps(_mm_cmplt_epi32(bins, _mm_set1_epi32(split->bin)))) >> split->axis & 1;
 }
 
