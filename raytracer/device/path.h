@@ -8,15 +8,16 @@
    several samples, in proportion.
 
    With TRAX_FEATURE_PATHS, light arrives from lights, emitting triangles and the background over up to max_depth
-   surfaces. At each surface that scatters, a shadow ray goes to one of the lights or to a point of an emitter, and the
-   path continues in a direction sampled from the BRDF. Light that both can find is weighted by the balance heuristic
-   (Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997). Paths of low throughput end by Russian
-   roulette. */
+   surfaces. At each surface that scatters, a shadow ray goes to one of the lights, to a point of an emitter or into the
+   environment, and the path continues in a direction sampled from the BRDF. Light that both can find is weighted by the
+   balance heuristic (Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997). Paths of low throughput
+   end by Russian roulette. */
 #ifndef TRAX_DEVICE_PATH_H
 #define TRAX_DEVICE_PATH_H
 
 #include "algebra.h"
 #include "camera.h"
+#include "environment.h"
 #include "light.h"
 #include "material.h"
 #include "record.h"
@@ -284,7 +285,9 @@ static inline bool next_light(const struct trax_render_params *run, struct path 
       struct words pick = random_words(path->sample, DIMENSION_PICK + DIMENSIONS_OF_SURFACE * path->depth, path->key);
       number = (uint32_t)((uint64_t)pick.x * more->choices >> 32);
       choices = (float)(int32_t)more->choices;
-      if (NEEDS(run, EMISSION) && number == more->light_count)
+      if (NEEDS(run, ENVIRONMENT) && number == more->choices - 1)
+        arrives = environment_arrives(&arrival, more, pick.y, place);
+      else if (NEEDS(run, EMISSION) && number == more->light_count)
         arrives = emitter_arrives(&arrival, NEEDS(run, ONE_SIDED), more, pick.y, path->point, place);
       else
         arrives = light_arrives(&arrival, &lights[number], path->point, place);
@@ -297,7 +300,7 @@ static inline bool next_light(const struct trax_render_params *run, struct path 
     float pdf;
     struct vector part = reflectance(&path->at, NEEDS(run, GLOSSY) && path->layered, arrival.direction, cosine, &pdf);
     float scale = cosine * choices;
-    if (NEEDS(run, EMISSION) && float_bits(arrival.pdf) > 0)
+    if ((NEEDS(run, EMISSION) || NEEDS(run, ENVIRONMENT)) && float_bits(arrival.pdf) > 0)
       scale = cosine / (arrival.pdf + pdf);
     path->pending = filtered(path->throughput, filtered(times(scale, part), arrival.radiance));
     if (NEEDS(run, SHADOWS)) {
@@ -395,7 +398,9 @@ PATH_STEP uint32_t after_ray(const struct trax_render_params *run, struct path *
   } else if (!found && shadow) {
     path->light = plus(path->light, path->pending);
   } else if (!found) {
-    add_to(&path->light, path->throughput, load_vector(RUN_PATH(run)->background));
+    add_to(&path->light, path->throughput,
+           NEEDS(run, ENVIRONMENT) ? environment_found(run, path->direction, path->pdf)
+                                   : load_vector(RUN_PATH(run)->background));
     return 0;
   }
   if (next_light(run, path))

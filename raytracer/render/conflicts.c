@@ -47,6 +47,14 @@ static const char *against_rays(const struct options *options) {
   return NULL;
 }
 
+static trax_status check_environment(const struct options *options, trax_error *error) {
+  if (!options->environment && (options->environment_strength != 1 || options->environment_turn != 0))
+    return trax_fail(error, "--environment-strength and --environment-turn without --environment");
+  if (options->environment && options->program)
+    return trax_fail(error, "--environment is for trax-render's own program, not for --program");
+  return TRAX_OK;
+}
+
 static trax_status check_rays(const struct options *options, trax_error *error) {
   const char *other = against_rays(options);
   if (!options->rays && (options->ray_results || options->ray_order != TRAX_RAYS_FOUND))
@@ -62,7 +70,7 @@ static trax_status check_rays(const struct options *options, trax_error *error) 
 trax_status options_check(const struct options *options, trax_error *error) {
   if (options->mesh_count == 0)
     return trax_fail(error, "no mesh given; trax-render --help shows how");
-  if (check_rays(options, error) != TRAX_OK)
+  if (check_rays(options, error) != TRAX_OK || check_environment(options, error) != TRAX_OK)
     return TRAX_ERROR;
   if (options->prepare && (options->output || options->stats || options->ray_cycles || options->compare ||
                            options->hits || options->id_picture || options->ray_trace || options->cost_picture ||

@@ -28,7 +28,7 @@ struct embree {
   struct embree_emitter *emitters; /* from malloc */
   uint32_t emitter_count;
   double power;     /* of all emitters: area times luminance */
-  uint32_t choices; /* of a path's shadow ray: the lights, and all emitters as one */
+  uint32_t choices; /* of a path's shadow ray: the lights, all emitters as one, and the environment */
   struct trax_render_run *run;
   pthread_mutex_t lock; /* of what follows */
   uint32_t next_row, finished_rows;
@@ -73,6 +73,10 @@ const struct trax_triangle *embree_pick_emitter(const struct embree *embree, dou
 /* The density in solid angle with which a shadow ray goes to the point of a triangle at a distance in a direction. */
 double embree_emitter_density(const struct embree *embree, const struct trax_triangle *triangle, double distance,
                               struct double3 direction);
+/* The environment's light from a direction, and the density in solid angle with which shadow rays go there. */
+struct double3 embree_environment(const struct embree *embree, struct double3 direction, double *density);
+/* The direction of a shadow ray into the environment; pick chooses its texel, x and y the place in it. */
+struct double3 embree_pick_environment(const struct embree *embree, uint32_t pick, double x, double y);
 /* Sets the direction to a point; returns its distance, 0 if it is too near to have one. */
 double embree_towards(struct double3 point, struct double3 target, struct double3 *direction);
 /* The triangle's unit normal on the side of v0, v1, v2 counterclockwise. */

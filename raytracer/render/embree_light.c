@@ -1,6 +1,7 @@
 /* Lights and emitting triangles in binary64, for Embree's pictures: from the view and the scene, not from the
    tables that lighting.c prepares for the device program. */
 #include "embree.h"
+#include "environment.h"
 
 #include <stdlib.h>
 
@@ -85,13 +86,54 @@ const struct trax_triangle *embree_pick_emitter(const struct embree *embree, dou
   return embree->emitters[chosen].triangle;
 }
 
+/* --- the environment: texels on the octahedron, of unit sum of coordinates --- */
+
+static double side_of(double value) {
+  return value < 0 ? -1 : 1;
+}
+
+/* Folds the lower half out, or in. */
+static void fold(double *u, double *v) {
+  const double across = (1 - fabs(*v)) * side_of(*u), along = (1 - fabs(*u)) * side_of(*v);
+  *u = across, *v = along;
+}
+
+struct double3 embree_environment(const struct embree *embree, struct double3 direction, double *density) {
+  const struct trax_environment *environment = embree->frame->options.environment;
+  const int side = 1 << TRAX_ENVIRONMENT_LOG2;
+  const double size = fabs(direction.x) + fabs(direction.y) + fabs(direction.z);
+  double u = direction.x / size, v = direction.z / size;
+  if (direction.y < 0)
+    fold(&u, &v);
+  const int column = (int)fmin(floor((u + 1) / 2 * side), side - 1),
+            row = (int)fmin(floor((v + 1) / 2 * side), side - 1);
+  const int texel = row * side + column;
+  /* A texel has a probability and the area (2 / side)^2 in u and v, which is size^3 as large in solid angle. */
+  *density = environment->probability[texel] * side * side / 4 / (size * size * size) / embree->choices;
+  return from(environment->radiance[texel]);
+}
+
+struct double3 embree_pick_environment(const struct embree *embree, uint32_t pick, double x, double y) {
+  const struct trax_environment *environment = embree->frame->options.environment;
+  const double side = 1 << TRAX_ENVIRONMENT_LOG2, place = pick * 0x1p-32 * side * side;
+  uint32_t texel = (uint32_t)place;
+  if ((place - texel) * 0x1p32 >= environment->aliases[texel].threshold)
+    texel = environment->aliases[texel].other;
+  double u = (texel % (uint32_t)side + x) / side * 2 - 1, v = (texel / (uint32_t)side + y) / side * 2 - 1;
+  const double up = 1 - fabs(u) - fabs(v);
+  if (up < 0)
+    fold(&u, &v);
+  return embree_unit((struct double3){u, up, v});
+}
+
 bool embree_prepare_lights(struct embree *embree) {
   const struct trax_scene *scene = embree->frame->scene;
   const struct trax_view *view = &embree->frame->view;
   const struct trax_light plain = {.colour = {1, 1, 1},
                                    .strength = embree->frame->params->light_strength,
                                    .position = {view->light[0], view->light[1], view->light[2]}};
-  if (view->light_count == 0)
+  const bool environment = embree_needs(embree, TRAX_FEATURE_ENVIRONMENT);
+  if (view->light_count == 0 && !(environment && embree_needs(embree, TRAX_FEATURE_PATHS)))
     embree->lights[embree->light_count++] = plain;
   for (uint32_t i = 0; i < view->light_count; i++)
     if (shines(&view->lights[i]))
@@ -99,7 +141,7 @@ bool embree_prepare_lights(struct embree *embree) {
   const bool wanted = embree_needs(embree, TRAX_FEATURE_PATHS);
   for (uint32_t i = 0; wanted && i < scene->triangle_count; i++)
     embree->emitter_count += power(scene, i) > 0;
-  embree->choices = embree->light_count + (embree->emitter_count > 0);
+  embree->choices = embree->light_count + (embree->emitter_count > 0) + environment;
   if (embree->emitter_count == 0)
     return true;
   struct embree_emitter *emitter = embree->emitters = malloc(embree->emitter_count * sizeof *embree->emitters);

@@ -252,6 +252,18 @@ static struct double3 lit_by_emitter(const struct sample *sample, const struct s
   return scaled(1 / (chosen + density), times(part, from(material->emission)));
 }
 
+/* The same of the environment. */
+static struct double3 lit_by_environment(const struct sample *sample, const struct surface *surface, uint32_t pick,
+                                         struct two place) {
+  const struct double3 direction = embree_pick_environment(sample->embree, pick, place.x, place.y);
+  double density, chosen;
+  const struct double3 light = embree_environment(sample->embree, direction, &chosen);
+  const struct double3 part = embree_evaluate(&surface->at, direction, &density);
+  if (largest_of(part) <= 0 || !(chosen > 0) || !light_reaches(sample, surface->start, direction, INFINITY))
+    return (struct double3){0, 0, 0};
+  return scaled(1 / (chosen + density), times(part, light));
+}
+
 /* --- paths --- */
 
 static struct double3 lit_at_random(const struct sample *sample, const struct surface *surface) {
@@ -262,6 +274,8 @@ static struct double3 lit_at_random(const struct sample *sample, const struct su
       random_words(sample->number, DIMENSION_PICK + DIMENSIONS_OF_SURFACE * sample->depth, sample->key);
   const struct two place = point_for(sample, DIMENSION_LIGHT);
   const uint32_t number = (uint32_t)((uint64_t)pick.x * choices >> 32);
+  if (embree_needs(sample->embree, TRAX_FEATURE_ENVIRONMENT) && number == choices - 1)
+    return lit_by_environment(sample, surface, pick.y, place);
   if (number == sample->embree->light_count)
     return lit_by_emitter(sample, surface, pick.y, place);
   return scaled(choices, lit_by(sample, surface, number, place));
@@ -357,6 +371,15 @@ static struct double3 background_of(const struct trax_render_params *params) {
   return (struct double3){r * r, g * g, b * b};
 }
 
+/* density: with which the surface before chose the direction; 0: there was no choice. */
+static struct double3 far_light(const struct embree *embree, struct double3 direction, double density) {
+  double chosen;
+  if (!embree_needs(embree, TRAX_FEATURE_ENVIRONMENT))
+    return background_of(embree->frame->params);
+  const struct double3 light = embree_environment(embree, direction, &chosen);
+  return density > 0 ? scaled(density / (density + chosen), light) : light;
+}
+
 struct double3 embree_path(const struct embree *embree, struct pixel pixel, uint32_t number, struct trax_layers *seen,
                            uint64_t *rays) {
   const struct trax_render_params *params = embree->frame->params;
@@ -370,7 +393,6 @@ struct double3 embree_path(const struct embree *embree, struct pixel pixel, uint
   const struct place place = sample.random ? random_point(number, DIMENSION_PIXEL, sample.key) : sample_place(number);
   const struct vector camera = camera_direction(params, pixel, place);
   struct double3 origin = from(params->eye), direction = {(double)camera.x, (double)camera.y, (double)camera.z};
-  const struct double3 background = background_of(params);
   const uint32_t most = sample.options->paths ? sample.options->paths : MOST_MIRRORS + 1;
   struct double3 light = {0, 0, 0}, throughput = {1, 1, 1};
   struct surface scatterer = {0};
@@ -381,7 +403,7 @@ struct double3 embree_path(const struct embree *embree, struct pixel pixel, uint
     struct surface surface;
     double distance;
     if (!find_surface(&surface, &sample, origin, direction, &distance))
-      return plus_scaled(light, 1, times(throughput, background));
+      return plus_scaled(light, 1, times(throughput, far_light(embree, direction, density)));
     if (sample.depth == 0)
       seen->triangle = surface.hit.triangle;
 

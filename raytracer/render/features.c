@@ -23,7 +23,9 @@ uint32_t trax_features_of(const struct trax_frame_options *options, const struct
       [TRAX_FEATURE_PATHS] = options->paths > 0,
       [TRAX_FEATURE_FLOATS] = options->floats,
       [TRAX_FEATURE_OCCLUSION] = options->occlusion > 0,
-      [TRAX_FEATURE_NEAR_LIGHT] = view->light_count == 0 && trax_light_is_near(scene, view->eye, view->light),
+      [TRAX_FEATURE_ENVIRONMENT] = options->environment != NULL,
+      [TRAX_FEATURE_NEAR_LIGHT] = view->light_count == 0 && !(options->environment && options->paths) &&
+                                  trax_light_is_near(scene, view->eye, view->light),
       [TRAX_FEATURE_RAY_KINDS] = options->mark_rays,
       [TRAX_FEATURE_EXACT] = trax_needs_exact(scene, view->eye),
   };

@@ -140,6 +140,9 @@ trax_status inputs_load(struct inputs *inputs, const struct options *options, tr
   trax_status status = load_scene(inputs, options, progress, error);
   if (options->rays)
     return status;
+  if (status == TRAX_OK && options->environment)
+    status = trax_environment_read(&inputs->environment, options->environment, options->environment_strength,
+                                   options->environment_turn, error);
   if (status == TRAX_OK)
     status = load_view(inputs, options, error);
   if (status == TRAX_OK)
@@ -164,6 +167,7 @@ void inputs_view(struct trax_view *view, const struct inputs *inputs, const stru
 
 void inputs_release(struct inputs *inputs) {
   free(inputs->cameras);
+  trax_environment_release(&inputs->environment);
   trax_scene_release(&inputs->scene);
   *inputs = (struct inputs){0};
 }

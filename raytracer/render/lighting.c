@@ -1,5 +1,6 @@
 /* Lights, materials and emitting triangles, as the device program reads them. */
 #include "lighting.h"
+#include "environment.h"
 
 #include <math.h>
 #include <string.h>
@@ -86,11 +87,16 @@ static bool shines(const struct trax_light *light) {
   return light->strength > 0 && (light->colour[0] > 0 || light->colour[1] > 0 || light->colour[2] > 0);
 }
 
-static uint32_t count_lights(const struct trax_view *view) {
-  uint32_t count = 0;
+/* The plain light of a view without `lights` does not shine where an environment does. */
+static bool has_plain_light(const struct trax_view *view, const struct trax_frame_options *options) {
+  return view->light_count == 0 && !(options->environment && options->paths);
+}
+
+static uint32_t count_lights(const struct trax_view *view, const struct trax_frame_options *options) {
+  uint32_t count = has_plain_light(view, options);
   for (uint32_t i = 0; i < view->light_count; i++)
     count += shines(&view->lights[i]);
-  return view->light_count ? count : 1;
+  return count;
 }
 
 static struct trax_device_light device_light(const struct trax_light *light) {
@@ -121,8 +127,9 @@ static struct trax_device_light device_light(const struct trax_light *light) {
   return out;
 }
 
-static void fill_lights(struct trax_device_light *lights, const struct trax_view *view, float strength) {
-  if (view->light_count == 0)
+static void fill_lights(struct trax_device_light *lights, const struct trax_view *view,
+                        const struct trax_frame_options *options, float strength) {
+  if (has_plain_light(view, options))
     *lights = (struct trax_device_light){.kind = TRAX_FROM_POINT,
                                          .place = {view->light[0], view->light[1], view->light[2]},
                                          .radiance = {strength, strength, strength}};
@@ -146,6 +153,17 @@ static struct trax_device_material device_material(const struct trax_material *m
   return out;
 }
 
+/* --- the environment --- */
+
+static void fill_environment(struct trax_environment_texel *texels, const struct trax_environment *environment) {
+  const uint32_t count = 1u << 2 * TRAX_ENVIRONMENT_LOG2;
+  for (uint32_t i = 0; i < count; i++) {
+    memcpy(texels[i].radiance, environment->radiance[i], sizeof texels[i].radiance);
+    texels[i].pdf = (float)(3.14159265358979323846 / 4 * count * environment->probability[i]);
+  }
+  memcpy(texels + count, environment->aliases, count * sizeof *environment->aliases);
+}
+
 /* --- all of it --- */
 
 static uint32_t round_up(uint32_t bytes) {
@@ -153,18 +171,25 @@ static uint32_t round_up(uint32_t bytes) {
 }
 
 /* Offsets of the tables, lines like the records: where the parameters begin, a line begins. Returns their end. */
-static uint32_t lay_out(struct trax_path_params *path, uint32_t materials) {
+static uint32_t lay_out(struct trax_path_params *path, uint32_t materials, bool environment) {
   const uint32_t start = sizeof(struct trax_render_params);
   path->materials = round_up(start + sizeof *path) - start;
   path->lights = path->materials + materials * (uint32_t)sizeof(struct trax_device_material);
   path->emitters = path->lights + path->light_count * (uint32_t)sizeof(struct trax_device_light);
-  return path->emitters + path->emitter_count * (uint32_t)sizeof(struct trax_emitter);
+  const uint32_t end = path->emitters + path->emitter_count * (uint32_t)sizeof(struct trax_emitter);
+  if (!environment)
+    return end;
+  path->environment = round_up(start + end) - start;
+  path->environment_log2 = TRAX_ENVIRONMENT_LOG2;
+  return path->environment + (uint32_t)((sizeof(struct trax_environment_texel) + sizeof(struct trax_environment_alias))
+                                        << 2 * TRAX_ENVIRONMENT_LOG2);
 }
 
 uint32_t trax_lighting_bytes(const struct trax_scene *scene, const struct trax_view *view,
                              const struct trax_frame_options *options) {
-  struct trax_path_params path = {.light_count = count_lights(view), .emitter_count = count_emitters(scene, options)};
-  return lay_out(&path, scene->material_count);
+  struct trax_path_params path = {.light_count = count_lights(view, options),
+                                  .emitter_count = count_emitters(scene, options)};
+  return lay_out(&path, scene->material_count, options->environment);
 }
 
 static float occlusion_reach(const struct trax_scene_header *header, double part) {
@@ -186,18 +211,20 @@ void trax_lighting_fill(struct trax_render_params *params, const struct trax_sce
     path->occlusion_weight = 1 / (float)options->occlusion;
     path->occlusion_reach = occlusion_reach(scene->header, options->occlusion_reach);
   }
-  path->light_count = count_lights(view);
+  path->light_count = count_lights(view, options);
   path->emitter_count = count_emitters(scene, options);
-  path->choices = path->light_count + (path->emitter_count > 0);
+  path->choices = path->light_count + (path->emitter_count > 0) + (options->environment != NULL);
   for (int i = 0; i < 3; i++) {
     const double part = (params->background >> 8 * i & 255) / 255.0;
     path->background[i] = (float)(part * part);
   }
-  lay_out(path, scene->material_count);
+  lay_out(path, scene->material_count, options->environment);
   struct trax_device_material *materials = (struct trax_device_material *)((char *)path + path->materials);
   for (uint32_t i = 0; i < scene->material_count; i++)
     materials[i] = device_material(&scene->materials[i]);
-  fill_lights((struct trax_device_light *)((char *)path + path->lights), view, params->light_strength);
+  fill_lights((struct trax_device_light *)((char *)path + path->lights), view, options, params->light_strength);
   if (path->emitter_count)
     fill_emitters((struct trax_emitter *)((char *)path + path->emitters), materials, scene);
+  if (options->environment)
+    fill_environment((struct trax_environment_texel *)((char *)path + path->environment), options->environment);
 }

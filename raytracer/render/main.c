@@ -42,9 +42,11 @@ static void print_outputs(const struct options *options, const struct inputs *in
 
 /* With layers, the program computes floats only if path.h renders the picture: in the paper's workload they are
    recorded. */
-static trax_status init_frame(struct trax_frame *frame, const struct options *options, const struct trax_scene *scene,
+static trax_status init_frame(struct trax_frame *frame, const struct options *options, const struct inputs *inputs,
                               const struct trax_view *view, trax_error *error) {
+  const struct trax_scene *scene = &inputs->scene;
   struct trax_frame_options chosen = options->frame;
+  chosen.environment = options->environment ? &inputs->environment : NULL;
   trax_status status = trax_frame_init(frame, scene, view, &chosen, error);
   if (status != TRAX_OK || !options->layers || !(frame->params->features & TRAX_PATH_FEATURES))
     return status;
@@ -64,7 +66,7 @@ static trax_status render_view(const struct options *options, struct inputs *inp
   trax_status status = trax_normalise(&inputs->scene, view, &exponent, error);
   if (status == TRAX_OK) {
     *scaled += exponent;
-    status = init_frame(&frame, options, &inputs->scene, view, error);
+    status = init_frame(&frame, options, inputs, view, error);
   }
   const struct job job = {.options = options, .frame = &frame, .progress = progress, .live = live};
   if (status == TRAX_OK && options->hits)

@@ -119,6 +119,13 @@ static const trax_option rows[] = {
     {"no-shadows", FIELD(frame.shadows), .off = true, .meaning = "the light shines through everything"},
     {"ambient", .argument = "X", PARSED(take_fraction, frame.ambient),
      .meaning = "ambient light, 0 to 1 (default 0.12)"},
+    {"environment", .argument = "FILE", FIELD(environment), .file = TRAX_OPTION_INPUT,
+     .meaning = "light from all directions, by a picture of longitude and latitude (EXR, HDR, PFM, PNG),\n"
+                "instead of the background; with --paths it lights the scene instead of the plain light"},
+    {"environment-strength", .argument = "X", PARSED(take_strength, environment_strength),
+     .meaning = "times the picture's light (default 1)"},
+    {"environment-turn", .argument = "DEGREES", PARSED(take_turn, environment_turn),
+     .meaning = "turned about the y axis; the picture's middle is -z, its right half +x"},
     {"background", .argument = "RRGGBB", PARSED(take_colour, frame.background),
      .meaning = "colour of rays that hit nothing, hexadecimal (default 98a8b8)"},
     TRAX_OPTION_GROUP("Machine"),
@@ -233,6 +240,7 @@ const trax_command render_command = {
 
 trax_parsed options_parse(struct options *options, int argc, char **argv, trax_error *error) {
   *options = (struct options){.frames = 1,
+                              .environment_strength = 1,
                               .frame = {.width = 1280,
                                         .height = 720,
                                         .ambient = TRAX_DEFAULT_AMBIENT,

@@ -32,9 +32,12 @@ struct options {
   size_t mesh_count;
   const char *output;
   const char *config;
-  unsigned queues;    /* of pixels; 0: one for each TM */
-  bool choose_queues; /* --queues was given */
-  const char *view;   /* NULL: framed automatically */
+  unsigned queues;         /* of pixels; 0: one for each TM */
+  bool choose_queues;      /* --queues was given */
+  const char *environment; /* NULL: none */
+  float environment_strength;
+  double environment_turn; /* degrees */
+  const char *view;        /* NULL: framed automatically */
   struct camera_options camera;
   unsigned frames;        /* pictures of a turntable; 1: none */
   const char *write_view; /* NULL: not wanted */

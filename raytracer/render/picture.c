@@ -212,6 +212,7 @@ trax_status trax_picture_decode(struct trax_picture *picture, const uint8_t *byt
   memset(picture, 0, sizeof *picture);
   trax_status status = trax_is_pfm(bytes, size)   ? trax_pfm_decode(picture, bytes, size, name, error)
                        : trax_is_exr(bytes, size) ? trax_exr_decode(picture, bytes, size, name, error)
+                       : trax_is_hdr(bytes, size) ? trax_hdr_decode(picture, bytes, size, name, error)
                                                   : decode_png(picture, bytes, size, name, error);
   if (status == TRAX_OK && picture->radiance) {
     const size_t count = (size_t)picture->width * picture->height;

@@ -7,8 +7,8 @@
 #include <string.h>
 #include <tinyexr.h>
 
-static trax_status allocate(struct trax_picture *picture, uint64_t width, uint64_t height, const char *name,
-                            trax_error *error) {
+trax_status trax_radiance_allocate(struct trax_picture *picture, uint64_t width, uint64_t height, const char *name,
+                                   trax_error *error) {
   if (width == 0 || height == 0 || width > TRAX_RENDER_MAX_SIDE || height > TRAX_RENDER_MAX_SIDE)
     return trax_fail(error, "%s: a picture of %llu x %llu; width and height must be 1 to %u", name,
                      (unsigned long long)width, (unsigned long long)height, TRAX_RENDER_MAX_SIDE);
@@ -77,7 +77,7 @@ trax_status trax_pfm_decode(struct trax_picture *picture, const uint8_t *bytes, 
   if (width <= TRAX_RENDER_MAX_SIDE && height <= TRAX_RENDER_MAX_SIDE &&
       (uint64_t)(end - at) < (uint64_t)channels * sizeof(float) * width * height)
     return trax_fail(error, "%s: not a readable PFM: cut off", name);
-  if (allocate(picture, width, height, name, error) != TRAX_OK)
+  if (trax_radiance_allocate(picture, width, height, name, error) != TRAX_OK)
     return TRAX_ERROR;
   for (size_t i = 0; i < 3 * (size_t)width * height; i++) {
     const size_t x = i / 3 % width, y = height - 1 - i / 3 / width, channel = channels == 3 ? i % 3 : 0;
@@ -234,7 +234,8 @@ trax_status trax_exr_decode(struct trax_picture *picture, const uint8_t *bytes, 
   if (wrong)
     status = trax_fail(error, "%s: not a readable EXR: %s", name, wrong);
   if (status == TRAX_OK)
-    status = allocate(picture, (uint64_t)(width > 0 ? width : 0), (uint64_t)(height > 0 ? height : 0), name, error);
+    status = trax_radiance_allocate(picture, (uint64_t)(width > 0 ? width : 0), (uint64_t)(height > 0 ? height : 0),
+                                    name, error);
   if (status == TRAX_OK && LoadEXRImageFromMemory(&image, &header, bytes, size, &reason) != TINYEXR_SUCCESS) {
     status = trax_fail(error, "%s: not a readable EXR: %s", name, reason ? reason : "its data are damaged");
   } else if (status == TRAX_OK) {

@@ -19,6 +19,7 @@ trax_status trax_exr_encode(struct trax_bytes *bytes, const struct trax_picture 
 
 bool trax_is_pfm(const uint8_t *bytes, size_t size);
 bool trax_is_exr(const uint8_t *bytes, size_t size);
+bool trax_is_hdr(const uint8_t *bytes, size_t size);
 
 /* Fills the size, the radiance and, of an EXR with all of them, the layers of *picture, which is to be released
    whatever is returned. A PFM may be of one channel and of either byte order; an EXR must have a single part of scan
@@ -27,5 +28,12 @@ trax_status trax_pfm_decode(struct trax_picture *picture, const uint8_t *bytes, 
                             trax_error *error);
 trax_status trax_exr_decode(struct trax_picture *picture, const uint8_t *bytes, size_t size, const char *name,
                             trax_error *error);
+/* hdr.c: Radiance's format, rows from the top down, of RGB. */
+trax_status trax_hdr_decode(struct trax_picture *picture, const uint8_t *bytes, size_t size, const char *name,
+                            trax_error *error);
+
+/* Room for floats, after checks of the size. */
+trax_status trax_radiance_allocate(struct trax_picture *picture, uint64_t width, uint64_t height, const char *name,
+                                   trax_error *error);
 
 #endif

@@ -33,6 +33,7 @@ struct trax_frame_options {
   uint32_t occlusion;     /* rays for ambient occlusion, up to TRAX_RENDER_MAX_OCCLUSION; 0: none */
   double occlusion_reach; /* their length, as a part of the diagonal of the scene's box; 0: TRAX_DEFAULT_REACH */
   bool mark_rays;         /* the program counts each ray where it begins */
+  const struct trax_environment *environment; /* light from all directions instead of the background; NULL: none */
 };
 
 struct trax_frame {
@@ -151,7 +152,7 @@ trax_status trax_picture_take(struct trax_picture *picture, const struct trax_fr
    (2); aside and renamed. */
 trax_status trax_picture_write(const struct trax_picture *picture, const char *path, trax_error *error);
 bool trax_picture_is_float(const char *path);
-/* A PNG, brought to 8-bit RGBA without touching its gamma, or a PFM or EXR (radiance.h), by its first bytes. */
+/* A PNG, brought to 8-bit RGBA without touching its gamma, or a PFM, EXR or HDR (radiance.h), by its first bytes. */
 trax_status trax_picture_read(struct trax_picture *picture, const char *path, trax_error *error);
 /* Reads the same from memory. */
 trax_status trax_picture_decode(struct trax_picture *picture, const uint8_t *bytes, size_t size, const char *name,

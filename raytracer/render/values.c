@@ -84,6 +84,21 @@ trax_status take_fraction(void *target, const trax_option *option, const char *v
   return TRAX_OK;
 }
 
+trax_status take_strength(void *target, const trax_option *option, const char *value, trax_error *error) {
+  float *strength = member(target, option);
+  if (parse_floats(value, strength, 1, 1e6f) != 1 || *strength < 0)
+    return trax_option_refuse(option, value, error, "is not a number from 0 to 1e6");
+  return TRAX_OK;
+}
+
+trax_status take_turn(void *target, const trax_option *option, const char *value, trax_error *error) {
+  float degrees;
+  if (parse_floats(value, &degrees, 1, 360) != 1)
+    return trax_option_refuse(option, value, error, "is not an angle from -360 to 360 degrees");
+  *(double *)member(target, option) = (double)degrees;
+  return TRAX_OK;
+}
+
 /* Parses a number above 0 and up to `most`. */
 static bool parse_share(const char *text, double most, double *value) {
   char *end;

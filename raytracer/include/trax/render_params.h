@@ -30,7 +30,7 @@ enum trax_feature {
   (TRAX_FEATURE_BIT(LIGHTS) | TRAX_FEATURE_BIT(TEXTURES) | TRAX_FEATURE_BIT(ALPHA) | TRAX_FEATURE_BIT(ONE_SIDED) |     \
    TRAX_FEATURE_BIT(REFLECTION) | TRAX_FEATURE_BIT(REFRACTION) | TRAX_FEATURE_BIT(GLOSSY) |                            \
    TRAX_FEATURE_BIT(EMISSION) | TRAX_FEATURE_BIT(PATHS) | TRAX_FEATURE_BIT(FLOATS) | TRAX_FEATURE_BIT(OCCLUSION) |     \
-   TRAX_FEATURE_BIT(NEAR_LIGHT))
+   TRAX_FEATURE_BIT(ENVIRONMENT) | TRAX_FEATURE_BIT(NEAR_LIGHT))
 
 /* The grid of quantised nodes (struct trax_scene_grid), for rays. */
 struct trax_ray_grid {
@@ -94,14 +94,15 @@ struct trax_path_params {
   float background[3];
   uint32_t light_count;
   uint32_t emitter_count;
-  uint32_t choices;     /* what a path chooses from for its shadow ray: the lights, and all emitters as one */
-  uint32_t materials;   /* struct trax_device_material, as the scene numbers them */
-  uint32_t lights;      /* struct trax_device_light */
-  uint32_t emitters;    /* struct trax_emitter */
+  uint32_t choices;        /* what a path chooses from for its shadow ray: the lights, all emitters, the environment */
+  uint32_t materials;      /* struct trax_device_material, as the scene numbers them */
+  uint32_t lights;         /* struct trax_device_light */
+  uint32_t emitters;       /* struct trax_emitter */
   uint32_t occlusion_rays; /* of a sample, for the ambient light; up to TRAX_RENDER_MAX_OCCLUSION */
   float occlusion_weight;  /* 1 / occlusion_rays */
   float occlusion_reach;   /* how far they go */
-  uint32_t reserved[2];    /* zero */
+  uint32_t environment;    /* struct trax_environment_texel, and behind all of them as many trax_environment_alias */
+  uint32_t environment_log2; /* of the texels along a side */
 };
 
 /* struct trax_material (scene_format.h), prepared: numbers within the range in which the program computes. */
@@ -133,6 +134,17 @@ struct trax_device_light {
 struct trax_emitter {
   uint32_t triangle;   /* bytes from the start of the scene */
   uint32_t cumulative; /* the probability of the emitters before it, in units of 2^-32 */
+};
+
+/* The light of a part of all directions (device/environment.h). */
+struct trax_environment_texel {
+  float radiance[3];
+  float pdf; /* pi times the density in solid angle with which shadow rays to the environment go to a direction, divided
+                by the cube of |x| + |y| + |z| of the direction of unit length, inverted; 0: never */
+};
+/* Of the draws of a texel those above the threshold, in units of 2^-32, are another texel's. */
+struct trax_environment_alias {
+  uint32_t threshold, other;
 };
 
 #define TRAX_PATH_BYTES 320u
