@@ -398,9 +398,10 @@ PATH_STEP uint32_t after_ray(const struct trax_render_params *run, struct path *
   } else if (!found && shadow) {
     path->light = plus(path->light, path->pending);
   } else if (!found) {
-    add_to(&path->light, path->throughput,
-           NEEDS(run, ENVIRONMENT) ? environment_found(run, path->direction, path->pdf)
-                                   : load_vector(RUN_PATH(run)->background));
+    struct vector far = load_vector(RUN_PATH(run)->background);
+    if (NEEDS(run, ENVIRONMENT))
+      far = environment_found(run, path->direction, path->pdf);
+    add_to(&path->light, path->throughput, far);
     return 0;
   }
   if (next_light(run, path))
