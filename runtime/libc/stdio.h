@@ -66,7 +66,7 @@ void perror(const char *text);
 
 /* Mode "r", "w" or "a", with "+", "b" and "x". setvbuf sets when text is written; the buffer is the library's. */
 FILE *fopen(const char *__restrict path, const char *__restrict mode);
-FILE *freopen(const char *__restrict path, const char *__restrict mode, FILE *__restrict stream); /* not stdout */
+FILE *freopen(const char *__restrict path, const char *__restrict mode, FILE *__restrict stream);
 FILE *fdopen(int descriptor, const char *mode);
 int fileno(FILE *stream);
 int fclose(FILE *stream);
