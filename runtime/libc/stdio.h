@@ -115,6 +115,7 @@ void clearerr(FILE *stream);
 
 int remove(const char *path);
 int rename(const char *from, const char *to);
+#ifndef TRAX_POSIX
 /* Not here: their use is an error. */
 FILE *popen(const char *command, const char *mode) __attribute__((unavailable("there are no processes")));
 int pclose(FILE *stream) __attribute__((unavailable("there are no processes")));
@@ -122,6 +123,7 @@ FILE *fmemopen(void *memory, size_t size, const char *mode)
     __attribute__((unavailable("a stream is a file; use sscanf and snprintf")));
 FILE *open_memstream(char **to, size_t *size)
     __attribute__((unavailable("a stream is a file; use asprintf, or snprintf and realloc")));
+#endif
 
 FILE *tmpfile(void);       /* fails: there is no folder for temporary files */
 char *tmpnam(char *name); /* fails */

@@ -26,6 +26,7 @@
 #define _SC_PAGESIZE 1
 #define _SC_NPROCESSORS_ONLN 2
 #define _SC_CLK_TCK 3
+#define _SC_OPEN_MAX 4
 
 #ifdef __cplusplus
 extern "C" {
@@ -72,7 +73,8 @@ extern char **environ;
 unsigned sleep(unsigned seconds);
 int usleep(useconds_t microseconds);
 
-/* Not here: their use is an error. */
+#ifndef TRAX_POSIX
+/* Not here: their use is an error, or fails when they are called (<trax/posix.h>). */
 #define __TRAX_NO_PROCESSES __attribute__((unavailable("there are no processes")))
 pid_t fork(void) __TRAX_NO_PROCESSES;
 pid_t vfork(void) __TRAX_NO_PROCESSES;
@@ -85,9 +87,14 @@ int execlp(const char *name, const char *argument, ...) __TRAX_NO_PROCESSES;
 unsigned alarm(unsigned seconds) __attribute__((unavailable("nothing interrupts a thread; compare time()")));
 int link(const char *from, const char *to) __attribute__((unavailable("copy the file")));
 int symlink(const char *from, const char *to) __attribute__((unavailable("copy the file")));
+#endif
 
 #ifdef __cplusplus
 }
+#endif
+
+#ifdef TRAX_POSIX
+#include <trax/posix.h>
 #endif
 
 #endif
