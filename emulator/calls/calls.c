@@ -32,6 +32,7 @@ struct trax_calls *trax_calls_of(struct trax_machine *machine) {
   if (!calls)
     return NULL;
   calls->machine = machine;
+  trax_descriptors_begin(calls);
   machine->calls.serve = trax_calls_serve;
   machine->calls.context = calls;
   machine->calls.destroy = destroy;

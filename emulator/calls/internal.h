@@ -124,6 +124,12 @@ int trax_name_rename(struct trax_calls *calls, const struct trax_place *from, co
 int trax_folder_make(struct trax_calls *calls, const struct trax_place *place);
 int trax_folder_remove(struct trax_calls *calls, const struct trax_place *place);
 
+/* --- list.c --- */
+
+/* What the program finds in the folder at a place, in the order of the names' bytes: for each name its kind (f: a file,
+   d: a folder, l: a link, o: another), the name and a NUL; from malloc. */
+int trax_folder_list(struct trax_calls *calls, const struct trax_place *place, char **names, size_t *size);
+
 /* --- commit.c --- */
 
 /* Reads the host's file at a place. ENOENT: there is none. EPERM: something else, which is not opened. */
@@ -149,12 +155,23 @@ int trax_input_take(struct trax_calls *calls, uint8_t *bytes, uint32_t count, ui
 
 /* --- descriptors.c --- */
 
-enum { TRAX_FIRST_DESCRIPTOR = 3, TRAX_MOST_DESCRIPTORS = 256 };
+enum { TRAX_MOST_DESCRIPTORS = 256 };
 
-struct trax_descriptor {
-  struct trax_file *file; /* NULL: not in use */
-  uint64_t offset;
+enum trax_opened_kind {
+  TRAX_OPENED_FILE,
+  TRAX_OPENED_INPUT,
+  TRAX_OPENED_OUTPUT,
+  TRAX_OPENED_ERRORS,
+  TRAX_OPENED_NOTHING
+};
+
+/* What descriptors refer to: a file, a standard stream, or nothing (/dev/null). */
+struct trax_opened {
+  enum trax_opened_kind kind;
   uint32_t flags;
+  struct trax_file *file;
+  uint64_t offset;
+  unsigned references; /* descriptors; 0: not in use */
 };
 
 struct trax_calls {
@@ -164,15 +181,41 @@ struct trax_calls {
   uint64_t folder_uses;
   struct trax_file *files;
   struct trax_name *names;
-  struct trax_descriptor descriptors[TRAX_MOST_DESCRIPTORS];
-  bool closed[TRAX_FIRST_DESCRIPTOR]; /* of standard input, output and errors */
+  struct trax_opened opened[TRAX_MOST_DESCRIPTORS];
+  struct trax_opened *descriptors[TRAX_MOST_DESCRIPTORS]; /* NULL: not in use */
   struct trax_stream_input input;
   bool deferred; /* changes wait for trax_calls_commit */
   bool used;     /* a call has been made */
 };
 
+/* What the descriptor refers to; NULL: it is not in use. */
+struct trax_opened *trax_descriptor_find(struct trax_calls *calls, uint32_t number);
+/* The lowest free descriptor from `number` on. */
+uint32_t trax_descriptor_free(const struct trax_calls *calls, uint32_t number);
+/* Refers the descriptor to a new trax_opened, whose fields are set but for `references`. */
+void trax_descriptor_open(struct trax_calls *calls, uint32_t number, const struct trax_opened *open);
+/* Refers it to what another one refers to. */
+void trax_descriptor_share(struct trax_calls *calls, uint32_t number, struct trax_opened *open);
+/* The first three are the standard streams; or none is in use. */
+void trax_descriptors_begin(struct trax_calls *calls);
+void trax_descriptors_forget(struct trax_calls *calls);
+
+/* Prints what a trap gives to descriptor 1, which is not the run's output. */
+void trax_calls_print(void *calls, const uint8_t *bytes, size_t count);
+
+/* The calls that take a descriptor: the result, or an error number times -1. */
 struct trax_host_call;
-/* Serves a call: the result, or an error number times -1. */
+int32_t trax_serve_close(struct trax_calls *calls, const struct trax_host_call *call);
+int32_t trax_serve_duplicate(struct trax_calls *calls, const struct trax_host_call *call);
+int32_t trax_serve_read(struct trax_calls *calls, const struct trax_host_call *call);
+int32_t trax_serve_write(struct trax_calls *calls, const struct trax_host_call *call);
+int32_t trax_serve_seek(struct trax_calls *calls, const struct trax_host_call *call);
+int32_t trax_serve_truncate(struct trax_calls *calls, const struct trax_host_call *call);
+int32_t trax_serve_terminal(struct trax_calls *calls, const struct trax_host_call *call);
+
+/* --- serve.c --- */
+
+/* Serves a call by its number. */
 int32_t trax_calls_serve(void *calls, struct trax_host_call *call);
 
 #endif

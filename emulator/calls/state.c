@@ -21,8 +21,7 @@ static const uint32_t no_file = UINT32_MAX;
 struct header {
   uint64_t taken;     /* of standard input */
   uint64_t digest[2]; /* of that */
-  uint32_t files, names, descriptors;
-  uint32_t closed; /* mask of standard input, output and errors */
+  uint32_t files, names, descriptors, zero;
 };
 
 struct file_record {
@@ -41,7 +40,8 @@ struct name_record {
 
 struct descriptor_record {
   uint64_t offset;
-  uint32_t number, file, flags, zero; /* file: the how manyeth */
+  uint32_t number, kind, file, flags; /* file: the how manyeth, or no_file */
+  uint32_t same, zero;                /* the lowest descriptor of the same open file */
 };
 
 /* --- saving --- */
@@ -122,20 +122,23 @@ bool trax_calls_save(const struct trax_machine *machine, uint8_t **bytes, size_t
   for (const struct trax_name *it = calls->names; it; it = it->next)
     header.names++;
   for (uint32_t i = 0; i < TRAX_MOST_DESCRIPTORS; i++)
-    header.descriptors += calls->descriptors[i].file != NULL;
-  for (uint32_t i = 0; i < TRAX_FIRST_DESCRIPTOR; i++)
-    header.closed |= (uint32_t)calls->closed[i] << i;
+    header.descriptors += calls->descriptors[i] != NULL;
   put(&writer, &header, sizeof header);
   for (const struct trax_file *it = calls->files; it; it = it->next)
     put_file(&writer, it);
   for (const struct trax_name *it = calls->names; it; it = it->next)
     put_name(&writer, calls, it);
   for (uint32_t i = 0; i < TRAX_MOST_DESCRIPTORS; i++) {
-    const struct trax_descriptor *descriptor = &calls->descriptors[i];
-    if (!descriptor->file)
+    const struct trax_opened *opened = calls->descriptors[i];
+    struct descriptor_record record = {.number = i};
+    if (!opened)
       continue;
-    const struct descriptor_record record = {descriptor->offset, i, index_of(calls, descriptor->file),
-                                             descriptor->flags, 0};
+    while (calls->descriptors[record.same] != opened)
+      record.same++;
+    record.offset = opened->offset;
+    record.kind = opened->kind;
+    record.file = index_of(calls, opened->file);
+    record.flags = opened->flags;
     put(&writer, &record, sizeof record);
   }
   *bytes = writer.bytes;
@@ -289,18 +292,26 @@ static trax_status restore_name(struct restored *restored, trax_error *error) {
 }
 
 static void restore_descriptor(struct restored *restored) {
+  struct trax_calls *calls = restored->calls;
   struct descriptor_record record = {0};
   if (!take_record(&restored->reader, &record, sizeof record))
     return;
-  restored->reader.failed |= record.file >= restored->file_count || record.number < TRAX_FIRST_DESCRIPTOR ||
-                             record.number >= TRAX_MOST_DESCRIPTORS || record.offset > INT64_MAX ||
-                             restored->calls->descriptors[record.number].file;
+  const bool is_file = record.kind == TRAX_OPENED_FILE;
+  restored->reader.failed |= record.kind > TRAX_OPENED_NOTHING || record.offset > INT64_MAX ||
+                             (is_file ? record.file >= restored->file_count : record.file != no_file) ||
+                             record.number >= TRAX_MOST_DESCRIPTORS || record.same > record.number ||
+                             calls->descriptors[record.number] ||
+                             (record.same < record.number && !calls->descriptors[record.same]);
   if (restored->reader.failed)
     return;
-  struct trax_file *file = restored->files[record.file];
-  restored->calls->descriptors[record.number] =
-      (struct trax_descriptor){.file = file, .offset = record.offset, .flags = record.flags};
-  file->opens++;
+  if (record.same < record.number)
+    trax_descriptor_share(calls, record.number, calls->descriptors[record.same]);
+  else
+    trax_descriptor_open(calls, record.number,
+                         &(struct trax_opened){.kind = record.kind,
+                                               .flags = record.flags,
+                                               .file = is_file ? restored->files[record.file] : NULL,
+                                               .offset = record.offset});
 }
 
 static trax_status restore_all(struct restored *restored, const struct header *header, trax_error *error) {
@@ -335,8 +346,7 @@ trax_status trax_calls_restore(struct trax_machine *machine, const uint8_t *byte
       header.files > restored.reader.left / sizeof(struct file_record))
     return trax_fail(error, "its state of files is damaged");
   trax_status status = restore_input(calls, &header, error);
-  for (uint32_t i = 0; i < TRAX_FIRST_DESCRIPTOR; i++)
-    calls->closed[i] = header.closed >> i & 1;
+  trax_descriptors_forget(calls);
   restored.files = calloc(header.files + (size_t)1, sizeof *restored.files);
   restored.is_there = calloc(header.files + (size_t)1, sizeof *restored.is_there);
   restored.digests = calloc(header.files + (size_t)1, sizeof *restored.digests);

@@ -123,9 +123,8 @@ static void run_pool(struct trax_epochs *epochs, unsigned work) {
 
 /* Writes what the program has printed, since the chip does not go back beyond it any more. */
 static void print(struct trax_epochs *epochs) {
-  FILE *const output = epochs->chip->tm->output; /* of all TMs */
-  if (output && epochs->printed_count)
-    fwrite(epochs->printed, 1, epochs->printed_count, output);
+  if (epochs->printed_count)
+    trax_host_print(epochs->chip->machine, epochs->chip->tm->output, epochs->printed, epochs->printed_count);
   epochs->printed_count = 0;
 }
 

@@ -24,6 +24,13 @@ uint8_t *trax_host_call_bytes(const struct trax_host_call *call, uint32_t addres
   return space->bytes + address;
 }
 
+void trax_host_print(const struct trax_machine *machine, FILE *output, const char *bytes, size_t count) {
+  if (machine->calls.print)
+    machine->calls.print(machine->calls.context, (const uint8_t *)bytes, count);
+  else if (output)
+    fwrite(bytes, 1, count, output);
+}
+
 trax_fault_kind trax_host_trap(const struct trax_machine *machine, uint8_t *local, uint32_t block) {
   struct trax_host_call call = {.machine = machine, .local = local};
   if (block < TRAX_LOCAL_BASE) {

@@ -4,8 +4,9 @@
 
 /* Prints the string at an address of global memory or of the thread's local memory. Returns a fault and prints nothing
    if the string reaches the end of memory, or a hole, before its NUL. */
-static trax_fault_kind put_string(const struct trax_space *space, const uint8_t *local, uint32_t address,
+static trax_fault_kind put_string(const struct trax_machine *machine, const uint8_t *local, uint32_t address,
                                   FILE *output) {
+  const struct trax_space *space = &machine->space;
   const char *text, *end;
   if (address >= TRAX_LOCAL_BASE) {
     text = (const char *)local + (address - TRAX_LOCAL_BASE);
@@ -20,10 +21,9 @@ static trax_fault_kind put_string(const struct trax_space *space, const uint8_t 
   const char *nul = memchr(text, 0, (size_t)(end - text));
   if (!nul)
     return TRAX_FAULT_UNMAPPED;
-  if (output) {
-    fwrite(text, 1, (size_t)(nul - text), output);
+  trax_host_print(machine, output, text, (size_t)(nul - text));
+  if (output)
     fflush(output);
-  }
   return TRAX_FAULT_NONE;
 }
 
@@ -40,8 +40,7 @@ trax_fault_kind trax_trap(const struct trax_machine *machine, uint8_t *local, st
                           uint32_t value, int32_t code) {
   switch (code) {
   case TRAX_TRAP_PUTC:
-    if (output)
-      fputc((int)(value & 0xFF), output);
+    trax_host_print(machine, output, &(char){(char)value}, 1);
     break;
   case TRAX_TRAP_ABORT:
     return TRAX_FAULT_ABORT;
@@ -53,7 +52,7 @@ trax_fault_kind trax_trap(const struct trax_machine *machine, uint8_t *local, st
     stats->items += value;
     break;
   case TRAX_TRAP_PUTS:
-    return put_string(&machine->space, local, value, output);
+    return put_string(machine, local, value, output);
   case TRAX_TRAP_KINDS:
     count_kinds(stats, value);
     break;

@@ -5,6 +5,7 @@
 #include "heap.h"
 
 #include <errno.h>
+#include <malloc.h>
 #include <stdlib.h>
 
 enum {
@@ -300,6 +301,11 @@ void *realloc(void *memory, size_t size) {
   memcpy(other, memory, size < old ? size : old);
   free(memory);
   return other;
+}
+
+size_t malloc_usable_size(void *memory) {
+  struct page *page = memory ? checked_page_of(memory) : NULL;
+  return !page ? 0 : page->owner ? page->size : __trax_run_resize(page, memory, 0);
 }
 
 void *aligned_alloc(size_t alignment, size_t size) {

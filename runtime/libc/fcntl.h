@@ -20,6 +20,7 @@
 #define O_SYNC 0
 
 /* Without effect: there is one process, so that all locks are free, and nothing is inherited. Others are EINVAL. */
+#define F_DUPFD 0
 #define F_GETFD 1
 #define F_SETFD 2
 #define F_GETFL 3
@@ -27,10 +28,15 @@
 #define F_GETLK 7
 #define F_SETLK 8
 #define F_SETLKW 9
+#define F_DUPFD_CLOEXEC 14
 #define FD_CLOEXEC 1
 #define F_RDLCK 1
 #define F_UNLCK 2
 #define F_WRLCK 3
+#define AT_FDCWD (-2)
+#define AT_SYMLINK_NOFOLLOW 2
+#define AT_EACCESS 1
+#define AT_REMOVEDIR 8
 struct flock {
   short l_type, l_whence;
   off_t l_start, l_len;
@@ -43,6 +49,7 @@ extern "C" {
 
 int fcntl(int descriptor, int command, ...);
 int open(const char *path, int flags, ...);
+int openat(int folder, const char *path, int flags, ...);
 int creat(const char *path, mode_t mode);
 
 #ifdef __cplusplus

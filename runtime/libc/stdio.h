@@ -66,7 +66,7 @@ void perror(const char *text);
 
 /* Mode "r", "w" or "a", with "+", "b" and "x". setvbuf sets when text is written; the buffer is the library's. */
 FILE *fopen(const char *__restrict path, const char *__restrict mode);
-FILE *freopen(const char *__restrict path, const char *__restrict mode, FILE *__restrict stream); /* not stdout */
+FILE *freopen(const char *__restrict path, const char *__restrict mode, FILE *__restrict stream);
 FILE *fdopen(int descriptor, const char *mode);
 int fileno(FILE *stream);
 int fclose(FILE *stream);
@@ -115,6 +115,7 @@ void clearerr(FILE *stream);
 
 int remove(const char *path);
 int rename(const char *from, const char *to);
+#ifndef TRAX_POSIX
 /* Not here: their use is an error. */
 FILE *popen(const char *command, const char *mode) __attribute__((unavailable("there are no processes")));
 int pclose(FILE *stream) __attribute__((unavailable("there are no processes")));
@@ -122,6 +123,7 @@ FILE *fmemopen(void *memory, size_t size, const char *mode)
     __attribute__((unavailable("a stream is a file; use sscanf and snprintf")));
 FILE *open_memstream(char **to, size_t *size)
     __attribute__((unavailable("a stream is a file; use asprintf, or snprintf and realloc")));
+#endif
 
 FILE *tmpfile(void);       /* fails: there is no folder for temporary files */
 char *tmpnam(char *name); /* fails */

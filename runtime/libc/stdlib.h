@@ -102,6 +102,8 @@ int posix_memalign(void **memory, size_t alignment, size_t size);
 void *memalign(size_t alignment, size_t size);
 void *reallocarray(void *memory, size_t count, size_t size);
 
+const char *getprogname(void); /* "program" in those whose main has no parameters */
+
 /* The environment is empty at the start. */
 char *getenv(const char *name);
 int setenv(const char *name, const char *value, int overwrite);

@@ -23,6 +23,8 @@ struct timespec {
 
 struct tm {
   int tm_sec, tm_min, tm_hour, tm_mday, tm_mon, tm_year, tm_wday, tm_yday, tm_isdst;
+  long tm_gmtoff;      /* 0 */
+  const char *tm_zone; /* "UTC" */
 };
 
 #ifdef __cplusplus

@@ -10,6 +10,7 @@
 
 #include <getopt.h>
 
+#define _POSIX_VERSION 200809L /* for what is here */
 #define STDIN_FILENO 0
 #define STDOUT_FILENO 1
 #define STDERR_FILENO 2
@@ -25,6 +26,7 @@
 #define _SC_PAGESIZE 1
 #define _SC_NPROCESSORS_ONLN 2
 #define _SC_CLK_TCK 3
+#define _SC_OPEN_MAX 4
 
 #ifdef __cplusplus
 extern "C" {
@@ -41,9 +43,14 @@ int ftruncate(int descriptor, off_t size);
 int fsync(int descriptor);
 int fdatasync(int descriptor);
 int truncate(const char *path, off_t size);
+int dup(int descriptor);
+int dup2(int descriptor, int other);
 int isatty(int descriptor);
 int access(const char *path, int mode);
 int unlink(const char *path);
+/* Folder AT_FDCWD (<fcntl.h>), or a path that begins with a slash: no descriptor is a folder's. */
+int unlinkat(int folder, const char *path, int flags);
+int faccessat(int folder, const char *path, int mode, int flags);
 int rmdir(const char *path);
 char *getcwd(char *to, size_t size); /* "/": names are those that the user gave to folders */
 int chdir(const char *path);         /* fails */
@@ -58,13 +65,16 @@ gid_t getegid(void);
 int gethostname(char *name, size_t size); /* "trax" */
 long sysconf(int name);
 int getpagesize(void);
+int getdtablesize(void);
+int pipe(int descriptors[2]); /* fails: nobody would be at the other end */
 ssize_t readlink(const char *__restrict path, char *__restrict to, size_t size); /* fails: EINVAL, of a link ENOSYS */
 extern char **environ;
 /* They wait for so much simulated time. */
 unsigned sleep(unsigned seconds);
 int usleep(useconds_t microseconds);
 
-/* Not here: their use is an error. */
+#ifndef TRAX_POSIX
+/* Not here: their use is an error, or fails when they are called (<trax/posix.h>). */
 #define __TRAX_NO_PROCESSES __attribute__((unavailable("there are no processes")))
 pid_t fork(void) __TRAX_NO_PROCESSES;
 pid_t vfork(void) __TRAX_NO_PROCESSES;
@@ -73,16 +83,18 @@ int execve(const char *path, char *const arguments[], char *const environment[])
 int execvp(const char *name, char *const arguments[]) __TRAX_NO_PROCESSES;
 int execl(const char *path, const char *argument, ...) __TRAX_NO_PROCESSES;
 int execlp(const char *name, const char *argument, ...) __TRAX_NO_PROCESSES;
-int pipe(int descriptors[2]) __TRAX_NO_PROCESSES;
 #undef __TRAX_NO_PROCESSES
-int dup(int descriptor) __attribute__((unavailable("open the file again")));
-int dup2(int descriptor, int other) __attribute__((unavailable("pass the new descriptor on")));
 unsigned alarm(unsigned seconds) __attribute__((unavailable("nothing interrupts a thread; compare time()")));
 int link(const char *from, const char *to) __attribute__((unavailable("copy the file")));
 int symlink(const char *from, const char *to) __attribute__((unavailable("copy the file")));
+#endif
 
 #ifdef __cplusplus
 }
+#endif
+
+#ifdef TRAX_POSIX
+#include <trax/posix.h>
 #endif
 
 #endif

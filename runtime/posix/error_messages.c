@@ -10,9 +10,12 @@ extern __attribute__((weak)) struct {
   char **values;
 } __trax_arguments; /* of programs whose main has parameters */
 
+const char *getprogname(void) {
+  return &__trax_arguments && __trax_arguments.count > 0 ? __trax_arguments.values[0] : "program";
+}
+
 static void print(const char *format, va_list arguments, const char *error) {
-  const char *name = &__trax_arguments && __trax_arguments.count > 0 ? __trax_arguments.values[0] : "program";
-  fprintf(stderr, "%s: ", name);
+  fprintf(stderr, "%s: ", getprogname());
   if (format)
     vfprintf(stderr, format, arguments);
   fprintf(stderr, "%s%s\n", format && error ? ": " : "", error ? error : "");

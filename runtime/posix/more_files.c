@@ -1,11 +1,14 @@
 /* Files by descriptor: what is done by several host calls, and what has no effect here. */
 #include <errno.h>
 #include <fcntl.h>
+#include <stdarg.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include "../internal/host.h"
 
 static ssize_t at_place(int descriptor, off_t place, ssize_t (*access)(int, void *, size_t), void *memory,
                         size_t size) {
@@ -31,31 +34,75 @@ ssize_t pwrite(int descriptor, const void *memory, size_t size, off_t place) {
   return at_place(descriptor, place, write_from, (void *)(uintptr_t)memory, size);
 }
 
+int dup(int descriptor) {
+  return host_result(host_call(TRAX_HOST_DUPLICATE, (unsigned)descriptor, 0, 0));
+}
+
+int dup2(int descriptor, int other) {
+  return host_result(host_call(TRAX_HOST_DUPLICATE, (unsigned)descriptor, (unsigned)other, 1));
+}
+
 /* There is one process, so that all locks are free, and nothing is inherited. */
 int fcntl(int descriptor, int command, ...) {
   struct stat status;
+  va_list arguments;
   if (fstat(descriptor, &status))
     return -1;
+  va_start(arguments, command);
+  int result = 0;
   switch (command) {
+  case F_DUPFD:
+  case F_DUPFD_CLOEXEC:
+    result = host_result(host_call(TRAX_HOST_DUPLICATE, (unsigned)descriptor, va_arg(arguments, unsigned), 0));
+    break;
   case F_GETFD:
   case F_SETFD:
   case F_SETFL:
   case F_SETLK:
   case F_SETLKW:
-    return 0;
+    break;
   case F_GETFL:
-    return O_RDWR;
-  case F_GETLK: {
-    __builtin_va_list arguments;
-    __builtin_va_start(arguments, command);
-    __builtin_va_arg(arguments, struct flock *)->l_type = F_UNLCK;
-    __builtin_va_end(arguments);
-    return 0;
-  }
+    result = O_RDWR;
+    break;
+  case F_GETLK:
+    va_arg(arguments, struct flock *)->l_type = F_UNLCK;
+    break;
   default:
     errno = EINVAL;
-    return -1;
+    result = -1;
   }
+  va_end(arguments);
+  return result;
+}
+
+/* --- paths from a folder: the one of all paths --- */
+
+static int is_here(int folder, const char *path) {
+  if (folder == AT_FDCWD || *path == '/')
+    return 1;
+  errno = EBADF;
+  return 0;
+}
+
+int openat(int folder, const char *path, int flags, ...) {
+  return is_here(folder, path) ? open(path, flags) : -1;
+}
+
+int unlinkat(int folder, const char *path, int flags) {
+  return !is_here(folder, path) ? -1 : flags & AT_REMOVEDIR ? rmdir(path) : unlink(path);
+}
+
+int faccessat(int folder, const char *path, int mode, int flags) {
+  (void)flags;
+  return is_here(folder, path) ? access(path, mode) : -1;
+}
+
+int fstatat(int folder, const char *restrict path, struct stat *restrict status, int flags) {
+  return !is_here(folder, path) ? -1 : flags & AT_SYMLINK_NOFOLLOW ? lstat(path, status) : stat(path, status);
+}
+
+int mkdirat(int folder, const char *path, mode_t mode) {
+  return is_here(folder, path) ? mkdir(path, mode) : -1;
 }
 
 int truncate(const char *path, off_t size) {
@@ -74,6 +121,16 @@ int fdatasync(int descriptor) {
 
 int getpagesize(void) {
   return 4096;
+}
+
+int getdtablesize(void) {
+  return 256; /* the host's */
+}
+
+int pipe(int descriptors[2]) {
+  (void)descriptors;
+  errno = ENOSYS;
+  return -1;
 }
 
 int futimens(int descriptor, const struct timespec times[2]) {

@@ -53,6 +53,8 @@ long sysconf(int name) {
     return 4096;
   case _SC_NPROCESSORS_ONLN:
     return 1;
+  case _SC_OPEN_MAX:
+    return 256;
   case _SC_CLK_TCK:
     return 1000000000;
   default:

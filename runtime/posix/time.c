@@ -94,7 +94,8 @@ struct tm *gmtime_r(const time_t *restrict seconds, struct tm *restrict parts) {
   int year_of_era = (of_era - of_era / 1460 + of_era / 36524 - of_era / 146096) / 365;
   int of_year = of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
   int month = (5 * of_year + 2) / 153;
-  *parts = (struct tm){.tm_sec = rest % 60,
+  *parts = (struct tm){.tm_zone = "UTC",
+                       .tm_sec = rest % 60,
                        .tm_min = rest / 60 % 60,
                        .tm_hour = rest / 3600,
                        .tm_mday = of_year - (153 * month + 2) / 5 + 1,

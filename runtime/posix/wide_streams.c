@@ -6,6 +6,8 @@
 #include <string.h>
 #include <wchar.h>
 
+#include "wide_format.h"
+
 enum { MOST_BYTES = 4 }; /* of a character */
 
 int fwide(FILE *stream, int mode) {
@@ -108,21 +110,9 @@ int fputws(const wchar_t *restrict text, FILE *restrict stream) {
 
 /* Formats to memory from malloc. *count receives the bytes; the result is NULL after an error. */
 static char *format_bytes(const wchar_t *format, va_list arguments, int *count) {
-  char *bytes = narrow(format), *text = NULL;
-  *count = bytes ? vasprintf(&text, bytes, arguments) : -1;
+  char *bytes = narrow(format), *text = bytes ? __trax_format_wide(bytes, arguments, count) : NULL;
   free(bytes);
-  if (*count >= 0)
-    return text;
-  free(text);
-  return NULL;
-}
-
-/* The wide characters of a formatted text, which may have null characters. */
-static size_t length_of(const char *text, int count) {
-  size_t length = 0;
-  for (int i = 0; i < count; i++)
-    length += (text[i] & 0xC0) != 0x80;
-  return length;
+  return text;
 }
 
 int vfwprintf(FILE *restrict stream, const wchar_t *restrict format, va_list arguments) {
@@ -130,7 +120,7 @@ int vfwprintf(FILE *restrict stream, const wchar_t *restrict format, va_list arg
   char *text = format_bytes(format, arguments, &count);
   int result = -1;
   if (text && fwrite(text, 1, (size_t)count, stream) == (size_t)count)
-    result = (int)length_of(text, count);
+    result = (int)__trax_characters(text, (size_t)count);
   free(text);
   return result;
 }
@@ -138,7 +128,7 @@ int vfwprintf(FILE *restrict stream, const wchar_t *restrict format, va_list arg
 int vswprintf(wchar_t *restrict to, size_t size, const wchar_t *restrict format, va_list arguments) {
   int count;
   char *text = format_bytes(format, arguments, &count);
-  size_t length = text ? length_of(text, count) : size, at = 0;
+  size_t length = text ? __trax_characters(text, (size_t)count) : size, at = 0;
   const char *from = text;
   mbstate_t state = {0};
   while (at < length && at + 1 < size) {

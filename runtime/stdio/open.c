@@ -117,15 +117,34 @@ int fclose(FILE *stream) {
   return result;
 }
 
-/* Standard output is not a stream object here and does not change. Any other stream that cannot be opened again is
-   closed, as C requires. */
+/* The host gives the file to descriptor 1, where the text of standard output goes. */
+static FILE *reopen_stdout(const char *path, int how) {
+  host_call(TRAX_HOST_CLOSE, 1, 0, 0);
+  const int opened = host_result(host_call(TRAX_HOST_OPEN, (uintptr_t)path, (unsigned)how, 0));
+  if (opened < 0 || opened == 1)
+    return opened < 0 ? NULL : stdout;
+  const int moved = host_result(host_call(TRAX_HOST_DUPLICATE, (unsigned)opened, 1, 1));
+  host_call(TRAX_HOST_CLOSE, (unsigned)opened, 0, 0);
+  return moved < 0 ? NULL : stdout;
+}
+
+/* A stream that cannot be opened again is closed, as C requires. Without a path the mode may be given again, for those
+   that want standard streams to be binary. */
 FILE *freopen(const char *restrict path, const char *restrict mode, FILE *restrict stream) {
   unsigned flags;
   int how = read_mode(mode, &flags);
-  if (how < 0 || is_stdout(stream) || !path) {
-    errno = how < 0 ? EINVAL : ENOSYS;
+  if (how < 0) {
+    errno = EINVAL;
     return NULL;
   }
+  if (!path) {
+    if (is_stdout(stream) ? flags & STREAM_WRITES : (flags & ~stream->flags & (STREAM_READS | STREAM_WRITES)) == 0)
+      return stream;
+    errno = EBADF;
+    return NULL;
+  }
+  if (is_stdout(stream))
+    return reopen_stdout(path, how);
   finish(stream);
   int descriptor = host_result(host_call(TRAX_HOST_OPEN, (uintptr_t)path, (unsigned)how, 0));
   if (descriptor < 0) {

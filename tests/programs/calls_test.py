@@ -67,6 +67,7 @@ SAME = {
                "data/moved.txt"], b""),
     "input": (["input"], b"".join(b"line %d\n" % i * (i % 3) for i in range(200)) + bytes(range(256)) + b"no end"),
     "copy": (["copy", "data/copy.txt", "read", "data/copy.txt"], b"alpha\nbeta\ngamma"),
+    "output elsewhere": (["reopen", "data/output.txt", "read", "data/output.txt"], b""),
     "left open": (["open", "data/left.txt", "write", "data/new.txt"], b""),
 }
 
@@ -93,6 +94,30 @@ def same(place):
                     cycles.setdefault(chip, []).append((statistics["cycles"], statistics["dcache"]))
         for chip, figures in cycles.items():
             check(figures[0] == figures[1], f"{name}: cycles {chip}", figures)
+
+
+def printed(place):
+    """What all threads print goes where standard output does, also in epochs on several threads of the host."""
+    subprocess.run([BIN / "clang", "--target=trax", "-mstack=global", "-O2", "-x", "c", "-", "-o", place.root / "many"],
+                   input=b"""#include <stdatomic.h>
+#include <stdio.h>
+#include <trax.h>
+static atomic_int ready;
+int main(void) {
+  if (trax_thread() == 0) ready = freopen("data/output.txt", "w", stdout) ? 1 : 2;
+  while (!ready) ;
+  for (int i = 0; i < 400; i++) putchar('a' + (int)(trax_thread() + i) % 26);
+  return ready - 1;
+}
+""", check=True)
+    texts = set()
+    for options in (["--engine", "reference"], ["--host-threads", "1"], ["--host-threads", "3"]):
+        place.fresh()
+        done = subprocess.run([SIM, "--quiet", "--config", "4x32", *options, "--dir", "data", "many"], cwd=place.root,
+                              capture_output=True, check=False, timeout=100)
+        check((done.returncode, done.stdout) == (0, b""), "printed", options, done)
+        texts.add((place.data / "output.txt").read_bytes())
+    check(len(texts) == 1 and len(texts.pop()) == 128 * 400, "printed", "differs")
 
 
 def arguments(place):
@@ -264,7 +289,7 @@ def main():
     begun = time.monotonic()
     with tempfile.TemporaryDirectory() as root:
         place = Place(root)
-        for part in (arguments, same, folders, read_only, whole, checkpoints, main_on, picture, errors):
+        for part in (arguments, same, printed, folders, read_only, whole, checkpoints, main_on, picture, errors):
             part(place)
     print(f"{checking.failures} failed, {time.monotonic() - begun:.0f} s")
     sys.exit(1 if checking.failures else 0)

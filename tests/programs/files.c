@@ -104,6 +104,28 @@ static void copy_input(const char *name) {
   report("copy", name, file && fclose(file) == 0);
 }
 
+/* Standard output goes to a file, to nothing and back. */
+static void reopen(const char *name) {
+  fflush(stdout);
+  const int kept = dup(1);
+  const int is_file = freopen(name, "w", stdout) == stdout;
+  puts("in the file");
+  for (int i = 0; i < 40; i++)
+    printf("%d%c", i, i % 8 == 7 ? '\n' : ' ');
+  for (int i = 0; i < 3000; i++) /* in epochs of the fast engine */
+    putchar('a' + i % 26);
+  fflush(stdout);
+  const int is_nothing = freopen("/dev/null", "w", stdout) == stdout;
+  puts("nowhere");
+  fflush(stdout);
+  dup2(kept, 1);
+  close(kept);
+  report("reopen", name, is_file && is_nothing);
+  FILE *file = fopen("/dev/null", "r+");
+  printf("%d %d\n", fgetc(file), fputs("lost", file) >= 0);
+  fclose(file);
+}
+
 int main(int argc, char **argv) {
   if (trax_thread() != 0)
     return 0;
@@ -146,6 +168,8 @@ int main(int argc, char **argv) {
       report(what, name, mkdir(name, 0777) == 0);
     else if (strcmp(what, "rename") == 0)
       report(what, name, i + 1 < argc && rename(name, argv[++i]) == 0);
+    else if (strcmp(what, "reopen") == 0)
+      reopen(name);
     else if (strcmp(what, "copy") == 0)
       copy_input(name);
     else

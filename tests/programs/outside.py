@@ -21,20 +21,23 @@ import subprocess
 import sys
 import time
 
-SOURCES = "deb-src http://deb.debian.org/debian bookworm main\n"
+SOURCES = "".join(f"deb-src http://deb.debian.org/debian {name} main\n" for name in ("bookworm", "trixie"))
 CC = "CC={cc}"
 
 
 class Program:
-    """source: Debian's package. build: commands in the source's folder, or None for CMake. binary: what they make.
+    """source: Debian's package, of bookworm or of the release after a slash. build: commands in the source's folder, or
+    None for CMake. binary: what they make.
     cases: arguments; files: made in the folder of each run before it, by name (bytes), or copied from the source
-    ("name": path). noise: what depends on the time in standard output. chip: options of trax-sim."""
+    ("name": path). noise: what depends on the time in standard output. chip: options of trax-sim for many threads;
+    options: others. flags: further ones of our compiler."""
 
     def __init__(self, name, source, binary, cases, build=None, cmake=(), files=None, noise=rb"(?!)", target="all",
-                 chip=()):
+                 chip=(), options=(), flags=""):
         self.name, self.source, self.binary, self.cases = name, source, binary, cases
         self.build, self.cmake = build, cmake
         self.files, self.noise, self.target, self.chip = files or {}, noise, target, chip
+        self.options, self.flags = options, flags
 
 
 class Case:
@@ -73,6 +76,62 @@ print(sieve(60).join(' '), JSON.stringify({a: [1, 2, {b: 0.1 + 0.2}], s: "\\u00e
 print("a-b-c".replace(/-(.)/g, function (m, x) { return x.toUpperCase() }), [3, 1, 2].sort(),
   scriptArgs.length, new Date(0).toISOString());
 try { null.x } catch (e) { print(e) }
+"""
+SCRIPT = b"""const fib = n => n < 2 ? n : fib(n - 1) + fib(n - 2);
+class Heap {
+  #items = [];
+  push(x) { this.#items.push(x); this.#items.sort((a, b) => b - a) }
+  pop() { return this.#items.pop() }
+}
+function* primes(n) {
+  const c = new Uint8Array(n);
+  for (let i = 2; i < n; i++) if (!c[i]) { yield i; for (let j = i * i; j < n; j += i) c[j] = 1 }
+}
+const heap = new Heap();
+for (let i = 0; i < 200; i++) heap.push(i * 7919 % 211);
+console.log(fib(15), heap.pop(), heap.pop(), [...primes(200)].at(-1), 2n ** 100n, (123456789n * 9876543n).toString(36));
+const words = new Map();
+for (const w of "the quick brown fox jumps over the lazy dog the end".split(" ")) words.set(w, (words.get(w) ?? 0) + 1);
+console.log(JSON.stringify([...words].sort()), "a1b22c333".replace(/[0-9]+/g, m => `<${m.length}>`),
+            /(?<y>\\d{4})-(?<m>\\d\\d)/u.exec("on 2024-02-29").groups.y);
+console.log(0.1 + 0.2, (1 / 3).toFixed(20), 1e21 + 1, Math.hypot(3, 4), Math.sin(1),
+            new Date(86400000 * 365.25).toISOString(), "\\u00e9\\u{1F600}".length);
+const m = [];
+for (let i = 0; i < 12; i++) { m[i] = []; for (let j = 0; j < 12; j++) m[i][j] = Math.fround(1 / (i + j + 1)) }
+const product = m.map(r => m[0].map((_, j) => r.reduce((s, x, k) => s + x * m[k][j], 0)));
+console.log(product[5][7], product[11][11]);
+try { null.x } catch (e) { console.log(e instanceof TypeError, e.message) }
+const file = std.open("out.txt", "w");
+file.puts("one\\ntwo\\n");
+file.close();
+console.log(std.loadFile("out.txt").length, os.readdir(".")[0].sort().join());
+Promise.all([1, Promise.resolve(2), new Promise(f => os.setTimeout(() => f(3), 10))])
+  .then(v => { console.log(v, scriptArgs.length); std.exit(5) });
+"""
+SQL = b"""create table t(a integer primary key, b text, c real);
+begin;
+with recursive n(i) as (select 1 union all select i + 1 from n where i < 2000)
+  insert into t select i, 'row ' || (i * 7919 % 2003), i / 7.0 from n;
+commit;
+create index tb on t(b);
+select count(*), sum(a), round(avg(c), 6), min(b), max(b) from t;
+update t set b = upper(b) where a % 3 = 0;
+delete from t where a % 5 = 0;
+begin; delete from t; rollback;
+select substr(b, 1, 5), count(*) from t group by 1 order by 1 limit 5;
+create table u as select a, b from t where a < 100;
+select u.a, t.c from u join t using(a) where u.b like 'ROW%' order by t.c desc limit 4;
+vacuum;
+pragma integrity_check;
+.tables
+.schema t
+.mode csv
+select * from t where a between 10 and 14;
+select json_object('x', 1, 'y', json_array(1, 2)), printf('%08.3f', 3.14159), date('2024-02-28', '+1 day');
+.output out.csv
+select a, c from t where a < 50;
+.output
+.dump u
 """
 MARKDOWN = b"""# Title
 
@@ -180,6 +239,21 @@ PROGRAMS = [
         Case(["BEGIN { while ((getline line < \"data.txt\") > 0) n++; print n; print n > \"out.txt\"; exit 3 }"])], [
             ["./configure", "--host=riscv32-unknown-elf", "--build=x86_64-linux-gnu", CC, "--with-builtin-regex"],
             ["make", "mawk"]], files={**DATA, "script.awk": AWK}),
+    Program("gzip", "gzip", "gzip", [
+        Case(["-kn9", "data.txt"]), Case(["-nc"], text(900)), Case(["-l", "data.txt.gz"]), Case(["-t", "small.txt"]),
+        Case(["-dc", "data.txt.gz"]), Case(["-dv", "data.txt.gz"], b"y\n")], [
+            ["./configure", "--host=riscv32-unknown-elf", "--build=x86_64-linux-gnu", CC], ["make"]], files=DATA),
+    # Its own VFS and its shell, which makes paths absolute. It needs tclsh.
+    Program("sqlite3", "sqlite3", "sqlite3", [
+        Case(["test.db"], SQL), Case(["test.db", "select count(*), sum(c) from t; pragma journal_mode;"]),
+        Case(["-json", "test.db", "select a, b from t limit 3"]), Case(["test.db", "select none"])], [
+            ["./configure", "--host=riscv32-unknown-elf", "--build=x86_64-linux-gnu", "--disable-tcl",
+             "--disable-threadsafe", "--disable-load-extension", "--disable-readline", "--disable-shared", CC,
+             "CFLAGS=-O1"], ["make", "sqlite3"]], options=("--dir", ".::/"), flags=" -DTRAX_POSIX"),
+    Program("quickjs", "quickjs/trixie", "qjs", [
+        Case(["--std", "script.js", "one"]), Case(["-e", "print([1,2,3].map(x => x ** 2), typeof std)"]),
+        Case(["missing.js"])], [["make", CC, "qjs", "CROSS_PREFIX={prefix}"]], files={"script.js": SCRIPT},
+            flags=" -DTRAX_POSIX -include malloc.h -mstack-size=1024k"),
     # --- renderers ---
     Program("tachyon", "tachyon", "compile/linux/tachyon", [
         Case(["scene.dat", "-format", "PPM", "-o", "out.ppm"]),
@@ -263,11 +337,12 @@ class Workshop:
 
     def fetch(self, package):
         """The folder of the upstream source of a package, unpacked."""
+        package, _, release = package.partition("/")
         place = self.work / "sources" / package
         if not (place / "unpacked").exists():
             shutil.rmtree(place, ignore_errors=True)
             place.mkdir(parents=True)
-            self.apt("source", "--download-only", "--tar-only", package, cwd=place)
+            self.apt("source", "--download-only", "--tar-only", f"{package}/{release or 'bookworm'}", cwd=place)
             (place / "unpacked").mkdir()
             archive = [name for name in glob.glob(f"{place}/*.orig.tar.*") if not name.endswith(".asc")]
             run(["tar", "-C", place / "unpacked", "--strip-components=1", "-xf", archive[0]], place,
@@ -285,7 +360,7 @@ class Workshop:
             shutil.rmtree(place, ignore_errors=True)
             shutil.copytree(source, place / "source", symlinks=True)
             log.unlink(missing_ok=True)
-            compiler = self.compilers[kind]
+            compiler = self.compilers[kind] + (program.flags if kind == "trax" else "")
             if program.build is None:
                 toolchain = [f"-DCMAKE_TOOLCHAIN_FILE={self.build}/lib/trax/trax-toolchain.cmake",
                              f"-DCMAKE_C_FLAGS={self.flags}"]
@@ -295,7 +370,8 @@ class Workshop:
                 run(["cmake", "--build", place / "build", "--target", program.target], place, log)
             for command in program.build or []:
                 words = [
-                    word.format(cc=compiler, kind=kind, host=self.work / "host" / program.name / "source")
+                    word.format(cc=compiler, kind=kind, prefix="trax-" if kind == "trax" else "",
+                                host=self.work / "host" / program.name / "source")
                     for word in command if kind == "trax" or not word.startswith(("--host", "--build"))]
                 run(words, place / "source", log, {**os.environ, "CC": compiler})
         return elf if elf.exists() else binary
@@ -314,7 +390,7 @@ class Workshop:
             command = [binary, *case.arguments]
             if kind == "trax":
                 command = [self.build / "bin" / "trax-sim", "--engine", self.engine, "--quiet", *program.chip,
-                           "--dir", ".", *command]
+                           "--dir", ".", *program.options, *command]
             done = subprocess.run(command, cwd=place, input=case.stdin, capture_output=True, check=False, timeout=1200,
                                   env={"PATH": os.environ["PATH"], "TZ": "UTC", "LC_ALL": "C"})
             files = {
@@ -368,7 +444,7 @@ def main():
     shop = Workshop(options.build.resolve(), options.work.resolve(), options.engine)
     chosen = [program for program in PROGRAMS if not options.only or program.name in options.only.split(",")]
     shop.work.mkdir(parents=True, exist_ok=True)
-    if any(not (shop.work / "sources" / program.source / "unpacked").exists() for program in chosen):
+    if any(not (shop.work / "sources" / program.source.partition("/")[0] / "unpacked").exists() for program in chosen):
         shop.apt("update")
     failed = 0
     if options.speed:

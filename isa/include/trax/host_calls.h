@@ -20,7 +20,9 @@
   X(REMOVE, 10, "path of a file")                                                                                      \
   X(RENAME, 11, "path, new path")                                                                                      \
   X(MAKE_FOLDER, 12, "path")                                                                                           \
-  X(REMOVE_FOLDER, 13, "path")
+  X(REMOVE_FOLDER, 13, "path")                                                                                         \
+  X(LIST, 14, "path of a folder, address, bytes: the length of the list; nothing is written if that is more")           \
+  X(DUPLICATE, 15, "descriptor, number, whether it is exactly that one or the lowest free from there: the other one")
 
 #define TRAX_HOST_OPEN 1
 #define TRAX_HOST_CLOSE 2
@@ -35,6 +37,8 @@
 #define TRAX_HOST_RENAME 11
 #define TRAX_HOST_MAKE_FOLDER 12
 #define TRAX_HOST_REMOVE_FOLDER 13
+#define TRAX_HOST_LIST 14
+#define TRAX_HOST_DUPLICATE 15
 
 /* Flags of TRAX_HOST_OPEN: one of the first three, and others added. */
 #define TRAX_OPEN_READ 0

@@ -60,6 +60,8 @@ extern "C" {
 int stat(const char *__restrict path, struct stat *__restrict status);
 int lstat(const char *__restrict path, struct stat *__restrict status);
 int fstat(int descriptor, struct stat *status);
+int fstatat(int folder, const char *__restrict path, struct stat *__restrict status, int flags);
+int mkdirat(int folder, const char *path, mode_t mode);
 int mkdir(const char *path, mode_t mode);
 /* Permissions stay what they are: these do nothing. */
 int chmod(const char *path, mode_t mode);

@@ -53,6 +53,8 @@ HEADERS = {
     "string.h": "memcpy memmove strcpy strncpy strcat strncat memcmp strcmp strcoll strncmp strxfrm memchr strchr "
                 "strcspn strpbrk "
     "strrchr strspn strstr strtok memset strerror strlen strtok_r strnlen stpcpy memmem memccpy strdup",
+    "dirent.h": "opendir readdir closedir rewinddir scandir alphasort DT_REG DT_DIR",
+    "stdio_ext.h": "__freading __fwriting __fpending __fpurge __fseterr",
     "strings.h": "strcasecmp strncasecmp", "tgmath.h": "",
     "threads.h": "call_once mtx_destroy mtx_init mtx_lock mtx_trylock mtx_unlock thrd_create thrd_current thrd_equal "
                  "thrd_exit thrd_sleep "
@@ -73,17 +75,17 @@ HEADERS = {
     "trax/parallel.h": "trax_parallel trax_parallel_for trax_parallel_reduce trax_run_tasks trax_barrier_wait",
     "byteswap.h": "bswap_16 bswap_32 bswap_64", "endian.h": "htobe32 le16toh BYTE_ORDER",
     "err.h": "err errx warn warnx verr vwarnx", "fnmatch.h": "fnmatch FNM_PATHNAME FNM_NOMATCH",
-    "libgen.h": "basename dirname", "malloc.h": "malloc memalign", "memory.h": "memcpy memset",
+    "libgen.h": "basename dirname", "malloc.h": "malloc_usable_size malloc memalign", "memory.h": "memcpy memset",
     "search.h": "hsearch tsearch tfind tdelete twalk lfind lsearch insque remque", "sysexits.h": "EX_USAGE EX_CONFIG",
-    "fcntl.h": "open creat fcntl F_SETLK FD_CLOEXEC",
-    "unistd.h": "pread pwrite truncate fdatasync readlink getpagesize",
+    "fcntl.h": "open openat creat fcntl F_SETLK FD_CLOEXEC",
+    "unistd.h": "dup dup2 pipe pread pwrite truncate fdatasync readlink getpagesize",
     "omp.h": "omp_get_thread_num omp_get_wtime omp_set_lock omp_test_nest_lock", }
 # Names that programs use for themselves after these headers.
 FREE = {header: "time clock difftime gmtime strftime" for header in
         "sys/time.h sys/times.h utime.h unistd.h sys/types.h".split()}
 # Not here: their use is an error that says what to do.
 WITHOUT = {"stdio.h": "popen pclose fmemopen open_memstream",
-           "unistd.h": "fork vfork execv execve execvp execl execlp pipe dup dup2 alarm link symlink"}
+           "unistd.h": "fork vfork execv execve execvp execl execlp alarm link symlink"}
 NOT_IN_CXX = {"uchar.h", "wchar.h", "wctype.h", "threads.h", "stdatomic.h", "stdnoreturn.h", "tgmath.h", "complex.h",
               "stdalign.h", "stdbool.h", "iso646.h"}
 # Macros that are not values.

@@ -8,11 +8,11 @@
 #else
 #define _GNU_SOURCE
 #define IS_HOST 1
-#include <dirent.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <time.h>
 #endif
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
@@ -99,6 +99,41 @@ static void read_slot(int slot, unsigned count) {
     printf("  %x\n", digest((size_t)got));
 }
 
+/* A descriptor of the same open file, in a slot that is free or another file's. */
+static void duplicate(int slot, int other) {
+  const int is_free = slots[other] == 900;
+  const int made = is_free ? dup(slots[slot]) : dup2(slots[slot], slots[other]);
+  result('D', made);
+  if (is_free && made >= 0)
+    slots[other] = made;
+}
+
+static int by_name(const void *a, const void *b) {
+  return strcmp(*(char *const *)a, *(char *const *)b);
+}
+
+/* The names in a folder, with their kinds. */
+static void list_names(const char *path) {
+  char *names[64];
+  int count = 0;
+  DIR *stream = opendir(path);
+  if (!stream) {
+    result('l', -1);
+    return;
+  }
+  for (const struct dirent *entry; (entry = readdir(stream)) && count < 64;) {
+    names[count] = malloc(sizeof entry->d_name + 8);
+    sprintf(names[count++], "%s %d", entry->d_name, entry->d_type);
+    if (strcmp(entry->d_name, "secret") == 0)
+      printf("a file outside was read\n");
+  }
+  closedir(stream);
+  qsort(names, (size_t)count, sizeof *names, by_name);
+  printf("l %d\n", count);
+  for (int i = 0; i < count; free(names[i++]))
+    printf("  %s\n", names[i]);
+}
+
 /* By descriptor. */
 static void operate_on_slot(char operation, int slot, char *words[]) {
   struct stat status;
@@ -119,6 +154,12 @@ static void operate_on_slot(char operation, int slot, char *words[]) {
     break;
   case 't':
     result('t', ftruncate(slots[slot], strtoll(words[2], NULL, 10)));
+    break;
+  case 'D':
+    duplicate(slot, atoi(words[2]));
+    break;
+  case 'z':
+    result('z', slots[slot] = open_file("/dev/null", words[2]));
     break;
   case 'f':
     print_stat('f', fstat(slots[slot], &status), &status);
@@ -154,6 +195,9 @@ static void operate_on_name(char operation, char *words[]) {
     break;
   case 'd':
     result('d', rmdir(first));
+    break;
+  case 'l':
+    list_names(first);
     break;
   }
 }
@@ -208,9 +252,9 @@ static void perform(void) {
       fflush(stdout);
     else if (words[0][0] == 'o')
       result('o', slots[atoi(words[1])] = open_file(in_folder(words[2], (char[600]){0}), words[3]));
-    else if (strchr("crwstf", words[0][0]))
+    else if (strchr("crwstfDz", words[0][0]))
       operate_on_slot(words[0][0], atoi(words[1]), words);
-    else if (strchr("SLiuRmd", words[0][0]))
+    else if (strchr("SLiuRmdl", words[0][0]))
       operate_on_name(words[0][0], words);
     else
       prepare(words[0][0], words);

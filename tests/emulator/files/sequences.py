@@ -92,6 +92,8 @@ class Sequence:
             "unlink": 3,
             "rename": 5,
             "folder": 3,
+            "duplicate": 2,
+            "list": 2,
         }
         getattr(self, "do_" + self.random.choices(tuple(kinds), tuple(kinds.values()))[0])()
 
@@ -117,6 +119,21 @@ class Sequence:
         slot = self.slot() if slot is None else slot
         self.lines.append(f"c {slot}")
         self.closed.append(self.open.pop(slot, "a"))
+
+    def do_duplicate(self):
+        """Also of nothing, in whose place a file may be."""
+        slot, other = self.slot(), self.random.randrange(16)
+        if self.chance(4):
+            if slot in self.open:
+                self.do_close(slot)
+            self.lines.append(f"z {slot} {self.random.choice(('r', 'w', 'b', 'bct', 'bcx'))}")
+            self.open[slot] = "a"
+        if slot in self.open:
+            self.lines.append(f"D {slot} {other}")
+            self.open[other] = self.open[slot]
+
+    def do_list(self):
+        self.lines.append(f"l {self.name() if self.chance(3) else self.random.choice(FOLDERS + ('.',))}")
 
     def do_read(self):
         self.lines.append(f"r {self.slot()} {self.random.choice(SIZES)}")
