@@ -25,6 +25,14 @@ static bool advancesIn(const Loop &L, const SCEV *Value) {
   });
 }
 
+/// Whether a value changes in each iteration of a loop around this one.
+static bool advancesOutside(const Loop &L, const SCEV *Value) {
+  for (const Loop *Outer = L.getParentLoop(); Outer; Outer = Outer->getParentLoop())
+    if (advancesIn(*Outer, Value))
+      return true;
+  return false;
+}
+
 /// The limits of unrolling. Sizes count instructions, as getInstructionCost does. The instruction cache holds 1,024
 /// instructions, shared by all threads.
 struct UnrollingLimits {
@@ -123,6 +131,9 @@ void TraxTTIImpl::getUnrollingPreferences(Loop *L, ScalarEvolution &SE, TTI::Unr
       any_of(Exiting, [&](BasicBlock *Block) { return isa<SCEVCouldNotCompute>(SE.getExitCount(L, Block)); });
   if (IsO3 && !IsCounted && !IsJammed && !UP.UnrollAndJam && Body.AccessesMemory &&
       (Body.Size > LongestUncounted || !(Body.StepsThroughArray || Searches)))
+    return;
+  // The inner loop of a triangular nest begins with few iterations, and often never has many.
+  if (!IsO3 && !IsCounted && advancesOutside(*L, SE.getBackedgeTakenCount(L)))
     return;
   const bool IsShortSearch = Searches && Body.StepsThroughArray && Exiting.size() == 2;
   UP.PartialThreshold = UP.UnrollAndJam                   ? JammedCopiesSize
