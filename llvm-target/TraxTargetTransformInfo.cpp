@@ -48,6 +48,7 @@ constexpr UnrollingLimits UnrollingO3 = {/*FullSize=*/350, /*CopiesSize=*/80, /*
 
 constexpr int MostExits = 2;     // copies of a search have all its tests
 constexpr int AlwaysCopied = 11; // size of a loop that is copied although it is not known to pay
+constexpr int DivisionSize = 24; // of a division that TraxDivision writes out
 
 // The following limits hold at -O3.
 constexpr int CountedCopiesSize = 240; // if the number of iterations is known, or the outer loop was copied first
@@ -157,6 +158,14 @@ bool TraxTTIImpl::isLSRCostLess(const TTI::LSRCost &A, const TTI::LSRCost &B) co
                            C.ScaleCost, C.ImmCost, C.SetupCost);
   };
   return Key(A) < Key(B);
+}
+
+InstructionCost TraxTTIImpl::getArithmeticInstrCost(unsigned Opcode, Type *Ty, TTI::TargetCostKind CostKind,
+                                                    TTI::OperandValueInfo X, TTI::OperandValueInfo Y,
+                                                    ArrayRef<const Value *> Args, const Instruction *Context) {
+  if (Instruction::isIntDivRem(Opcode) && Ty->isIntegerTy() && Ty->getIntegerBitWidth() <= 32 && !Y.isConstant())
+    return DivisionSize * TTI::TCC_Basic;
+  return BaseT::getArithmeticInstrCost(Opcode, Ty, CostKind, X, Y, Args, Context);
 }
 
 InstructionCost TraxTTIImpl::getIntImmCost(const APInt &Imm, Type *Ty, TTI::TargetCostKind) {
