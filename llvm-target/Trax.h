@@ -20,6 +20,8 @@ FunctionPass *createTraxISelDag(TraxTargetMachine &TM, CodeGenOptLevel OptLevel)
 /// Writes va_arg instructions out as loads, for every type.
 FunctionPass *createTraxLowerFloatsPass();
 FunctionPass *createTraxLowerVAArgPass();
+/// Writes integer divisions out, by the units that the machine has.
+FunctionPass *createTraxDivisionPass();
 /// Lets phis take values that branches have compared with constants.
 FunctionPass *createTraxBranchesPass();
 
@@ -36,6 +38,7 @@ void expandTraxLongJmp(MachineInstr &MI, const TargetInstrInfo &TII);
 
 void initializeTraxBranchesPass(PassRegistry &);
 void initializeTraxDAGToDAGISelLegacyPass(PassRegistry &);
+void initializeTraxDivisionPass(PassRegistry &);
 void initializeTraxLowerAtomicsPass(PassRegistry &);
 void initializeTraxLowerFloatsPass(PassRegistry &);
 void initializeTraxLowerVAArgPass(PassRegistry &);

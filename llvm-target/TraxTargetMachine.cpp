@@ -22,6 +22,7 @@ void LLVMInitializeTraxTarget() {
   PassRegistry &PR = *PassRegistry::getPassRegistry();
   initializeTraxBranchesPass(PR);
   initializeTraxDAGToDAGISelLegacyPass(PR);
+  initializeTraxDivisionPass(PR);
   initializeTraxLowerAtomicsPass(PR);
   initializeTraxLowerFloatsPass(PR);
   initializeTraxLowerVAArgPass(PR);
@@ -95,6 +96,8 @@ public:
   }
 
   bool addPreISel() override {
+    if (getOptLevel() >= CodeGenOptLevel::Default)
+      addPass(createTraxDivisionPass());
     if (getOptLevel() != CodeGenOptLevel::None)
       addPass(createTraxBranchesPass());
     return false;

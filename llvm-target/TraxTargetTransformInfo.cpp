@@ -25,6 +25,14 @@ static bool advancesIn(const Loop &L, const SCEV *Value) {
   });
 }
 
+/// Whether a value changes in each iteration of a loop around this one.
+static bool advancesOutside(const Loop &L, const SCEV *Value) {
+  for (const Loop *Outer = L.getParentLoop(); Outer; Outer = Outer->getParentLoop())
+    if (advancesIn(*Outer, Value))
+      return true;
+  return false;
+}
+
 /// The limits of unrolling. Sizes count instructions, as getInstructionCost does. The instruction cache holds 1,024
 /// instructions, shared by all threads.
 struct UnrollingLimits {
@@ -40,6 +48,7 @@ constexpr UnrollingLimits UnrollingO3 = {/*FullSize=*/350, /*CopiesSize=*/80, /*
 
 constexpr int MostExits = 2;     // copies of a search have all its tests
 constexpr int AlwaysCopied = 11; // size of a loop that is copied although it is not known to pay
+constexpr int DivisionSize = 24; // of a division that TraxDivision writes out
 
 // The following limits hold at -O3.
 constexpr int CountedCopiesSize = 240; // if the number of iterations is known, or the outer loop was copied first
@@ -124,6 +133,9 @@ void TraxTTIImpl::getUnrollingPreferences(Loop *L, ScalarEvolution &SE, TTI::Unr
   if (IsO3 && !IsCounted && !IsJammed && !UP.UnrollAndJam && Body.AccessesMemory &&
       (Body.Size > LongestUncounted || !(Body.StepsThroughArray || Searches)))
     return;
+  // The inner loop of a triangular nest begins with few iterations, and often never has many.
+  if (!IsO3 && !IsCounted && advancesOutside(*L, SE.getBackedgeTakenCount(L)))
+    return;
   const bool IsShortSearch = Searches && Body.StepsThroughArray && Exiting.size() == 2;
   UP.PartialThreshold = UP.UnrollAndJam                   ? JammedCopiesSize
                         : IsJammed || (IsO3 && IsCounted) ? CountedCopiesSize
@@ -146,6 +158,14 @@ bool TraxTTIImpl::isLSRCostLess(const TTI::LSRCost &A, const TTI::LSRCost &B) co
                            C.ScaleCost, C.ImmCost, C.SetupCost);
   };
   return Key(A) < Key(B);
+}
+
+InstructionCost TraxTTIImpl::getArithmeticInstrCost(unsigned Opcode, Type *Ty, TTI::TargetCostKind CostKind,
+                                                    TTI::OperandValueInfo X, TTI::OperandValueInfo Y,
+                                                    ArrayRef<const Value *> Args, const Instruction *Context) {
+  if (Instruction::isIntDivRem(Opcode) && Ty->isIntegerTy() && Ty->getIntegerBitWidth() <= 32 && !Y.isConstant())
+    return DivisionSize * TTI::TCC_Basic;
+  return BaseT::getArithmeticInstrCost(Opcode, Ty, CostKind, X, Y, Args, Context);
 }
 
 InstructionCost TraxTTIImpl::getIntImmCost(const APInt &Imm, Type *Ty, TTI::TargetCostKind) {

@@ -30,6 +30,10 @@ public:
                                OptimizationRemarkEmitter *ORE);
   void getPeelingPreferences(Loop *L, ScalarEvolution &SE, TTI::PeelingPreferences &PP);
 
+  InstructionCost getArithmeticInstrCost(unsigned Opcode, Type *Ty, TTI::TargetCostKind CostKind,
+                                         TTI::OperandValueInfo X = {TTI::OK_AnyValue, TTI::OP_None},
+                                         TTI::OperandValueInfo Y = {TTI::OK_AnyValue, TTI::OP_None},
+                                         ArrayRef<const Value *> Args = {}, const Instruction *Context = nullptr);
   // Constants: instructions to put one in a register, and none where the instruction takes it.
   InstructionCost getIntImmCost(const APInt &Imm, Type *Ty, TTI::TargetCostKind CostKind);
   InstructionCost getIntImmCostInst(unsigned Opcode, unsigned Idx, const APInt &Imm, Type *Ty,

@@ -12,10 +12,8 @@ struct divided64 trax_divide64(uint64_t n, uint64_t d);
 struct divided64 trax_divide64(uint64_t n, uint64_t d) {
   if (n < d)
     return (struct divided64){0, n};
-  if (high_word(n) == 0) {
-    struct divided r = divide(low_word(n), low_word(d));
-    return (struct divided64){r.quotient, r.remainder};
-  }
+  if (high_word(n) == 0)
+    return (struct divided64){low_word(n) / low_word(d), low_word(n) % low_word(d)};
   unsigned shift;
   uint32_t over; /* what shifting n by as much as d moves into a third word */
   if (high_word(d) == 0) {

@@ -1,6 +1,5 @@
-/* Integer division by reciprocals. There is no divide instruction, and the FPDIV unit is one per TM and busy for eight
-   cycles a quotient; a reciprocal from multiplications alone neither waits for it nor depends on its configured
-   precision. */
+/* Division of several words, by reciprocals. The compiler writes out what one word divides; these reciprocals come from
+   multiplications alone and do not depend on the FPDIV unit's precision. */
 #ifndef TRAX_RUNTIME_DIVIDE_H
 #define TRAX_RUNTIME_DIVIDE_H
 
@@ -27,21 +26,6 @@ INLINE uint32_t reciprocal(uint32_t d) {
 struct divided {
   uint32_t quotient, remainder;
 };
-
-/* The reciprocal is short by less than 2, so the quotient by less than 3. */
-INLINE struct divided divide(uint32_t n, uint32_t d) {
-  uint32_t q = mul_high(n, reciprocal(d));
-  uint32_t r = n - q * d;
-  if (r >= d) {
-    r -= d;
-    q++;
-  }
-  if (r >= d) {
-    r -= d;
-    q++;
-  }
-  return (struct divided){q, r};
-}
 
 /* Division of several words, after Moeller and Granlund, "Improved division by invariant integers", IEEE Transactions
    on Computers 60 (2011). Divisors are normalised: the top bit is set. */

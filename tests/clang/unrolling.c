@@ -60,3 +60,18 @@ void matrix_product(void) {
       c[i][j] = sum;
     }
 }
+
+// The inner loop begins with one iteration, and has half of the outer one's on average: no copies at -O2.
+// CHECK-LABEL: triangle:
+// CHECK-COUNT-8: mul
+// O2-LABEL: triangle:
+// O2-COUNT-1: mul r
+// O2-NOT: mul r
+// O2: ret
+int triangle(const int *x, const int *y, int count) {
+  int sum = 0;
+  for (int i = 1; i < count; i++)
+    for (int j = 0; j < i; j++)
+      sum ^= x[j] * y[j];
+  return sum;
+}

@@ -91,36 +91,4 @@ define signext i8 @sext8(i32 %a) {
   %t = trunc i32 %a to i8
   ret i8 %t
 }
-; CHECK-LABEL: divide:
-; CHECK: addi r2, r2, -4
-; CHECK: sw r1, 0(r2)
-; CHECK: call __divsi3
-; CHECK: lw r1, 0(r2)
-; CHECK: addi r2, r2, 4
-; CHECK: ret
-define i32 @divide(i32 %a, i32 %b) {
-  %r = sdiv i32 %a, %b
-  ret i32 %r
-}
-; CHECK-LABEL: remainder:
-; CHECK: addi r2, r2, -4
-; CHECK: sw r1, 0(r2)
-; CHECK: call __umodsi3
-; CHECK: lw r1, 0(r2)
-; CHECK: addi r2, r2, 4
-; CHECK: ret
-define i32 @remainder(i32 %a, i32 %b) {
-  %r = urem i32 %a, %b
-  ret i32 %r
-}
-; CHECK-LABEL: divide_by_constant:
-; CHECK: lui r12, 52429
-; CHECK: addi r12, r12, -13107
-; CHECK: mulhu r12, r4, r12
-; CHECK: srli r4, r12, 3
-; CHECK: ret
-define i32 @divide_by_constant(i32 %a) {
-  %r = udiv i32 %a, 10
-  ret i32 %r
-}
 declare i32 @llvm.fshl.i32(i32, i32, i32)

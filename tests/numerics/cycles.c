@@ -1,11 +1,12 @@
-/* Cycles of the runtime's binary64 functions on one TP, warm, the call included; docs/results/functions.md has the table.
-   accuracy/cost.c is for binary32.
+/* Cycles of the runtime's binary64 functions and of integer division on one TP, warm, the call included;
+   docs/results/functions.md and docs/runtime.md have the tables. accuracy/cost.c is for binary32.
 
      clang --target=trax -O2 tests/numerics/cycles.c -o cycles.elf
      trax-sim --set icache.bytes=1048576 --set dcache.bytes=1048576 cycles.elf
 
    Each is called through a pointer four times with the same arguments; the last call counts. */
 #include <math.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <trax.h>
 
@@ -24,6 +25,38 @@ static double quotient(double x, double y) {
 static double less(double x, double y) {
   return x < y;
 }
+
+static uint64_t unsigned32(uint64_t n, uint64_t d) {
+  return (uint32_t)n / (uint32_t)d;
+}
+static uint64_t signed32(uint64_t n, uint64_t d) {
+  return (uint64_t)((int32_t)n % (int32_t)d);
+}
+static uint64_t unsigned64(uint64_t n, uint64_t d) {
+  return n / d;
+}
+static uint64_t signed64(uint64_t n, uint64_t d) {
+  return (uint64_t)((int64_t)n % (int64_t)d);
+}
+
+/* Right at once, refined, less than the divisor; divisors of one and two words. */
+static const struct {
+  const char *name;
+  uint64_t (*function)(uint64_t, uint64_t);
+  uint64_t n, d;
+} divisions[] = {
+    {"u32 /", unsigned32, 1000000, 7},
+    {"u32 /", unsigned32, 4000000001, 3},
+    {"u32 /", unsigned32, 6, 7},
+    {"i32 %", signed32, 1000000, 7},
+    {"i32 %", signed32, 2000000001, 3},
+    {"u64 /", unsigned64, 1000000, 7},
+    {"u64 /", unsigned64, 1234567890123456789, 1000003},
+    {"u64 /", unsigned64, 1234567890123456789, 123456789012},
+    {"i64 %", signed64, 1000000, 7},
+    {"i64 %", signed64, 1234567890123456789, 1000003},
+    {"i64 %", signed64, 1234567890123456789, 123456789012},
+};
 
 static const struct {
   const char *name;
@@ -55,6 +88,7 @@ static const struct {
 };
 
 volatile double result;
+volatile uint64_t result64;
 
 int main(void) {
   unsigned cycles = 0;
@@ -81,6 +115,19 @@ int main(void) {
       result = value;
     }
     printf("%-10s %8g          %6u\n", functions_1[i].name, functions_1[i].argument, cycles);
+  }
+  for (unsigned i = 0; i < sizeof divisions / sizeof divisions[0]; i++) {
+#pragma clang loop unroll(disable)
+    for (int round = 0; round < 4; round++) {
+      uint64_t (*volatile function)(uint64_t, uint64_t) = divisions[i].function;
+      uint64_t n = divisions[i].n, d = divisions[i].d;
+      unsigned start = trax_cycles();
+      uint64_t value = function(n, d);
+      cycles = trax_cycles() - start;
+      result64 = value;
+    }
+    printf("%-5s %20llu %12llu %5u\n", divisions[i].name, (unsigned long long)divisions[i].n,
+           (unsigned long long)divisions[i].d, cycles);
   }
   return 0;
 }
