@@ -14,10 +14,11 @@ struct trax_open_span {
   uint32_t pc, previous_pc;
 };
 
-static void add_charge(void *context, uint32_t tm, uint32_t tp, trax_cause cause, uint64_t since, uint64_t cycles) {
+static void add_charge(void *context, uint32_t tm, uint32_t tp, trax_cause cause, unsigned rd, uint64_t since,
+                       uint64_t cycles) {
   struct trax_explain *explain = context;
   struct trax_open_span *open = &explain->open_spans[tm * explain->machine->config.chip.tps_per_tm + tp];
-  if (open->count && open->charges[open->count - 1].cause == cause) {
+  if (open->count && open->charges[open->count - 1].cause == cause && open->charges[open->count - 1].rd == rd) {
     open->charges[open->count - 1].cycles += cycles;
     return;
   }
@@ -25,7 +26,7 @@ static void add_charge(void *context, uint32_t tm, uint32_t tp, trax_cause cause
     explain->out_of_memory = true;
     return;
   }
-  open->charges[open->count++] = (struct trax_charge){cause, since, cycles};
+  open->charges[open->count++] = (struct trax_charge){cause, (uint8_t)rd, since, cycles};
 }
 
 static void notify_span(struct trax_explain *explain, uint32_t tm, uint32_t tp, const struct trax_issue *issue) {

@@ -13,6 +13,7 @@
 /* Consecutive cycles that were charged to one cause. */
 struct trax_charge {
   trax_cause cause;
+  uint8_t rd; /* the register that the thread waited for; 0: none */
   uint64_t since, cycles;
 };
 
@@ -65,6 +66,7 @@ struct trax_reader {
   X(trace)                                                                                                             \
   X(perfetto)                                                                                                          \
   X(heat)                                                                                                              \
+  X(waits)                                                                                                             \
   X(items)                                                                                                             \
   X(ray_kinds)                                                                                                         \
   X(memory_check)                                                                                                      \

@@ -50,8 +50,9 @@ struct trax_observer {
   void *context;
   /* Any function may be NULL. */
   void (*issue)(void *context, const struct trax_issue *issue);
-  /* The TP was charged to `cause` for `cycles` cycles from `since` on. */
-  void (*charge)(void *context, uint32_t tm, uint32_t tp, trax_cause cause, uint64_t since, uint64_t cycles);
+  /* The TP was charged to `cause` for `cycles` cycles from `since` on. rd: the register that it waited for; 0: none. */
+  void (*charge)(void *context, uint32_t tm, uint32_t tp, trax_cause cause, unsigned rd, uint64_t since,
+                 uint64_t cycles);
   void (*arrival)(void *context, const struct trax_arrival *arrival);
 };
 

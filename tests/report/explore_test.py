@@ -57,7 +57,8 @@ def setUpModule():
     render(folder, "--mark-rays", "-o", "p.png", "--keep", "run", "--explore", "p.html", "--stats", "p.json",
            "--cost-values", "p.csv")
     simulate(folder, "run/manifest.json", "--explore", "q.html", "--stats", "q.json", "--heat", "heat.csv",
-             "--ray-kinds", "rays.csv", "--profile-folded", "folded", "--items", "items.csv", "--item-buffer", "image")
+             "--waits", "waits.csv", "--ray-kinds", "rays.csv", "--profile-folded", "folded", "--items", "items.csv",
+             "--item-buffer", "image")
 
 
 class Data(Scratch):
@@ -91,6 +92,11 @@ class Data(Scratch):
             self.assertTrue(
                 any(path.endswith("traverse.h") and "visit_node" in text for path, text in data["sources"].items()))
         self.assertEqual(data["heat"], self.text("heat.csv"))
+        self.assertEqual(data["waits"], self.text("waits.csv"))
+        # trax-render also knows the parts of the scene.
+        waits = [row for row in csv.DictReader(io.StringIO(unpack(self.folder / "p.html")[0]["waits"]))]
+        self.assertEqual(sum(int(row["wait_memory"]) for row in waits), written["causes"]["wait_memory"])
+        self.assertIn("scene: nodes", {row["object"] for row in waits if row["wait_memory"] != "0"})
         self.assertEqual(data["ray_kinds"], self.text("rays.csv"))
         self.assertEqual(data["folded"], self.text("folded"))
 
@@ -286,7 +292,8 @@ class Page(PageTests, Scratch):
             )
             self.assertEqual(
                 [one for one, height in sections if height > 60],
-                ["causes", "time", "picture", "source", "calls", "hardware", "objects", "rays", "statistics"], name)
+                ["causes", "time", "picture", "source", "calls", "hardware", "objects", "waits", "rays", "statistics"],
+                name)
             self.assertEqual(self.browser.run("document.querySelectorAll('#time svg polygon').length"),
                              sum(1 for cycles in stats["causes"].values() if cycles))
             self.assertEqual(stats["partial"], "did not finish"
@@ -467,7 +474,7 @@ class Page(PageTests, Scratch):
         self.browser.run("document.querySelector('#lines-table tbody button').click()")
         row = self.browser.run(
             "(row => [row.dataset.line, row.cells[1].textContent, "
-            "row.cells[5].textContent])(document.querySelector('#listing tr[aria-expanded=true]'))"
+            "row.cells[6].textContent])(document.querySelector('#listing tr[aria-expanded=true]'))"
         )
         path, number = hottest.rsplit(":", 1)
         self.assertEqual(
@@ -477,12 +484,24 @@ class Page(PageTests, Scratch):
         mine = [one for one in filter(None, data["instructions"]) if data["names"][one[4][0][1]] == hottest]
         below = self.browser.run(
             "Array.from(document.querySelectorAll('#listing tr.instruction'), row => [row.cells[0].textContent, "
-            "row.cells[3].textContent, row.cells[5].textContent])"
+            "row.cells[3].textContent, row.cells[6].textContent])"
         )
         self.assertEqual([(pc, issued) for pc, issued, _ in below],
                          [(f"{one[0]:08x}", f"{one[5][0]:,}") for one in mine])
         for (_, _, text), one in zip(below, mine):
             self.assertTrue(text.startswith(one[1]), text)
+        # What is waited for, by line: in the table of lines, in the listing, and the first row of their own table.
+        awaited = collections.Counter()
+        for wait in csv.DictReader(io.StringIO(data["waits"])):
+            awaited[wait["line"]] += sum(int(value) for name, value in wait.items() if name in data["stats"]["causes"])
+        share = f"{100 * awaited[hottest] / total:.1f} %"
+        for row in "#listing tr[aria-expanded=true]", "#lines-table tbody tr":
+            self.assertEqual(self.browser.run(f"document.querySelector('{row}').cells[5].textContent"), share)
+        most, cycles = max(awaited.items(), key=lambda line: line[1])
+        self.assertEqual(
+            self.browser.run("(row => [row.cells[0].textContent, row.cells[3].textContent])("
+                             "document.querySelector('#waits-table tbody tr'))"),
+            [pathlib.Path(most).name, f"{100 * cycles / total:.1f} %"])
         tree = self.browser.run("document.getElementById('calls-tree').innerText")
         for name in ("_start", "main", "trace_ray"):
             self.assertIn(name, tree)

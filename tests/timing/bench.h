@@ -39,6 +39,7 @@ struct bench_issues {
 struct bench_told {
   uint64_t until; /* all cycles before it */
   uint64_t cycles[TRAX_CAUSE_COUNT];
+  uint64_t waits[TRAX_NUM_REGISTERS]; /* for each register */
 };
 
 struct bench {

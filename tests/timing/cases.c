@@ -102,8 +102,8 @@ static void compare_engines(const struct random_case *c, struct comparison *to) 
   if (!different) {
     struct run observed = run(&c->config, c->words, c->count, tested_engine, true, c->max_cycles);
     (void)(different_issues(difference, &reference.bench.issues, &observed.bench.issues) ||
-           different_runs(difference, &reference, &observed) ||
-           different_transfers(difference, &reference, &observed));
+           different_waits(difference, &reference.bench, &observed.bench) ||
+           different_runs(difference, &reference, &observed) || different_transfers(difference, &reference, &observed));
     end(&observed);
   }
   end(&reference);

@@ -1,7 +1,7 @@
 async function start() {
   const run = JSON.parse(new TextDecoder().decode(await unpack("data"))), packed = await unpack("pixels");
   const { stats } = run, figures = run.figures.filter((one) => one), causeNames = Object.keys(stats.causes);
-  const all = { run, stats, figures, causes: causesOf(stats, figures), lines: linesOf(run, causeNames), series: rowsOf(run.series),
+  const all = { run, stats, figures, causes: causesOf(stats, figures), lines: linesOf(run, causeNames), series: rowsOf(run.series), waits: rowsOf(run.waits),
     columns: run.picture ? columnsOf(run.picture, packed) : {} };
   document.body.append(tip);
   document.addEventListener("pointermove", (event) => {
@@ -9,7 +9,7 @@ async function start() {
     if (told) tell(told.dataset.tip, event.clientX, event.clientY);
     else if (!event.target.closest?.("svg, .pictures canvas")) untell();
   });
-  for (const draw of [drawHead, drawCauses, drawTime, drawPicture, drawSource, drawCalls, drawHardware, drawObjects, drawRays,
+  for (const draw of [drawHead, drawCauses, drawTime, drawPicture, drawSource, drawCalls, drawHardware, drawObjects, drawWaits, drawRays,
     drawStatistics]) draw(all);
   drawNavigation();
   byId("failure").remove();

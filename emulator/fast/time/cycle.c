@@ -148,8 +148,9 @@ static bool operands_usable(struct trax_tm *tm, unsigned number, bool fetched, u
   for (uint32_t rest = waits & tm->busy_registers[number]; rest; rest &= rest - 1)
     if (tp->usable[trax_first(rest)] > t) {
       uint64_t until = 0;
+      unsigned rd;
       trax_fast_export_head(tm, number);
-      const trax_cause cause = trax_tp_wait(tp, t, &until);
+      const trax_cause cause = trax_tp_wait(tp, t, &until, &rd);
       if (until == TRAX_NEVER) {
         trax_tm_sleep(tm, number, t, cause);
         tm->awaiting |= (uint64_t)1 << number;

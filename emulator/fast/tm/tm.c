@@ -229,6 +229,16 @@ trax_cause trax_tm_serve(struct trax_tm *tm, unsigned number, uint64_t t) {
   return serve_others(tm, number, t) ? TRAX_CAUSE_ISSUED : TRAX_CAUSE_MEMORY_QUEUE;
 }
 
+void trax_tm_tell_charge(const struct trax_tm *tm, unsigned tp, trax_cause cause, uint64_t since, uint64_t cycles) {
+  uint64_t until;
+  unsigned rd = 0;
+  if (!tm->observer->charge || !cycles || cause == TRAX_CAUSE_ISSUED)
+    return;
+  if (trax_is_wait(cause)) /* its value may have arrived, but only after `since` */
+    trax_tp_wait(&tm->tp[tp], since, &until, &rd);
+  tm->observer->charge(tm->observer->context, tm->number, tp, cause, rd, since, cycles);
+}
+
 void trax_tm_notify_issue(struct trax_tm *tm, unsigned number, uint32_t pc, const struct trax_decoded *inst,
                           uint32_t next_pc) {
   struct trax_tp *tp = &tm->tp[number];

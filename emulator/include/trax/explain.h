@@ -26,6 +26,7 @@ struct trax_explain;
   X(sample, "profile-sample", "FILE", "executions by source line, for clang -fprofile-sample-use")                     \
   X(heat, "heat", "FILE", "accesses to memory by object, as CSV")                                                      \
   X(heat_lines, "heat-lines", "FILE", "accesses to global memory by 64 bytes, as CSV")                                 \
+  X(waits, "waits", "FILE", "waits by the load waited for, its object and the waiting instruction, as CSV")            \
   X(items, "items", "FILE", "cost of each item (pixel), as CSV")                                                       \
   X(ray_kinds, "ray-kinds", "FILE", "cost of the rays of each kind, as CSV")                                           \
   X(series, "series", "FILE", "counts of each interval of cycles, as CSV")                                             \
