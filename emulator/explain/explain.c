@@ -1,6 +1,7 @@
 #include "explain/page.h"
 #include "explain/places.h"
 #include "explain/span.h"
+#include "explain/stories.h"
 #include "trax/grow.h"
 
 #include <stdlib.h>
@@ -236,6 +237,11 @@ void trax_explain_picture(struct trax_explain *explain, const struct trax_explor
     explain->picture = *picture;
 }
 
+bool trax_explain_has_rays(const struct trax_explain *explain, uint32_t place) {
+  return explain && explain->pixel_rays &&
+         (trax_pixel_rays_all(explain->pixel_rays) || trax_stories_have(explain->stories, place));
+}
+
 void trax_explain_discard(struct trax_explain *explain) {
   if (!explain)
     return;
@@ -248,6 +254,8 @@ void trax_explain_discard(struct trax_explain *explain) {
     free(reader);
   }
   trax_pixels_destroy(explain->pixels);
+  trax_stories_destroy(explain->stories);
+  trax_pixel_rays_destroy(explain->pixel_rays);
   for (uint64_t i = 0; explain->open_spans && i < explain->machine->stats.threads; i++)
     free(explain->open_spans[i].charges);
   free(explain->open_spans);

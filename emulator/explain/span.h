@@ -95,6 +95,8 @@ struct trax_explain {
   size_t arrival_count, arrival_capacity;
   struct trax_explore_picture picture; /* of the page; width 0: none */
   struct trax_pixels *pixels;          /* for it; NULL: items store to no buffer that is known */
+  struct trax_stories *stories;        /* of its pixels; NULL: none are kept */
+  struct trax_pixel_rays *pixel_rays;  /* the same */
   bool out_of_memory;                  /* something was lost: no file is written */
 };
 
