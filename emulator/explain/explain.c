@@ -184,9 +184,13 @@ trax_status trax_explain_begin(struct trax_explain **result, trax_machine *machi
   }
   explain->observer =
       (struct trax_observer){.context = explain, .issue = add_issue, .charge = add_charge, .arrival = add_arrival};
-  for (unsigned i = 0; i < explain->reader_count; i++)
+  explain->observer.ahead = true;
+  for (unsigned i = 0; i < explain->reader_count; i++) {
     if (explain->readers[i]->kind->span) /* the others watch the machine or its transfers */
       machine->observer = &explain->observer;
+    if (explain->readers[i]->kind->exact)
+      explain->observer.ahead = false;
+  }
   *result = explain;
   return TRAX_OK;
 }

@@ -41,6 +41,7 @@ struct trax_reader_kind {
     const char *member; /* the member of the page that has the same text; NULL: none */
   } files[TRAX_READER_FILES];
   bool in_page;                                                  /* the page needs the reader */
+  bool exact; /* it needs all values of issues (machine/observer.h) */
   bool (*is_wanted)(const struct trax_explain_options *options); /* whether other options need it */
   trax_status (*open)(void *self, trax_error *error);
   void (*span)(void *self, const struct trax_span *span);

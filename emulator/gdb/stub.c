@@ -375,7 +375,7 @@ struct trax_gdb *trax_gdb_create(trax_machine *machine, const struct trax_gdb_li
   gdb->threads = threads;
   gdb->tps = machine->config.chip.tps_per_tm;
   gdb->next_observer = machine->observer;
-  gdb->observer = (struct trax_observer){gdb, on_issue, on_charge, on_arrival};
+  gdb->observer = (struct trax_observer){.context = gdb, .issue = on_issue, .charge = on_charge, .arrival = on_arrival};
   machine->observer = &gdb->observer;
   gdb->watch = (struct trax_watch){.inspect = inspect, .end = end, .context = gdb};
   trax_machine_watch(machine, &gdb->watch);

@@ -53,9 +53,12 @@ static void record_charge(void *context, uint32_t tm, uint32_t tp, trax_cause ca
   thread->cycles[cause] += cycles;
 }
 
+bool bench_ahead;
+
 void bench_run_observed(struct bench *bench, const trax_run_options *options) {
   struct trax_machine *machine = bench->machine;
-  const struct trax_observer observer = {.context = bench, .issue = record_issue, .charge = record_charge};
+  const struct trax_observer observer = {
+      .context = bench, .ahead = bench_ahead, .issue = record_issue, .charge = record_charge};
   machine->observer = &observer;
   bench->status = trax_machine_run(machine, options, &bench->error);
   machine->observer = NULL;
