@@ -1,6 +1,7 @@
 #include "explain/page.h"
 #include "explain/places.h"
 #include "explain/span.h"
+#include "explain/stories.h"
 #include "trax/grow.h"
 
 #include <stdlib.h>
@@ -14,10 +15,11 @@ struct trax_open_span {
   uint32_t pc, previous_pc;
 };
 
-static void add_charge(void *context, uint32_t tm, uint32_t tp, trax_cause cause, uint64_t since, uint64_t cycles) {
+static void add_charge(void *context, uint32_t tm, uint32_t tp, trax_cause cause, unsigned rd, uint64_t since,
+                       uint64_t cycles) {
   struct trax_explain *explain = context;
   struct trax_open_span *open = &explain->open_spans[tm * explain->machine->config.chip.tps_per_tm + tp];
-  if (open->count && open->charges[open->count - 1].cause == cause) {
+  if (open->count && open->charges[open->count - 1].cause == cause && open->charges[open->count - 1].rd == rd) {
     open->charges[open->count - 1].cycles += cycles;
     return;
   }
@@ -25,7 +27,7 @@ static void add_charge(void *context, uint32_t tm, uint32_t tp, trax_cause cause
     explain->out_of_memory = true;
     return;
   }
-  open->charges[open->count++] = (struct trax_charge){cause, since, cycles};
+  open->charges[open->count++] = (struct trax_charge){cause, (uint8_t)rd, since, cycles};
 }
 
 static void notify_span(struct trax_explain *explain, uint32_t tm, uint32_t tp, const struct trax_issue *issue) {
@@ -182,9 +184,13 @@ trax_status trax_explain_begin(struct trax_explain **result, trax_machine *machi
   }
   explain->observer =
       (struct trax_observer){.context = explain, .issue = add_issue, .charge = add_charge, .arrival = add_arrival};
-  for (unsigned i = 0; i < explain->reader_count; i++)
+  explain->observer.ahead = true;
+  for (unsigned i = 0; i < explain->reader_count; i++) {
     if (explain->readers[i]->kind->span) /* the others watch the machine or its transfers */
       machine->observer = &explain->observer;
+    if (explain->readers[i]->kind->exact)
+      explain->observer.ahead = false;
+  }
   *result = explain;
   return TRAX_OK;
 }
@@ -235,6 +241,11 @@ void trax_explain_picture(struct trax_explain *explain, const struct trax_explor
     explain->picture = *picture;
 }
 
+bool trax_explain_has_rays(const struct trax_explain *explain, uint32_t place) {
+  return explain && explain->pixel_rays &&
+         (trax_pixel_rays_all(explain->pixel_rays) || trax_stories_have(explain->stories, place));
+}
+
 void trax_explain_discard(struct trax_explain *explain) {
   if (!explain)
     return;
@@ -247,6 +258,8 @@ void trax_explain_discard(struct trax_explain *explain) {
     free(reader);
   }
   trax_pixels_destroy(explain->pixels);
+  trax_stories_destroy(explain->stories);
+  trax_pixel_rays_destroy(explain->pixel_rays);
   for (uint64_t i = 0; explain->open_spans && i < explain->machine->stats.threads; i++)
     free(explain->open_spans[i].charges);
   free(explain->open_spans);

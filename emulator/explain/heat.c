@@ -1,6 +1,6 @@
 /* Memory heat: accesses by object, and by 64 bytes of global memory. */
+#include "explain/objects.h"
 #include "explain/page.h"
-#include "trax/grow.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -20,89 +20,13 @@ struct heat_counts {
   uint64_t combined;             /* of stores */
 };
 
-struct object {
-  const char *name;
-  uint64_t begin, end;
-  struct heat_counts counts;
-};
-
 struct heat {
   struct trax_reader reader;
-  struct object *objects; /* by address, not overlapping */
-  size_t object_count, object_capacity;
-  struct object *parts;             /* of the page */
+  struct trax_objects objects;
+  struct heat_counts *counts;       /* of each object */
+  struct heat_counts *parts;        /* of each part */
   struct heat_counts *pages[PAGES]; /* each [LINES_PER_PAGE], or NULL */
 };
-
-static int by_address(const void *a, const void *b) {
-  const struct object *x = a, *y = b;
-  if (x->begin != y->begin)
-    return x->begin < y->begin ? -1 : 1;
-  if (x->end != y->end)
-    return x->end > y->end ? -1 : 1;
-  return strcmp(x->name, y->name);
-}
-
-static void add_object(struct heat *heat, const char *name, uint64_t begin, uint64_t end) {
-  if (end <= begin)
-    return;
-  if (trax_grow((void **)&heat->objects, heat->object_count, &heat->object_capacity, sizeof *heat->objects))
-    heat->objects[heat->object_count++] = (struct object){.name = name, .begin = begin, .end = end};
-  else
-    heat->reader.explain->out_of_memory = true;
-}
-
-/* Lists symbols, bound buffers, heap and stacks. Of overlapping objects, the first keeps the bytes. */
-static trax_status list_objects(struct heat *heat, trax_error *error) {
-  const struct trax_machine *machine = heat->reader.explain->machine;
-  const struct trax_loaded *loaded = trax_loaded_of(machine);
-  size_t symbol_count = 0;
-  const struct trax_symbol *symbols = loaded ? trax_image_symbols(loaded->image, &symbol_count) : NULL;
-  for (size_t i = 0; i < symbol_count; i++)
-    if (!symbols[i].absolute && symbols[i].bytes &&
-        (symbols[i].type == TRAX_SYMBOL_OBJECT || symbols[i].type == TRAX_SYMBOL_FUNCTION))
-      add_object(heat, symbols[i].name, symbols[i].address, (uint64_t)symbols[i].address + symbols[i].bytes);
-  if (loaded) {
-    for (size_t i = 0; i < loaded->buffer_count; i++)
-      add_object(heat, loaded->buffers[i].symbol, loaded->buffers[i].address,
-                 (uint64_t)loaded->buffers[i].address + loaded->buffers[i].bytes);
-    add_object(heat, "(heap)", loaded->free_address, loaded->memory_end);
-    add_object(heat, "(stacks)", loaded->memory_end, machine->space.size);
-  }
-  add_object(heat, "(local memory)", TRAX_LOCAL_BASE, (uint64_t)1 << 32);
-  if (heat->object_count) /* qsort's array is not to be NULL */
-    qsort(heat->objects, heat->object_count, sizeof *heat->objects, by_address);
-  size_t kept = 0;
-  for (size_t i = 0; i < heat->object_count; i++)
-    if (!kept || heat->objects[i].begin >= heat->objects[kept - 1].end)
-      heat->objects[kept++] = heat->objects[i];
-  heat->object_count = kept;
-  add_object(heat, "(other)", 0, 1); /* the last object counts for all other addresses */
-  return heat->reader.explain->out_of_memory ? trax_fail(error, "out of memory for the objects of the heat") : TRAX_OK;
-}
-
-static trax_status list_parts(struct heat *heat, trax_error *error) {
-  const struct trax_explain_options *options = &heat->reader.explain->options;
-  heat->parts = trax_explain_array(options->part_count, sizeof *heat->parts, error);
-  for (size_t i = 0; heat->parts && i < options->part_count; i++)
-    heat->parts[i] = (struct object){.name = options->parts[i].name,
-                                     .begin = options->parts[i].address,
-                                     .end = (uint64_t)options->parts[i].address + options->parts[i].bytes};
-  return heat->parts ? TRAX_OK : TRAX_ERROR;
-}
-
-static struct object *object_at(const struct heat *heat, uint32_t address) {
-  size_t low = 0, high = heat->object_count - 1;
-  while (low < high) { /* the first object that ends after the address */
-    const size_t middle = (low + high) / 2;
-    if (heat->objects[middle].end <= address)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return low < heat->object_count - 1 && heat->objects[low].begin <= address ? &heat->objects[low]
-                                                                             : &heat->objects[heat->object_count - 1];
-}
 
 static struct heat_counts *line_at(struct heat *heat, uint32_t address) {
   struct heat_counts **page = &heat->pages[address >> PAGE_SHIFT];
@@ -135,10 +59,11 @@ static void add_span(void *self, const struct trax_span *span) {
   if (!span->issue || !op->access_bytes)
     return;
   const uint32_t address = span->issue->address;
-  for (size_t i = 0; i < heat->reader.explain->options.part_count; i++)
-    if (address >= heat->parts[i].begin && address < heat->parts[i].end)
-      count(&heat->parts[i].counts, op->flags, op->access_bytes, span->issue->outcome);
-  count(&object_at(heat, address)->counts, op->flags, op->access_bytes, span->issue->outcome);
+  const struct trax_explain_options *options = &heat->reader.explain->options;
+  for (size_t i = 0; i < options->part_count; i++)
+    if (address - options->parts[i].address < options->parts[i].bytes)
+      count(&heat->parts[i], op->flags, op->access_bytes, span->issue->outcome);
+  count(&heat->counts[trax_objects_at(&heat->objects, address)], op->flags, op->access_bytes, span->issue->outcome);
   struct heat_counts *line =
       heat->reader.explain->options.heat_lines && address < TRAX_LOCAL_BASE ? line_at(heat, address) : NULL;
   if (line)
@@ -152,43 +77,39 @@ static void put_counts(FILE *out, const struct heat_counts *counts) {
           counts->misses, counts->merged, counts->combined);
 }
 
-/* Writes a name as CSV (RFC 4180). */
-static void put_name(FILE *out, const char *name) {
-  fputc('"', out);
-  for (; *name; name++) {
-    if (*name == '"')
-      fputc('"', out);
-    fputc(*name, out);
-  }
-  fputc('"', out);
-}
-
 #define COLUMNS "loads,stores,atomics,load_bytes,store_bytes,hits,misses,merged,combined"
 
-static void put_table(const struct object *objects, size_t count, FILE *out) {
+static void put_head(FILE *out) {
   fprintf(out, "object,address,bytes," COLUMNS "\n");
-  for (size_t i = 0; i < count; i++) {
-    const struct object *object = &objects[i];
-    if (!object->counts.loads && !object->counts.stores && !object->counts.atomics)
-      continue;
-    put_name(out, object->name);
-    fprintf(out, ",0x%08" PRIx64 ",%" PRIu64 ",", object->begin, object->end - object->begin);
-    put_counts(out, &object->counts);
-    fputc('\n', out);
-  }
+}
+
+static void put_row(FILE *out, const char *name, uint64_t begin, uint64_t bytes, const struct heat_counts *counts) {
+  if (!counts->loads && !counts->stores && !counts->atomics)
+    return;
+  trax_objects_put_name(out, name);
+  fprintf(out, ",0x%08" PRIx64 ",%" PRIu64 ",", begin, bytes);
+  put_counts(out, counts);
+  fputc('\n', out);
 }
 
 static trax_status put_objects(void *self, FILE *out, trax_error *error) {
   const struct heat *heat = self;
   (void)error;
-  put_table(heat->objects, heat->object_count, out);
+  put_head(out);
+  for (size_t i = 0; i < heat->objects.count; i++) {
+    const struct trax_object *object = &heat->objects.objects[i];
+    put_row(out, object->name, object->begin, object->end - object->begin, &heat->counts[i]);
+  }
   return TRAX_OK;
 }
 
 static trax_status put_parts(void *self, FILE *out, trax_error *error) {
   const struct heat *heat = self;
+  const struct trax_explain_options *options = &heat->reader.explain->options;
   (void)error;
-  put_table(heat->parts, heat->reader.explain->options.part_count, out);
+  put_head(out);
+  for (size_t i = 0; i < options->part_count; i++)
+    put_row(out, options->parts[i].name, options->parts[i].address, options->parts[i].bytes, &heat->parts[i]);
   return TRAX_OK;
 }
 
@@ -202,11 +123,11 @@ static trax_status put_lines(void *self, FILE *out, trax_error *error) {
       if (!counts->loads && !counts->stores && !counts->atomics)
         continue;
       const uint32_t address = page << PAGE_SHIFT | i << LINE_SHIFT;
-      const struct object *object = object_at(heat, address); /* the object of the line's first byte */
+      /* The object of the line's first byte. That of all other addresses begins at 0. */
+      const struct trax_object *object = &heat->objects.objects[trax_objects_at(&heat->objects, address)];
       fprintf(out, "0x%08x,", address);
-      put_name(out, object->name);
-      fprintf(out, ",%" PRIu64 ",",
-              object == &heat->objects[heat->object_count - 1] ? address : address - object->begin);
+      trax_objects_put_name(out, object->name);
+      fprintf(out, ",%" PRIu64 ",", address - object->begin);
       put_counts(out, counts);
       fputc('\n', out);
     }
@@ -214,14 +135,20 @@ static trax_status put_lines(void *self, FILE *out, trax_error *error) {
 }
 
 static trax_status open_heat(void *self, trax_error *error) {
-  return list_objects(self, error) == TRAX_OK ? list_parts(self, error) : TRAX_ERROR;
+  struct heat *heat = self;
+  if (trax_objects_list(&heat->objects, heat->reader.explain, error) != TRAX_OK)
+    return TRAX_ERROR;
+  heat->counts = trax_explain_array(heat->objects.count, sizeof *heat->counts, error);
+  heat->parts = trax_explain_array(heat->reader.explain->options.part_count, sizeof *heat->parts, error);
+  return heat->counts && heat->parts ? TRAX_OK : TRAX_ERROR;
 }
 
 static void close_heat(void *self) {
   struct heat *heat = self;
   for (uint32_t page = 0; page < PAGES; page++)
     free(heat->pages[page]);
-  free(heat->objects);
+  trax_objects_release(&heat->objects);
+  free(heat->counts);
   free(heat->parts);
 }
 

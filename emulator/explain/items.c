@@ -1,16 +1,25 @@
 /* The cost of each item, and the place of its result. */
 #include "explain/page.h"
 #include "explain/ray_kinds.h"
+#include "explain/stories.h"
+#include "trax/grow.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
+
+struct item_mark {
+  unsigned kind;
+  uint64_t cycles, instructions; /* of the item, before the ray */
+};
 
 struct item_thread {
   uint64_t cycles[TRAX_CAUSE_COUNT]; /* of the current item */
   uint64_t rays[TRAX_RAY_KIND_COUNT];
   uint64_t begin, until;
   uint32_t place;
+  struct item_mark *marks; /* of the traps that counted one ray each */
+  size_t mark_count, mark_capacity;
 };
 
 struct items {
@@ -32,6 +41,19 @@ static void write_item(void *context, const struct trax_item_cost *cost, bool la
   fputc('\n', out);
 }
 
+static void end_rays(struct trax_explain *explain, const struct item_thread *thread,
+                     const struct trax_item_cost *cost) {
+  for (size_t i = 0; i < thread->mark_count; i++) {
+    const struct item_mark *mark = &thread->marks[i];
+    const bool last = i + 1 == thread->mark_count;
+    const uint64_t cycles = last ? cost->end - cost->begin : mark[1].cycles,
+                   instructions = last ? cost->instructions : mark[1].instructions;
+    if (!trax_pixel_rays_add(explain->pixel_rays, cost->place, mark->kind, cycles - mark->cycles,
+                             instructions - mark->instructions))
+      explain->out_of_memory = true;
+  }
+}
+
 static void end_item(struct items *items, uint32_t number, uint64_t end, bool last) {
   struct item_thread *thread = &items->threads[number];
   const struct trax_item_cost cost = {.thread = number,
@@ -47,7 +69,27 @@ static void end_item(struct items *items, uint32_t number, uint64_t end, bool la
     trax_pixels_add(items->reader.explain->pixels, &cost, last);
   if (items->reader.out)
     write_item(items->reader.out, &cost, last);
-  *thread = (struct item_thread){.begin = end, .until = end, .place = TRAX_NO_PLACE};
+  if (items->reader.explain->stories)
+    trax_stories_end(items->reader.explain->stories, &cost, last);
+  if (items->reader.explain->pixel_rays && !last && cost.place != TRAX_NO_PLACE)
+    end_rays(items->reader.explain, thread, &cost);
+  *thread = (struct item_thread){.begin = end,
+                                 .until = end,
+                                 .place = TRAX_NO_PLACE,
+                                 .marks = thread->marks,
+                                 .mark_capacity = thread->mark_capacity};
+}
+
+static void add_mark(struct items *items, struct item_thread *thread, const struct trax_span *span) {
+  const unsigned kind = trax_counted_kind(span);
+  if (kind == TRAX_NO_RAY)
+    return;
+  if (!trax_grow((void **)&thread->marks, thread->mark_count, &thread->mark_capacity, sizeof *thread->marks)) {
+    items->reader.explain->out_of_memory = true;
+    return;
+  }
+  thread->marks[thread->mark_count++] = /* the trap belongs to the ray */
+      (struct item_mark){kind, thread->until - 1 - thread->begin, thread->cycles[TRAX_CAUSE_ISSUED] - 1};
 }
 
 /* Counts the rays that a trap reports. */
@@ -61,6 +103,8 @@ static void add_rays(struct item_thread *thread, const struct trax_span *span) {
 static void add_span(void *self, const struct trax_span *span) {
   struct items *items = self;
   struct item_thread *thread = &items->threads[span->thread];
+  if (items->reader.explain->stories)
+    trax_stories_add(items->reader.explain->stories, span);
   for (size_t i = 0; i < span->count; i++) {
     thread->cycles[span->charges[i].cause] += span->charges[i].cycles;
     thread->until += span->charges[i].cycles;
@@ -73,6 +117,8 @@ static void add_span(void *self, const struct trax_span *span) {
   thread->until++;
   if (span->inst.op == TRAX_OP_TRAP)
     add_rays(thread, span);
+  if (span->inst.op == TRAX_OP_TRAP && items->reader.explain->pixel_rays)
+    add_mark(items, thread, span);
   if (trax_ends_item(span))
     end_item(items, span->thread, thread->until, false);
   else if (trax_op_table[span->inst.op].flags & TRAX_IS_STORE &&
@@ -92,16 +138,18 @@ void trax_explain_items(struct trax_explain *explain,
 
 /* Finds the buffer to which the items store. */
 static trax_status find_buffer(struct items *items, trax_error *error) {
-  const struct trax_explain_options *options = &items->reader.explain->options;
-  const struct trax_loaded *loaded = trax_loaded_of(items->reader.explain->machine);
+  struct trax_explain *explain = items->reader.explain;
+  const struct trax_explain_options *options = &explain->options;
+  const struct trax_loaded *loaded = trax_loaded_of(explain->machine);
   if (!options->item_buffer)
     return TRAX_OK;
   for (size_t i = 0; loaded && i < loaded->buffer_count; i++)
     if (strcmp(loaded->buffers[i].symbol, options->item_buffer) == 0) {
       items->buffer_begin = loaded->buffers[i].address;
       items->buffer_bytes = loaded->buffers[i].bytes;
-      if (options->explore &&
-          !(items->reader.explain->pixels = trax_pixels_create(loaded->buffers[i].bytes / options->item_bytes)))
+      if ((options->explore || options->story) &&
+          (!(explain->pixels = trax_pixels_create(loaded->buffers[i].bytes / options->item_bytes)) ||
+           !(explain->stories = trax_stories_create(explain)) || !(explain->pixel_rays = trax_pixel_rays_create())))
         return trax_fail(error, "out of memory for the cost of %u pixels",
                          loaded->buffers[i].bytes / options->item_bytes);
       return TRAX_OK;
@@ -133,13 +181,24 @@ static bool has_buffer(const struct trax_explain_options *options) {
   return options->item_buffer != NULL;
 }
 
-static void close_items(void *self) {
-  free(((struct items *)self)->threads);
+static trax_status put_stories(void *self, FILE *out, trax_error *error) {
+  (void)error;
+  trax_stories_put_member(((struct trax_reader *)self)->explain, out);
+  return TRAX_OK;
 }
 
-const struct trax_reader_kind trax_items_reader = {.bytes = sizeof(struct items),
-                                                   .files = {{.path = TRAX_EXPLAIN_PATH(items)}},
-                                                   .is_wanted = has_buffer,
-                                                   .open = open_items,
-                                                   .span = add_span,
-                                                   .close = close_items};
+static void close_items(void *self) {
+  struct items *items = self;
+  for (uint64_t i = 0; items->threads && i < items->reader.explain->machine->stats.threads; i++)
+    free(items->threads[i].marks);
+  free(items->threads);
+}
+
+const struct trax_reader_kind trax_items_reader = {
+    .bytes = sizeof(struct items),
+    .files = {{.path = TRAX_EXPLAIN_PATH(items)}, {.path = TRAX_EXPLAIN_PATH(story), .put = trax_stories_put}},
+    .is_wanted = has_buffer,
+    .open = open_items,
+    .span = add_span,
+    .put_members = put_stories,
+    .close = close_items};

@@ -241,8 +241,8 @@ static void check_fault(struct trax_memory_check *check) {
     return;
   if (base->undefined)
     trax_memory_note(check, MEMORY_ADDRESS, &event, base->from, 4, false, trax_memory_block_at(check, base->from));
-  const enum trax_memory_finding finding = trax_memory_check_access(check, fault->thread, base->tag, inst.imm,
-                                                                    fault->address, fault->bytes, &object);
+  const enum trax_memory_finding finding =
+      trax_memory_check_access(check, fault->thread, base->tag, inst.imm, fault->address, fault->bytes, &object);
   if (finding && object && check->objects[object].kind != MEMORY_BUFFER) /* the fault itself names a buffer */
     trax_memory_note(check, finding, &event, fault->address, fault->bytes, fault->write, object);
 }
@@ -297,6 +297,7 @@ static bool is_wanted(const struct trax_explain_options *options) {
 
 const struct trax_reader_kind trax_memory_check_reader = {.bytes = sizeof(struct trax_memory_check),
                                                           .is_wanted = is_wanted,
+                                                          .exact = true,
                                                           .open = open_check,
                                                           .span = add_span,
                                                           .arrival = add_arrival,

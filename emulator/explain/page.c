@@ -23,6 +23,12 @@ void trax_page_quote(FILE *out, const char *text, size_t size) {
   fputc('"', out);
 }
 
+void trax_page_number(FILE *out, uint64_t value) {
+  for (; value >= 128; value >>= 7)
+    fputc((int)(value & 127) | 128, out);
+  fputc((int)value, out);
+}
+
 trax_status trax_page_text(FILE *out, const char *name, trax_status (*put)(void *self, FILE *out, trax_error *error),
                            void *self, trax_error *error) {
   char *text = NULL;
@@ -120,7 +126,7 @@ static trax_status put_page(void *self, FILE *out, trax_error *error) {
   FILE *members = open_memstream(&texts[0], &sizes[0]), *columns = open_memstream(&texts[1], &sizes[1]);
   trax_status status = members && columns ? put_members(explain, members, error) : TRAX_ERROR;
   if (status == TRAX_OK)
-    status = trax_pixels_put(explain->pixels, &explain->picture, members, columns, error);
+    status = trax_pixels_put(explain, members, columns, error);
   bool complete = members && fputs("\"end\": null}\n", members) != EOF;
   complete = members && fclose(members) == 0 && complete;
   complete = columns && fclose(columns) == 0 && complete;

@@ -62,12 +62,6 @@ void trax_pixels_add(struct trax_pixels *pixels, const struct trax_item_cost *co
 
 /* --- writing --- */
 
-static void put_number(FILE *out, uint64_t value) {
-  for (; value >= 128; value >>= 7)
-    fputc((int)(value & 127) | 128, out);
-  fputc((int)value, out);
-}
-
 static void put_name(FILE *members, const char *group, const char *name, const char *unit, const char *meaning) {
   const char *const texts[] = {group, name, unit, meaning};
   for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
@@ -101,13 +95,14 @@ static void put_channel(FILE *columns, const struct trax_explore_picture *pictur
   uint32_t before = 0;
   for (size_t i = 0; i < places; i++) {
     const uint32_t value = picture->pixels[i] >> shift & 255;
-    put_number(columns, (value - before) & 255);
+    trax_page_number(columns, (value - before) & 255);
     before = value;
   }
 }
 
-trax_status trax_pixels_put(const struct trax_pixels *pixels, const struct trax_explore_picture *picture, FILE *members,
-                            FILE *columns, trax_error *error) {
+trax_status trax_pixels_put(struct trax_explain *explain, FILE *members, FILE *columns, trax_error *error) {
+  const struct trax_pixels *pixels = explain->pixels;
+  const struct trax_explore_picture *picture = &explain->picture;
   static const char *const channels[] = {"red", "green", "blue"};
   if (!pixels || !picture->width)
     return TRAX_OK;
@@ -120,18 +115,21 @@ trax_status trax_pixels_put(const struct trax_pixels *pixels, const struct trax_
       continue;
     put_name_of(members, column);
     for (size_t i = 0; i < pixels->places; i++)
-      put_number(columns, pixels->columns[column * pixels->places + i]);
+      trax_page_number(columns, pixels->columns[column * pixels->places + i]);
   }
   for (const struct trax_explore_counts *counts = picture->counts; counts->values; counts++) {
     put_name(members, "counts", counts->name, counts->unit, counts->meaning);
     for (size_t i = 0; i < pixels->places; i++)
-      put_number(columns, counts->values[i]);
+      trax_page_number(columns, counts->values[i]);
   }
   for (unsigned channel = 0; channel < 3; channel++) {
     put_name(members, "picture", channels[channel], "", "modulo 256, less the pixel before");
     put_channel(columns, picture, pixels->places, 8 * channel);
   }
-  fputs("null],\n\"elsewhere\": {", members);
+  fputs("null],\n", members);
+  if (!pixels->any[MORE] && trax_pixel_rays_put(explain, pixels->places, members, columns, error) != TRAX_OK)
+    return TRAX_ERROR;
+  fputs("\"elsewhere\": {", members);
   for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
     fprintf(members, "%s\"%s\": %" PRIu64, cause ? ", " : "", trax_cause_names[cause], pixels->elsewhere[cause]);
   fputs("}},\n", members);

@@ -11,7 +11,6 @@
 #include <stdlib.h>
 
 enum {
-  STACK_POINTER = 2,
   MAX_DEPTH = 512,
   /* No new stack is kept beyond this number of records, or of calls in all stacks. */
   MAX_RECORDS = 1 << 18,
@@ -129,7 +128,7 @@ static void follow(struct trax_profile *profile, struct trax_profile_thread *thr
       call(profile, thread, index, span->pc + 4);
     else if (!inst.rd && inst.op == TRAX_OP_JALR)
       jump_through_register(profile, thread, span->pc, span->issue->next_pc);
-  } else if (inst.rd == STACK_POINTER && trax_op_table[inst.op].flags & TRAX_WRITES_RD) {
+  } else if (inst.rd == TRAX_STACK_POINTER && trax_op_table[inst.op].flags & TRAX_WRITES_RD) {
     thread->stack_pointer = span->issue->result;
   }
 }

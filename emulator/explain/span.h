@@ -13,6 +13,7 @@
 /* Consecutive cycles that were charged to one cause. */
 struct trax_charge {
   trax_cause cause;
+  uint8_t rd; /* the register that the thread waited for; 0: none */
   uint64_t since, cycles;
 };
 
@@ -40,6 +41,7 @@ struct trax_reader_kind {
     const char *member; /* the member of the page that has the same text; NULL: none */
   } files[TRAX_READER_FILES];
   bool in_page;                                                  /* the page needs the reader */
+  bool exact; /* it needs all values of issues (machine/observer.h) */
   bool (*is_wanted)(const struct trax_explain_options *options); /* whether other options need it */
   trax_status (*open)(void *self, trax_error *error);
   void (*span)(void *self, const struct trax_span *span);
@@ -65,6 +67,7 @@ struct trax_reader {
   X(trace)                                                                                                             \
   X(perfetto)                                                                                                          \
   X(heat)                                                                                                              \
+  X(waits)                                                                                                             \
   X(items)                                                                                                             \
   X(ray_kinds)                                                                                                         \
   X(memory_check)                                                                                                      \
@@ -93,6 +96,8 @@ struct trax_explain {
   size_t arrival_count, arrival_capacity;
   struct trax_explore_picture picture; /* of the page; width 0: none */
   struct trax_pixels *pixels;          /* for it; NULL: items store to no buffer that is known */
+  struct trax_stories *stories;        /* of its pixels; NULL: none are kept */
+  struct trax_pixel_rays *pixel_rays;  /* the same */
   bool out_of_memory;                  /* something was lost: no file is written */
 };
 

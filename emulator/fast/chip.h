@@ -28,7 +28,7 @@ struct trax_chip {
   struct trax_fast_blocks blocks;
   struct trax_burst_facts facts;
   struct trax_translation *translation; /* of bursts; NULL: all are interpreted */
-  unsigned burst; /* limit of a burst's instructions; 1 with an observer, which must see the state at each issue */
+  unsigned burst; /* limit of a burst's instructions; 1 with an observer that must see the state at each issue */
   /* One thread is left, and no increment is under way: nobody else accesses memory, so that bursts may store. */
   bool alone;
   struct trax_epochs *epochs; /* if its TMs run ahead of each other; else NULL */

@@ -119,7 +119,8 @@ static void destroy_tm(struct trax_tm *tm) {
   free(tm->resident_lines);
 }
 
-/* Bursts are translated if a bank follows from bits of the address. */
+/* Bursts are translated if a bank follows from bits of the address. With an observer, they end before more
+   instructions than translated ones do. */
 static void create_translation(struct trax_chip *chip, const struct trax_run *run) {
   const struct trax_config *const config = &chip->machine->config;
   const uint32_t banks = chip->tm->data_banks;
@@ -131,7 +132,7 @@ static void create_translation(struct trax_chip *chip, const struct trax_run *ru
                                           .bank_mask = (banks - 1) << TRAX_STEP_BANK_SHIFT,
                                           .slow_local = config->tp.local_latency_cycles > 1 ? TRAX_STEP_SLOW : 0,
                                           .slow_jump = config->tp.branch_bubble_cycles > 0 ? TRAX_STEP_SLOW : 0};
-  if (run->engine != &trax_fast_interpreted_engine && chip->burst == TRAX_BURST && !(banks & (banks - 1)))
+  if (run->engine != &trax_fast_interpreted_engine && !chip->machine->observer && !(banks & (banks - 1)))
     chip->translation = trax_translation_create(chip->text, &chip->machine->space, config->special.precision_bits,
                                                 chip->tms, at_once, &chip->facts);
   if (chip->translation && at_once)
@@ -147,12 +148,13 @@ trax_status trax_chip_create(struct trax_run *run, const struct trax_fast_varian
   chip->text = &run->text;
   chip->variant = variant;
   chip->tms = machine->config.chip.tms;
-  chip->burst = machine->observer ? 1 : TRAX_BURST;
+  chip->burst = machine->observer && !machine->observer->ahead ? 1 : TRAX_BURST;
   machine->calls.before_write = trax_fast_range_written;
   machine->calls.engine = chip;
   if (trax_memory_create(&chip->memory, &machine->config, &machine->stats.memory, error) ||
       trax_fast_blocks_create(&chip->blocks, &machine->space, error) ||
-      trax_fast_program_create(&chip->program, chip->text, &machine->config, error))
+      trax_fast_program_create(&chip->program, chip->text, &machine->config,
+                               machine->observer && machine->observer->ahead, error))
     return TRAX_ERROR;
   chip->memory.before_increment = trax_fast_increment_outside;
   chip->memory.context = chip;

@@ -37,10 +37,11 @@ static void on_issue(void *context, const struct trax_issue *issue) {
   gdb->eventful |= state->events != 0;
 }
 
-static void on_charge(void *context, uint32_t tm, uint32_t tp, trax_cause cause, uint64_t since, uint64_t cycles) {
+static void on_charge(void *context, uint32_t tm, uint32_t tp, trax_cause cause, unsigned rd, uint64_t since,
+                      uint64_t cycles) {
   const struct trax_observer *before = ((const struct trax_gdb *)context)->next_observer;
   if (before && before->charge)
-    before->charge(before->context, tm, tp, cause, since, cycles);
+    before->charge(before->context, tm, tp, cause, rd, since, cycles);
 }
 
 static void on_arrival(void *context, const struct trax_arrival *arrival) {
@@ -374,7 +375,7 @@ struct trax_gdb *trax_gdb_create(trax_machine *machine, const struct trax_gdb_li
   gdb->threads = threads;
   gdb->tps = machine->config.chip.tps_per_tm;
   gdb->next_observer = machine->observer;
-  gdb->observer = (struct trax_observer){gdb, on_issue, on_charge, on_arrival};
+  gdb->observer = (struct trax_observer){.context = gdb, .issue = on_issue, .charge = on_charge, .arrival = on_arrival};
   machine->observer = &gdb->observer;
   gdb->watch = (struct trax_watch){.inspect = inspect, .end = end, .context = gdb};
   trax_machine_watch(machine, &gdb->watch);

@@ -64,8 +64,8 @@ trax_status trax_page_picture_give(struct trax_page_picture *picture, trax_machi
     memcpy(radiance, bytes + i * sizeof radiance, sizeof radiance);
     picture->pixels[i] = pixel_of(radiance);
   }
-  trax_explain_picture(explain,
-                       &(struct trax_explore_picture){picture->width, picture->height, picture->pixels, {{0}}});
+  trax_explain_picture(explain, &(struct trax_explore_picture){
+                                    .width = picture->width, .height = picture->height, .pixels = picture->pixels});
   return TRAX_OK;
 }
 

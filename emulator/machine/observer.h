@@ -13,12 +13,14 @@
      before the issues of the same cycle and TM.
    - All calls are made by the host thread that called trax_machine_run.
 
-   A run without an observer pays nothing for this. With one, the fast engine does not execute ahead of time. */
+   A run without an observer pays nothing for this. With one, the fast engine executes ahead of time only if the
+   observer needs few values (`ahead`). */
 #ifndef TRAX_MACHINE_OBSERVER_H
 #define TRAX_MACHINE_OBSERVER_H
 
 #include "machine/stats.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 
 /* The outcome of an access to global memory: bits of trax_issue.outcome. */
@@ -28,6 +30,8 @@ enum {
   TRAX_OUTCOME_MERGED = 4,  /* a load's line was already on its way */
   TRAX_OUTCOME_COMBINED = 8 /* a store was combined with the TP's earlier one */
 };
+
+enum { TRAX_STACK_POINTER = 2 };
 
 struct trax_issue {
   uint64_t cycle;
@@ -48,10 +52,14 @@ struct trax_arrival {
 
 struct trax_observer {
   void *context;
+  /* It needs no `result` but those of traps and of writes of r2, the stack pointer, and of an access to local memory
+     only that it is one: the address may be TRAX_LOCAL_BASE. Then an engine is faster. */
+  bool ahead;
   /* Any function may be NULL. */
   void (*issue)(void *context, const struct trax_issue *issue);
-  /* The TP was charged to `cause` for `cycles` cycles from `since` on. */
-  void (*charge)(void *context, uint32_t tm, uint32_t tp, trax_cause cause, uint64_t since, uint64_t cycles);
+  /* The TP was charged to `cause` for `cycles` cycles from `since` on. rd: the register that it waited for; 0: none. */
+  void (*charge)(void *context, uint32_t tm, uint32_t tp, trax_cause cause, unsigned rd, uint64_t since,
+                 uint64_t cycles);
   void (*arrival)(void *context, const struct trax_arrival *arrival);
 };
 

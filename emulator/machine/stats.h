@@ -40,6 +40,11 @@ typedef enum trax_cause {
       TRAX_CAUSE_COUNT
 } trax_cause;
 
+/* Whether a thread that is charged to the cause waits for a register. */
+static inline bool trax_is_wait(trax_cause cause) {
+  return cause >= TRAX_CAUSE_DATA_LOCAL && cause <= TRAX_CAUSE_DATA_OTHER;
+}
+
 /* Counters of each TM; the chip's figure is the sum: identifier, name, unit, meaning. */
 #define TRAX_TM_COUNTERS(X)                                                                                            \
   X(rays, "rays", "rays", "rays the program reported with the traps rays and kinds")                                   \

@@ -14,12 +14,20 @@ int trax_ref_arbitrate(trax_ref_pointer *pointer, const bool *asks, uint32_t n) 
   return -1;
 }
 
-void trax_ref_charge(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t, trax_cause cause) {
+static void charge(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t, trax_cause cause, unsigned rd) {
   assert(!tp->charged);
   tp->charged = true;
   tm->machine->tp_stats[tm->number * tm->tps + tp->number].cycles[cause]++;
   if (tm->machine->observer)
-    trax_ref_notify_charge(tm, tp, t, cause);
+    trax_ref_notify_charge(tm, tp, t, cause, rd);
+}
+
+void trax_ref_charge(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t, trax_cause cause) {
+  charge(tm, tp, t, cause, 0);
+}
+
+void trax_ref_charge_wait(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t, unsigned rd) {
+  charge(tm, tp, t, tp->scoreboard[rd].cause, rd);
 }
 
 void trax_ref_charge_idle(struct trax_ref_tm *tm, uint64_t t) {

@@ -1,10 +1,11 @@
 /* Notifies an observer of the run (machine/observer.h). */
 #include "reference/reference.h"
 
-void trax_ref_notify_charge(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp, uint64_t t, trax_cause cause) {
+void trax_ref_notify_charge(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp, uint64_t t, trax_cause cause,
+                            unsigned rd) {
   const struct trax_observer *observer = tm->machine->observer;
   if (observer->charge && cause != TRAX_CAUSE_ISSUED)
-    observer->charge(observer->context, tm->number, tp->number, cause, t, 1);
+    observer->charge(observer->context, tm->number, tp->number, cause, rd, t, 1);
 }
 
 /* Returns the value that the instruction wrote to its register or to memory, or passed to a trap. */

@@ -16,9 +16,8 @@ static unsigned wait_for_registers(struct trax_ref_tm *tm, struct trax_ref_tp *t
   for (unsigned i = 0; i < 3; i++)
     for (unsigned n = 0; n < operands[i].count; n++) {
       const unsigned number = (operands[i].first + n) % TRAX_NUM_REGISTERS;
-      const struct trax_ref_register *reg = &tp->scoreboard[number];
-      if (reg->usable > t) {
-        trax_ref_charge(tm, tp, t, reg->cause);
+      if (tp->scoreboard[number].usable > t) {
+        trax_ref_charge_wait(tm, tp, t, number);
         return number;
       }
     }
@@ -29,7 +28,7 @@ static unsigned wait_for_registers(struct trax_ref_tm *tm, struct trax_ref_tp *t
 static unsigned wait_for_all_registers(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
   for (unsigned rd = 1; rd < TRAX_NUM_REGISTERS; rd++)
     if (tp->scoreboard[rd].usable > t) {
-      trax_ref_charge(tm, tp, t, tp->scoreboard[rd].cause);
+      trax_ref_charge_wait(tm, tp, t, rd);
       return rd;
     }
   return 0;

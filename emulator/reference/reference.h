@@ -305,7 +305,9 @@ trax_fault_kind trax_ref_check_access(const struct trax_ref_tm *tm, const struct
 trax_fault_kind trax_ref_text(const struct trax_ref_tm *tm, uint32_t pc, uint32_t *word);
 
 /* --- For an observer (machine/observer.h): observe.c --- */
-void trax_ref_notify_charge(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp, uint64_t t, trax_cause cause);
+/* rd: the register that the TP waits for; 0: none. */
+void trax_ref_notify_charge(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp, uint64_t t, trax_cause cause,
+                            unsigned rd);
 /* The TP has issued the instruction at pc. */
 void trax_ref_notify_issue(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp, uint32_t pc, uint64_t t);
 void trax_ref_notify_arrival(const struct trax_ref_tm *tm, const struct trax_ref_request *atomic, uint64_t t);
@@ -316,6 +318,8 @@ void trax_ref_notify_miss(const struct trax_ref_chip *chip, const struct trax_re
 /* --- Accounting: accounting.c --- */
 /* Charges the TP for cycle t. At most one call per cycle. */
 void trax_ref_charge(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t, trax_cause cause);
+/* Charges a TP that waits for a register. */
+void trax_ref_charge_wait(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t, unsigned rd);
 /* Charges the TPs that are idle because they have ended or are in a branch bubble. */
 void trax_ref_charge_idle(struct trax_ref_tm *tm, uint64_t t);
 

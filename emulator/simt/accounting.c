@@ -2,6 +2,11 @@
 #include "machine/ray_cycles.h"
 #include "simt/simt.h"
 
+/* The register that a lane waits for under the cause; 0: none. */
+static unsigned register_of(const struct trax_simt_tm *tm, uint32_t lane, trax_cause cause) {
+  return trax_is_wait(cause) ? tm->lane[lane].waits_for : 0;
+}
+
 void trax_simt_charge(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint64_t set, uint64_t t,
                       trax_cause cause) {
   struct trax_tp_stats *stats = &tm->ref->machine->tp_stats[tm->ref->number * tm->ref->tps];
@@ -13,7 +18,7 @@ void trax_simt_charge(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint
     const uint32_t i = trax_simt_take(&set);
     stats[i].cycles[cause]++;
     if (is_observed)
-      trax_ref_notify_charge(tm->ref, &tm->ref->tp[i], t, cause);
+      trax_ref_notify_charge(tm->ref, &tm->ref->tp[i], t, cause, register_of(tm, i, cause));
   }
 }
 
@@ -40,7 +45,8 @@ void trax_simt_charge_cycles(const struct trax_simt_tm *tm, uint32_t lane, trax_
   struct trax_machine *machine = tm->ref->machine;
   machine->tp_stats[tm->ref->number * tm->ref->tps + lane].cycles[cause] += cycles;
   if (cycles && machine->observer && machine->observer->charge)
-    machine->observer->charge(machine->observer->context, tm->ref->number, lane, cause, since, cycles);
+    machine->observer->charge(machine->observer->context, tm->ref->number, lane, cause, register_of(tm, lane, cause),
+                              since, cycles);
 }
 
 void trax_simt_catch_up(struct trax_simt_tm *tm, uint32_t lane, uint64_t t) {

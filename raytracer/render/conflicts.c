@@ -33,6 +33,7 @@ static const char *against_rays(const struct options *options) {
                  "--samples, --paths, --occlusion or --float"},
                 {options->build.smooth || frame->one_sided || !frame->shadows, "--smooth, --one-sided or --no-shadows"},
                 {options->explain.explore, "--explore"},
+                {options->pixels.count, "--pixel"},
                 {options->ray_trace, "--ray-trace"},
                 {options->cost_picture || options->cost_values, "--cost-picture or --cost-values"},
                 {options->hits, "--hits"},
@@ -117,6 +118,8 @@ trax_status options_check(const struct options *options, trax_error *error) {
       return trax_fail(error, "--ray-cycles needs the emulator: the other engines simulate no time");
     if (options->stats)
       return trax_fail(error, "--stats needs the emulator: the other engines have no machine to tell about");
+    if (options->pixels.count)
+      return trax_fail(error, "--pixel needs the emulator: the other engines simulate no time");
     if (options->cost_picture || options->cost_values || trax_explain_wanted(&options->explain))
       return trax_fail(error, "--explore, --memory-trace, --cost-picture and --cost-values need the emulator");
     if (options->keep || options->program || options->config || options->setting_count)
@@ -140,6 +143,10 @@ trax_status options_check(const struct options *options, trax_error *error) {
     return trax_fail(error, "--cache and --source are about the specialised program; --program asks for another");
   if (options->cost && !options->cost_picture && !options->cost_values)
     return trax_fail(error, "--cost without --cost-picture or --cost-values");
+  for (unsigned i = 0; i < options->pixels.count; i++)
+    if (options->pixels.at[i][0] >= options->frame.width || options->pixels.at[i][1] >= options->frame.height)
+      return trax_fail(error, "--pixel %u,%u: the picture has %u x %u pixels, from 0,0", options->pixels.at[i][0],
+                       options->pixels.at[i][1], options->frame.width, options->frame.height);
   if (options->explain.source_folder_count && !options->explain.explore)
     return trax_fail(error, "--source-folder without --explore");
   if (options->frames > 1 &&

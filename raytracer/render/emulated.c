@@ -221,7 +221,12 @@ static trax_status run_loaded(struct trax_picture *picture, const struct job *jo
   struct shown_run shown = {{.line = job->progress, .task = "rendering"}, options->sampled ? NULL : job->live, machine};
   char title[512];
   struct trax_explain_options explain = options->explain;
+  uint32_t places[MOST_PIXELS];
   explain.note = options->quiet ? NULL : print_note;
+  explain.story_places = places;
+  explain.story_count = options->pixels.count;
+  for (unsigned i = 0; i < options->pixels.count; i++)
+    places[i] = options->pixels.at[i][1] * options->frame.width + options->pixels.at[i][0];
   struct trax_simulated_options run = {
       .explain = &explain,
       .costs = costs,

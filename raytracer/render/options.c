@@ -146,6 +146,9 @@ static const trax_option rows[] = {
                 "unless the program counts its rays anyway"},
     {"explore", .argument = "FILE.html", OUTPUT(explain.explore, NULL),
      .meaning = "writes a page that explains the whole run, pixel by pixel too, for a browser"},
+    {"pixel", .argument = "X,Y", PARSED(take_pixel, pixels),
+     .meaning = "prints the story of a pixel: its rays, functions, lines, waits and time line; also for the\n"
+                "page of --explore (repeatable)"},
     {"source-folder", .argument = "FOLDER", PARSED(take_source_folder, explain),
      .meaning = "lets that page contain the sources in FOLDER, too (repeatable)"},
     {"ray-trace", .argument = "FILE", OUTPUT(ray_trace, NULL),
@@ -255,6 +258,8 @@ trax_parsed options_parse(struct options *options, int argc, char **argv, trax_e
   options->frame.smooth = options->build.smooth;
   options->frame.floats =
       options->frame.floats || (options->output && trax_picture_is_float(options->output) && !options->layers);
+  if (options->pixels.count)
+    options->explain.story = "-";
   if (options_check(options, error) != TRAX_OK)
     return TRAX_PARSED_WRONG;
   if (options->explain.explore && options->source)

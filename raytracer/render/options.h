@@ -27,6 +27,8 @@ struct camera_options {
   uint32_t light_count; /* 0: the view's */
 };
 
+enum { MOST_PIXELS = 16 };
+
 struct options {
   const char **meshes; /* into argv */
   size_t mesh_count;
@@ -52,6 +54,10 @@ struct options {
   const char *cost;   /* what --cost-picture and --cost-values show */
   const char *cost_picture, *cost_values;
   struct trax_explain_options explain;
+  struct pixels {
+    uint32_t at[MOST_PIXELS][2]; /* x, y */
+    unsigned count;
+  } pixels;                 /* whose stories are printed */
   struct setting *settings; /* keys are copies */
   size_t setting_count;
   struct trax_import_options import; /* materials and textures */

@@ -257,8 +257,15 @@ void trax_visit_counter_init(struct trax_visit_counter *counter);
 /* Counts the accesses since the last call. */
 void trax_visit_count(struct trax_access_log *log);
 
+struct trax_explore_ray;
+
 struct trax_visits {
   uint32_t *nodes, *triangles; /* of the pixels, row by row; NULL: not known */
+  /* The rays of the pixels that are wanted, by pixel. */
+  struct trax_explore_ray *rays;
+  size_t ray_count, ray_capacity;
+  bool (*wants_rays)(const void *context, uint32_t pixel); /* NULL: none are */
+  const void *context;
 };
 
 /* The twin's, if its picture is this one; otherwise it is another program's, and they are not known. */

@@ -4,6 +4,7 @@
 #include "rays.h"
 #include "trax/explain.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 static trax_status take_picture(struct trax_picture *picture, const struct trax_frame *frame, trax_machine *machine,
@@ -23,14 +24,31 @@ static trax_status take_picture(struct trax_picture *picture, const struct trax_
   return status == TRAX_OK && options->layers ? trax_layers_take(picture, frame, bytes, error) : status;
 }
 
+static bool has_rays(const void *explain, uint32_t pixel) {
+  return trax_explain_has_rays(explain, pixel);
+}
+
+/* Names the materials by number and kind: the scene has no other names. The names must be freed. */
+static char **name_materials(const struct trax_scene *scene) {
+  static const char *const kinds[TRAX_MATERIAL_KINDS] = {"Lambert", "mirror", "glass", "GGX"};
+  enum { LENGTH = 32 };
+  char **names = calloc(scene->material_count + 1, sizeof *names + LENGTH);
+  for (uint32_t i = 0; names && i < scene->material_count; i++) {
+    names[i] = (char *)(names + scene->material_count + 1) + (size_t)i * LENGTH;
+    snprintf(names[i], LENGTH, "material %u, %s", i, kinds[scene->materials[i].kind % TRAX_MATERIAL_KINDS]);
+  }
+  return names;
+}
+
 /* Writes the outputs that explain the run. The page has the picture, and the visits of its rays. */
 static trax_status end_explanation(struct trax_explain *explain, const struct trax_picture *picture,
                                    const struct trax_frame *frame, const struct trax_simulated_options *options,
                                    trax_error *error) {
-  struct trax_visits visits = {0};
+  struct trax_visits visits = {.wants_rays = has_rays, .context = explain};
+  char **materials = NULL;
   struct trax_explore_picture shown = {.width = picture->width, .height = picture->height, .pixels = picture->pixels};
   trax_status status = TRAX_OK;
-  if (options->explain && options->explain->explore && options->is_twin) {
+  if (options->explain && (options->explain->explore || options->explain->story) && options->is_twin) {
     struct trax_render_run twin = {.interrupt = options->run.interrupt};
     status = trax_visits_count(&visits, picture, frame, &twin, error);
   }
@@ -39,6 +57,12 @@ static trax_status end_explanation(struct trax_explain *explain, const struct tr
         (struct trax_explore_counts){"nodes", "nodes", "nodes of the tree that its rays visited", visits.nodes};
     shown.counts[1] = (struct trax_explore_counts){"triangles", "triangles", "triangles that its rays were tested with",
                                                    visits.triangles};
+    materials = name_materials(frame->scene);
+    shown.rays = materials ? visits.rays : NULL;
+    shown.ray_count = materials ? visits.ray_count : 0;
+    shown.counted_apart = frame->params->features & (TRAX_PATH_FEATURES | TRAX_FEATURE_BIT(RAY_KINDS));
+    shown.materials = (const char *const *)materials;
+    shown.material_count = frame->scene->material_count;
   }
   trax_explain_picture(explain, &shown);
   if (status == TRAX_OK)
@@ -46,6 +70,7 @@ static trax_status end_explanation(struct trax_explain *explain, const struct tr
   else
     trax_explain_discard(explain);
   trax_visits_release(&visits);
+  free(materials);
   return status;
 }
 
@@ -141,7 +166,7 @@ trax_status trax_simulated_run(struct trax_picture *picture, const struct trax_f
                                const struct trax_simulated_options *options, trax_error *error) {
   struct trax_explain_options wanted = options->explain ? *options->explain : (struct trax_explain_options){0};
   struct trax_explain *explain;
-  if (options->costs || wanted.explore) {
+  if (options->costs || wanted.explore || wanted.story) {
     wanted.item_buffer = "image";
     wanted.item_bytes = trax_frame_image_bytes(frame) / (frame->params->width * frame->params->height);
   }

@@ -145,6 +145,19 @@ trax_status take_setting(void *target, const trax_option *option, const char *va
   return TRAX_OK;
 }
 
+trax_status take_pixel(void *target, const trax_option *option, const char *value, trax_error *error) {
+  struct pixels *pixels = member(target, option);
+  unsigned x, y;
+  char rest;
+  if (sscanf(value, "%5u,%5u%c", &x, &y, &rest) != 2 || value[strspn(value, "0123456789,")])
+    return trax_option_refuse(option, value, error, "is not of the form X,Y, numbers from 0");
+  if (pixels->count == MOST_PIXELS)
+    return trax_fail(error, "--pixel %s is one too many: %d pixels are possible", value, MOST_PIXELS);
+  pixels->at[pixels->count][0] = x;
+  pixels->at[pixels->count++][1] = y;
+  return TRAX_OK;
+}
+
 trax_status take_source_folder(void *target, const trax_option *option, const char *value, trax_error *error) {
   trax_error reason;
   return trax_explain_add_source_folder(member(target, option), value, &reason) == TRAX_OK

@@ -16,6 +16,7 @@ PARSER(take_turn);          /* double, degrees */
 PARSER(take_share);         /* double, above 0 to 1 */
 PARSER(take_percent);       /* the same, from per cent */
 PARSER(take_colour);        /* uint32_t, a pixel */
+PARSER(take_pixel);         /* struct pixels */
 PARSER(take_source_folder); /* struct trax_explain_options */
 PARSER(take_cost);          /* const char * that trax_cost_find knows */
 /* These set several members of struct options. */

@@ -1,6 +1,8 @@
 /* Counts the nodes and triangles that each pixel's rays visit, by the native twin. */
 #include "../device/camera.h"
 #include "render.h"
+#include "trax/explain.h"
+#include "trax/grow.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -22,6 +24,9 @@ struct pixel_counter {
   struct trax_visit_counter counter; /* first: the log's functions get its address */
   const struct trax_render_params *params;
   struct trax_visits *visits;
+  const struct trax_scene *scene;
+  uint32_t nodes, triangles; /* of the slot's earlier rays */
+  bool out_of_memory;
 };
 
 static void end_slot(struct trax_access_log *log, uint32_t slot, uint32_t rays) {
@@ -30,12 +35,58 @@ static void end_slot(struct trax_access_log *log, uint32_t slot, uint32_t rays) 
   struct pixel pixel;
   (void)rays;
   trax_visit_count(log);
+  counter->nodes += pixels->nodes, counter->triangles += pixels->triangles;
+  pixels->nodes = pixels->triangles = 0;
   if (slot_pixel(pixels->params, slot, &pixel)) {
     const size_t number = (size_t)pixel_y(pixel) * pixels->params->width + pixel_x(pixel);
     pixels->visits->nodes[number] = counter->nodes;
     pixels->visits->triangles[number] = counter->triangles;
   }
   counter->nodes = counter->triangles = 0;
+}
+
+static void end_ray(struct trax_access_log *log, const struct trax_traced_ray *ray) {
+  struct pixel_counter *pixels = (struct pixel_counter *)log;
+  struct trax_visit_counter *counter = &pixels->counter;
+  struct trax_visits *visits = pixels->visits;
+  const uint32_t place = (ray->pixel >> 16) * pixels->params->width + (ray->pixel & 0xffff);
+  trax_visit_count(log);
+  struct trax_explore_ray known = {.place = place,
+                                   .nodes = counter->nodes,
+                                   .triangles = counter->triangles,
+                                   .kind = (uint8_t)ray->kind,
+                                   .hit = ray->found != 0,
+                                   .material = TRAX_NO_MATERIAL};
+  pixels->nodes += counter->nodes, pixels->triangles += counter->triangles;
+  counter->nodes = counter->triangles = 0;
+  if (!visits->wants_rays(visits->context, place))
+    return;
+  if (ray->triangle)
+    known.material = ((const struct trax_triangle *)((const char *)pixels->scene->bytes + ray->triangle))->material;
+  if (trax_grow((void **)&visits->rays, visits->ray_count, &visits->ray_capacity, sizeof *visits->rays))
+    visits->rays[visits->ray_count++] = known;
+  else
+    pixels->out_of_memory = true;
+}
+
+/* Sorts the rays by their pixel; those of one stay in their order. */
+static bool sort_rays(struct trax_visits *visits, size_t pixels) {
+  struct trax_explore_ray *sorted = malloc((visits->ray_count + 1) * sizeof *sorted);
+  size_t *next = calloc(pixels + 1, sizeof *next);
+  if (sorted && next) {
+    for (size_t i = 0; i < visits->ray_count; i++)
+      next[visits->rays[i].place + 1]++;
+    for (size_t i = 0; i < pixels; i++)
+      next[i + 1] += next[i];
+    for (size_t i = 0; i < visits->ray_count; i++)
+      sorted[next[visits->rays[i].place]++] = visits->rays[i];
+    free(visits->rays);
+    visits->rays = sorted;
+  } else {
+    free(sorted);
+  }
+  free(next);
+  return sorted && next;
 }
 
 trax_status trax_visits_count(struct trax_visits *visits, const struct trax_picture *picture,
@@ -51,11 +102,16 @@ trax_status trax_visits_count(struct trax_visits *visits, const struct trax_pict
   } else {
     trax_visit_counter_init(&counter->counter);
     counter->counter.log.slot = end_slot;
+    if (visits->wants_rays)
+      counter->counter.log.ray = end_ray;
+    counter->scene = frame->scene;
     counter->params = frame->params;
     counter->visits = visits;
     struct trax_render_run logged = *run;
     logged.accesses = &counter->counter.log;
     status = trax_render_twin(&twin, frame, 1, &logged, error);
+    if (status == TRAX_OK && visits->wants_rays && (counter->out_of_memory || !sort_rays(visits, pixels)))
+      status = trax_fail(error, "out of memory for the rays of %zu pixels", pixels);
   }
   free(counter);
   const bool same = status == TRAX_OK && memcmp(twin.pixels, picture->pixels, pixels * sizeof *twin.pixels) == 0;
@@ -68,5 +124,6 @@ trax_status trax_visits_count(struct trax_visits *visits, const struct trax_pict
 void trax_visits_release(struct trax_visits *visits) {
   free(visits->nodes);
   free(visits->triangles);
+  free(visits->rays);
   *visits = (struct trax_visits){0};
 }

@@ -74,7 +74,7 @@ def simulator():
     windowed = ("--window", "0:10")
     outputs = [option("report"), option("stats"), option("signature"), option("explore"), option("profile"),
                option("profile-folded"),
-               option("heat"), option("heat-lines"), option("items"),
+               option("heat"), option("heat-lines"), option("waits"), option("items"),
                option("ray-kinds"), option("ray-cycles"),
                option("series"), option("trace"),
                option("perfetto", *windowed), option("post-mortem"), option("checkpoint"), option("gdb-symbols"),

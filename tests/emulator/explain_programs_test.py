@@ -90,6 +90,60 @@ class Programs(unittest.TestCase):
         }
 
 
+class Waits(Programs):
+    def test_both_ends(self):
+        """The first line takes the bus for 4 cycles and 100 more, the second one comes 4 cycles later. The loads are
+        issued in t and t + 1, the sum of both in t + 108: from t + 2 it waits 102 cycles for the first and 4 for the
+        second. A hit has a latency of 3 here. An increment comes after 101 cycles, and so does the end of a store."""
+        (self.folder / "waits.s").write_text("""
+              .globl _start
+            _start:
+              la r1, first
+              lw r2, 0(r1)
+              lw r3, 64(r1)
+              add r4, r2, r3
+              lw r5, 4(r1)
+              add r6, r5, r5
+              ainc r7, 8(r1)
+              add r8, r7, r7
+              swnt r8, 72(r1)
+              fence w
+              halt
+              .bss
+              .balign 64
+              .type first, @object
+              .size first, 64
+            first: .zero 64
+              .type second, @object
+              .size second, 64
+            second: .zero 64
+            """)
+        command = [BIN / "clang", "--target=trax", "-nostdlib", "waits.s", "-o", "waits"]
+        subprocess.run(command, cwd=self.folder, check=True)
+        at, expected = 0x1008, []  # after the two instructions of la
+        for awaited, name, waiting, cause, cycles in (
+            (0, "first", 2, "wait_memory", 102),
+            (1, "second", 2, "wait_memory", 4),
+            (3, "first", 4, "wait_dcache_hit", 2),
+            (5, "first", 6, "wait_atomic", 100),
+            (8, "", 8, "wait_memory", 101),
+        ):
+            expected.append((at + 4 * awaited, name, at + 4 * waiting, {cause: cycles}))
+        settings = ["--quiet", "--set", "dcache.hit_latency_cycles=3", "--set", "icache.line_bytes=1024"]
+        for engine in "reference", "fast", "simt":
+            self.run_sim(*settings, "--engine", engine, "--waits", "waits.csv", "waits")
+            found = [
+                (
+                    int(row["address"], 16),
+                    row["object"],
+                    int(row["waiting_address"], 16),
+                    {name: int(row[name]) for name in row if row[name].isdigit() and row[name] != "0"},
+                )
+                for row in csv.DictReader((self.folder / "waits.csv").read_text().splitlines())
+            ]
+            self.assertEqual(found, expected, engine)
+
+
 class Stacks(Programs):
     def many_stacks(self, text, all_of):
         """As many stacks as calls are not kept; what is kept adds up."""

@@ -17,7 +17,7 @@ import checking  # noqa: E402
 from checking import check, equal  # noqa: E402
 
 SIM, PROGRAM, DEEP, WRITE_PROGRAMS = (str(pathlib.Path(p).resolve()) for p in sys.argv[1:5])
-FILES = ["explore", "profile", "profile-folded", "heat", "heat-lines", "items", "series", "trace", "perfetto"]
+FILES = ["explore", "profile", "profile-folded", "heat", "heat-lines", "waits", "items", "series", "trace", "perfetto"]
 RESULTS = 400  # words
 
 
@@ -209,6 +209,25 @@ def check_heat(directory, stats):
     check("table" in objects, "the table is stored to")
 
 
+def check_waits(directory, stats):
+    """Both views of a wait: by what is waited for, and by the instruction that waits, as the page has it."""
+    waits = rows(directory, "waits")
+    columns = [name for name in waits[0] if name in stats["causes"]]
+    total, waiting = collections.Counter(), collections.Counter()
+    for row in waits:
+        cost = numbers(row, columns)
+        total.update(cost)
+        waiting.update({(row["waiting_address"], name): cycles for name, cycles in cost.items()})
+        equal(bool(row["object"]), not cost["wait_special"], "the object of", row)  # divisions access none
+    equal(columns, [name for name in stats["causes"] if name.startswith("wait_") or name == "dcache_bank_conflict"])
+    equal(dict(total), {name: stats["causes"][name] for name in columns}, "waits")
+    causes = list(stats["causes"])
+    page = {(f"0x{one[0]:08x}", name): one[5][causes.index(name)] for one in page_data(directory)["instructions"]
+            if one and one[0] is not None for name in columns if one[5][causes.index(name)]}
+    equal(dict(+waiting), page, "waits by the instruction that waits")
+    equal(page_data(directory)["waits"], read(directory, "waits"), "waits of the page")
+
+
 def check_items(directory, stats):
     causes, places, ends = collections.Counter(), [], {}
     for row in rows(directory, "items"):
@@ -331,6 +350,7 @@ def main():
     check_folded(here, stats)
     check_trace_and_page(here, stats)
     check_heat(here, stats)
+    check_waits(here, stats)
     check_items(here, stats)
     check_series(here, stats)
     causes = check_perfetto(here, 0, stats["cycles"])

@@ -104,7 +104,9 @@ CASES = {
     "profile-folded": Case(["out.txt"], file_holds("out.txt", r" \d+\n"), bad=FILES, twice="b"), "profile-sample": Case(
         ["out.txt"], file_holds("out.txt", r"^outer:\d+:\d+\n"), "abort.elf", 134, bad=FILES,
         twice="b"), "heat": Case(["out.txt"], file_holds("out.txt", ","), bad=FILES,
-                                 twice="b"), "heat-lines": Case(["out.txt"], file_holds("out.txt", ","), bad=FILES,
+                                 twice="b"), "waits": Case(["out.txt"], file_holds("out.txt", ","),
+                                                           bad=FILES, twice="b"),
+    "heat-lines": Case(["out.txt"], file_holds("out.txt", ","), bad=FILES,
                                                                 twice="b"), "items": Case(["out.txt"],
                                                                                           file_holds("out.txt",
                                                                                                      ","), "items.elf",

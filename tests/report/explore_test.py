@@ -57,7 +57,8 @@ def setUpModule():
     render(folder, "--mark-rays", "-o", "p.png", "--keep", "run", "--explore", "p.html", "--stats", "p.json",
            "--cost-values", "p.csv")
     simulate(folder, "run/manifest.json", "--explore", "q.html", "--stats", "q.json", "--heat", "heat.csv",
-             "--ray-kinds", "rays.csv", "--profile-folded", "folded", "--items", "items.csv", "--item-buffer", "image")
+             "--waits", "waits.csv", "--ray-kinds", "rays.csv", "--profile-folded", "folded", "--items", "items.csv",
+             "--item-buffer", "image")
 
 
 class Data(Scratch):
@@ -91,6 +92,11 @@ class Data(Scratch):
             self.assertTrue(
                 any(path.endswith("traverse.h") and "visit_node" in text for path, text in data["sources"].items()))
         self.assertEqual(data["heat"], self.text("heat.csv"))
+        self.assertEqual(data["waits"], self.text("waits.csv"))
+        # trax-render also knows the parts of the scene.
+        waits = [row for row in csv.DictReader(io.StringIO(unpack(self.folder / "p.html")[0]["waits"]))]
+        self.assertEqual(sum(int(row["wait_memory"]) for row in waits), written["causes"]["wait_memory"])
+        self.assertIn("scene: nodes", {row["object"] for row in waits if row["wait_memory"] != "0"})
         self.assertEqual(data["ray_kinds"], self.text("rays.csv"))
         self.assertEqual(data["folded"], self.text("folded"))
 
@@ -208,6 +214,123 @@ class Data(Scratch):
         self.assertEqual(sum(1 for thread in columns[".thread"] if thread), done)
 
 
+class Stories(Scratch):
+    """The story of a pixel against the other outputs: rays, instructions, time line, text."""
+
+    def check_stories(self, data, columns, everything):
+        """Each story has the charges of its pixel, in all of its parts."""
+        names = list(data["stats"]["causes"])
+        stories = [one for one in data["stories"] if one]
+        for story in stories:
+            expected = [columns.get(f"causes.{name}", [0] * (story["place"] + 1))[story["place"]] for name in names]
+            for part, skipped in ("code", 1), ("rays", 2), ("time", 1):
+                self.assertEqual([sum(row[skipped + i] for row in story[part]) for i in range(len(names))], expected,
+                                 (part, story["place"]))
+            self.assertEqual([story["cycles"], story["begin"]], [sum(expected), columns[".begin"][story["place"]]])
+            self.assertLess(len(story["time"]), 97)
+            rays = data["rays"][story["place"]]
+            self.assertEqual([(ray[0], sum(ray[2:]), ray[2]) for ray in story["rays"][1:]],
+                             [(ray["kind"], ray["cycles"], ray["instructions"]) for ray in rays])
+        if everything:
+            by_pc = collections.Counter()
+            for story in stories:
+                for pc, *cycles in story["code"]:
+                    by_pc.update({(pc, name): count for name, count in zip(names, cycles)})
+            run = {(one[0], name): count for one in filter(None, data["instructions"])
+                   for name, count in zip(names, one[5])}
+            self.assertFalse([key for key, count in by_pc.items() if count > run[key]])
+            for name in names:
+                self.assertEqual(sum(count for key, count in by_pc.items() if key[1] == name) +
+                                 data["picture"]["elsewhere"][name], data["stats"]["causes"][name], name)
+        return stories
+
+    def test_costliest(self):
+        data, columns = unpack(self.folder / "p.html")
+        stories = self.check_stories(data, columns, False)
+        costs = [sum(values) for values in zip(*(columns[name] for name in columns if name.startswith("causes.")))]
+        self.assertEqual([story["cycles"] for story in stories], sorted(costs, reverse=True)[:24])
+
+    def test_rays(self):
+        """All rays of the picture are those of the trace, and add up to the pixels' counts and to the kinds' costs."""
+        data, columns = unpack(self.folder / "p.html")
+        render(self.folder, "--ray-trace", "rays.trace.csv")
+        traced = [[] for _ in range(WIDTH * HEIGHT)]
+        for row in csv.DictReader(io.StringIO(self.text("rays.trace.csv"))):
+            traced[int(row["y"]) * WIDTH + int(row["x"])].append(
+                [row["kind"], *(int(row[name]) for name in ("hit", "nodes", "triangles"))])
+        kinds = data["picture"]["rays"]["kinds"]
+        self.assertEqual([[[kinds[ray["kind"]], ray["hit"], ray["nodes"], ray["triangles"]] for ray in rays]
+                          for rays in data["rays"]], traced)
+        for name in "nodes", "triangles":
+            self.assertEqual([sum(ray[name] for ray in rays) for rays in data["rays"]], columns[f"counts.{name}"])
+        self.assertTrue(all(ray["material"] for rays in data["rays"] for ray in rays if ray["hit"] and not ray["kind"]))
+        table = {row["kind"]: row for row in csv.DictReader(io.StringIO(self.text("rays.csv")))}
+        for number, kind in enumerate(kinds):
+            mine = [ray for rays in data["rays"] for ray in rays if ray["kind"] == number]
+            self.assertEqual([len(mine), sum(ray["cycles"] for ray in mine), sum(ray["instructions"] for ray in mine)],
+                             [int(table[kind][name]) for name in ("rays", "thread_cycles", "issued")], kind)
+
+    def test_all_pixels(self):
+        """A picture of 24 pixels, whose stories are all kept: also of pixels that a thread's log is too short for."""
+        machine = ["--set", "chip.tms=1", "--set", "chip.tps_per_tm=2"]
+        paths = ["--size", "6x4", "--paths", "3", "--samples", "16", *machine]
+        render(self.folder, *paths, "--explore", "paths.html")
+        stories = self.check_stories(*unpack(self.folder / "paths.html"), True)
+        self.assertEqual(len(stories), 24)
+        self.assertGreater(max(story["cycles"] for story in stories), 2 << 15)
+        for engine in "reference", "fast":
+            render(self.folder, "--size", "6x4", "--mark-rays", *machine, "--engine", engine, "--explore", engine)
+        self.assertEqual(self.text("fast"), self.text("reference"))
+        self.check_stories(*unpack(self.folder / "fast"), True)
+
+    def test_text(self):
+        words = ["--mark-rays", "--pixel", "3,20", "--pixel", "17,5", "--explore", "chosen.html"]
+        process = subprocess.run([
+            BIN / "trax-render", SOURCE / "tests/render/box.obj", "--view", SOURCE / "tests/render/box.view", "--size",
+            f"{WIDTH}x{HEIGHT}", "-q", *words], cwd=self.folder, check=True, capture_output=True, text=True)
+        data, columns = unpack(self.folder / "chosen.html")
+        names = list(data["stats"]["causes"])
+        self.check_stories(data, columns, False)
+        chosen = [20 * WIDTH + 3, 5 * WIDTH + 17]
+        self.assertEqual({story["place"] for story in data["stories"][:2]}, set(chosen))
+        stories = sorted(data["stories"][:2], key=lambda story: chosen.index(story["place"]))
+        for story, text in zip(stories, process.stdout.split("\n\nPixel")):
+            cycles, x, y = story["cycles"], story["place"] % WIDTH, story["place"] // WIDTH
+            parts = text.split("\n\n")
+            self.assertIn(f"({x}, {y}): {cycles} cycles, {sum(row[1] for row in story['code'])} instructions", parts[0])
+            self.assertIn(f"Thread {story['thread']} ", parts[0])
+            self.assertIn(f"cycles {story['begin']} to {story['begin'] + cycles} ", parts[0])
+            for ray, line in zip(data["rays"][story["place"]], parts[1].splitlines()[2:]):
+                found = re.match(r"  (\w+) +(.*?) +(\d+) +(\d+) +(\d+) +[\d.]+ % +(\d+)  ", line)
+                self.assertEqual([int(number) for number in found.groups()[2:]],
+                                 [ray[name] for name in ("nodes", "triangles", "cycles", "instructions")])
+                material = data["picture"]["rays"]["materials"][ray["material"] - 1] if ray["material"] else "no"
+                self.assertEqual(found[2], "yes" if ray["hit"] and not ray["material"] else material)
+            causes = {line.split()[0]: int(line.split()[1]) for line in parts[2].splitlines()[1:]}
+            self.assertEqual(causes, {name: total for i, name in enumerate(names)
+                                      if (total := sum(row[1 + i] for row in story["code"]))})
+            functions = collections.Counter()
+            places = {one[0]: data["names"][one[4][0][0]] for one in filter(None, data["instructions"])}
+            for pc, *counts in story["code"]:
+                functions[places[pc]] += sum(counts)
+            shown = {line.split()[0]: int(line.split()[1]) for line in parts[3].splitlines()[1:13]}
+            self.assertEqual(shown, dict(sorted(functions.items(), key=lambda one: (-one[1], one[0]))[:12]) |
+                             {name: functions[name] for name in shown})
+            self.assertEqual(sum(int(re.split(r" +", line)[2]) for line in parts[5].splitlines()[1:]), cycles)
+
+    def test_wrong(self):
+        for words, message in ((("--pixel", "48,0"), "the picture has 48 x 27 pixels"), (("--pixel", "1;2"), "X,Y"),
+                               (("--pixel", "1,-2"), "X,Y"), (("--pixel", "1,2", "--engine", "native"), "emulator"),
+                               (["--pixel", "1,2"] * 17, "16 pixels")):
+            result = render(self.folder, *words, check=False)
+            self.assertEqual(result.returncode, 1, words)
+            self.assertIn(message, result.stderr)
+        # Rays that are counted together have no cycles of their own.
+        render(self.folder, "--explore", "together.html")
+        data, _ = unpack(self.folder / "together.html")
+        self.assertNotIn("cycles", data["picture"]["rays"]["fields"])
+
+
 class Page(PageTests, Scratch):
     KEEP, CLOSELY = KEEP, "whole"
     MARGIN, PAPER, WIDE = 22, (3, 15), "table, canvas, svg"
@@ -286,7 +409,8 @@ class Page(PageTests, Scratch):
             )
             self.assertEqual(
                 [one for one, height in sections if height > 60],
-                ["causes", "time", "picture", "source", "calls", "hardware", "objects", "rays", "statistics"], name)
+                ["causes", "time", "picture", "source", "calls", "hardware", "objects", "waits", "rays", "statistics"],
+                name)
             self.assertEqual(self.browser.run("document.querySelectorAll('#time svg polygon').length"),
                              sum(1 for cycles in stats["causes"].values() if cycles))
             self.assertEqual(stats["partial"], "did not finish"
@@ -367,7 +491,7 @@ class Page(PageTests, Scratch):
 
     def test_story(self):
         self.load("whole")
-        _, columns = unpack(self.folder / "p.html")
+        data, columns = unpack(self.folder / "p.html")
         causes = {name[len("causes."):]: values for name, values in columns.items() if name.startswith("causes.")}
         box = self.browser.run(
             "(e => { e.scrollIntoView({block: 'center'}); const b = e.getBoundingClientRect(); return [b.x, b.y, "
@@ -409,6 +533,26 @@ class Page(PageTests, Scratch):
         for key in ("ArrowRight", "ArrowDown", "Enter"):
             self.key(key)
         check(x + 1, y + 1)
+        self.assertIn(f"trax-render --pixel {x + 1},{y + 1}.", self.browser.run(
+            "document.getElementById('story-more').innerText"))
+        # The costliest pixel: its rays, and its costliest function and line.
+        self.browser.run("document.querySelector('#costliest tbody button').click()")
+        rows = lambda name: self.browser.run(  # noqa: E731
+            f"Array.from(document.querySelectorAll('#{name} tbody tr'), row => Array.from(row.cells, one => "
+            "one.textContent))")
+        place = tuple(map(int, re.findall(r"\d+", self.browser.run(
+            "document.querySelector('#costliest tbody button').textContent"))))
+        story = next(one for one in data["stories"] if one["place"] == place[1] * WIDTH + place[0])
+        self.assertEqual([[row[4], row[6]] for row in rows("story-rays")],
+                         [[f"{ray['cycles']:,}", f"{ray['instructions']:,}"] for ray in data["rays"][story["place"]]])
+        frames = {one[0]: one[4][0] for one in filter(None, data["instructions"])}
+        for table, part in ("story-functions", 0), ("story-lines", 1):
+            sums = collections.Counter()
+            for pc, *cycles in story["code"]:
+                sums[data["names"][frames[pc][part]]] += sum(cycles)
+            self.assertEqual([row[1] for row in rows(table)], [f"{count:,}" for _, count in sums.most_common(10)])
+        self.assertEqual(self.browser.run("document.querySelectorAll('#story-more svg .axis').length"),
+                         len(story["rays"]))  # the rays' begins, and the axis
         # What is shown by colour is the chosen cost.
         self.browser.run(
             "(s => { s.value = Array.from(s.options).find(o => o.text === 'nodes').value; s.dispatchEvent(new "
@@ -467,7 +611,7 @@ class Page(PageTests, Scratch):
         self.browser.run("document.querySelector('#lines-table tbody button').click()")
         row = self.browser.run(
             "(row => [row.dataset.line, row.cells[1].textContent, "
-            "row.cells[5].textContent])(document.querySelector('#listing tr[aria-expanded=true]'))"
+            "row.cells[6].textContent])(document.querySelector('#listing tr[aria-expanded=true]'))"
         )
         path, number = hottest.rsplit(":", 1)
         self.assertEqual(
@@ -477,12 +621,24 @@ class Page(PageTests, Scratch):
         mine = [one for one in filter(None, data["instructions"]) if data["names"][one[4][0][1]] == hottest]
         below = self.browser.run(
             "Array.from(document.querySelectorAll('#listing tr.instruction'), row => [row.cells[0].textContent, "
-            "row.cells[3].textContent, row.cells[5].textContent])"
+            "row.cells[3].textContent, row.cells[6].textContent])"
         )
         self.assertEqual([(pc, issued) for pc, issued, _ in below],
                          [(f"{one[0]:08x}", f"{one[5][0]:,}") for one in mine])
         for (_, _, text), one in zip(below, mine):
             self.assertTrue(text.startswith(one[1]), text)
+        # What is waited for, by line: in the table of lines, in the listing, and the first row of their own table.
+        awaited = collections.Counter()
+        for wait in csv.DictReader(io.StringIO(data["waits"])):
+            awaited[wait["line"]] += sum(int(value) for name, value in wait.items() if name in data["stats"]["causes"])
+        share = f"{100 * awaited[hottest] / total:.1f} %"
+        for row in "#listing tr[aria-expanded=true]", "#lines-table tbody tr":
+            self.assertEqual(self.browser.run(f"document.querySelector('{row}').cells[5].textContent"), share)
+        most, cycles = max(awaited.items(), key=lambda line: line[1])
+        self.assertEqual(
+            self.browser.run("(row => [row.cells[0].textContent, row.cells[3].textContent])("
+                             "document.querySelector('#waits-table tbody tr'))"),
+            [pathlib.Path(most).name, f"{100 * cycles / total:.1f} %"])
         tree = self.browser.run("document.getElementById('calls-tree').innerText")
         for name in ("_start", "main", "trace_ray"):
             self.assertIn(name, tree)

@@ -42,17 +42,23 @@ static void record_issue(void *context, const struct trax_issue *issue) {
   issues->issue[issues->count++] = *issue;
 }
 
-static void record_charge(void *context, uint32_t tm, uint32_t tp, trax_cause cause, uint64_t since, uint64_t cycles) {
+static void record_charge(void *context, uint32_t tm, uint32_t tp, trax_cause cause, unsigned rd, uint64_t since,
+                          uint64_t cycles) {
   struct bench_told *thread = told(context, tm, tp);
   assert_int_equal(since, thread->until);
   assert_true(cycles > 0 && cause != TRAX_CAUSE_ISSUED);
+  assert_true(!rd || trax_is_wait(cause)); /* a fence also waits for stores, which have no register */
+  thread->waits[rd] += rd ? cycles : 0;
   thread->until += cycles;
   thread->cycles[cause] += cycles;
 }
 
+bool bench_ahead;
+
 void bench_run_observed(struct bench *bench, const trax_run_options *options) {
   struct trax_machine *machine = bench->machine;
-  const struct trax_observer observer = {.context = bench, .issue = record_issue, .charge = record_charge};
+  const struct trax_observer observer = {
+      .context = bench, .ahead = bench_ahead, .issue = record_issue, .charge = record_charge};
   machine->observer = &observer;
   bench->status = trax_machine_run(machine, options, &bench->error);
   machine->observer = NULL;

@@ -237,6 +237,31 @@ static bool has_value(uint32_t word) {
          inst.op == TRAX_OP_TRAP;
 }
 
+bool different_waits(struct difference *to, const struct bench *a, const struct bench *b) {
+  for (uint32_t thread = 0; thread < a->machine->stats.threads; thread++)
+    for (unsigned rd = 0; rd < TRAX_NUM_REGISTERS; rd++)
+      if (a->told[thread].waits[rd] != b->told[thread].waits[rd])
+        return differs(to, "thread %u waits %llu and %llu cycles for r%u", thread,
+                       (unsigned long long)a->told[thread].waits[rd], (unsigned long long)b->told[thread].waits[rd],
+                       rd);
+  return false;
+}
+
+/* Leaves what an observer is told that lets the engine execute ahead. */
+static void reduce(struct trax_issue *issue) {
+  const trax_inst inst = trax_decode(issue->word);
+  const unsigned flags = trax_op_table[inst.op].flags;
+  if (trax_op_table[inst.op].access_bytes && issue->address >= TRAX_LOCAL_BASE)
+    issue->address = TRAX_LOCAL_BASE;
+  if (inst.op != TRAX_OP_TRAP && !(flags & TRAX_WRITES_RD && inst.rd == TRAX_STACK_POINTER))
+    issue->result = 0;
+}
+
+void reduce_issues(struct bench_issues *issues) {
+  for (size_t i = 0; i < issues->count; i++)
+    reduce(&issues->issue[i]);
+}
+
 bool different_issues(struct difference *to, const struct bench_issues *a, const struct bench_issues *b) {
   for (size_t i = 0; i < a->count && i < b->count; i++) {
     const struct trax_issue *x = &a->issue[i], *y = &b->issue[i];

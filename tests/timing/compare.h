@@ -47,6 +47,10 @@ struct difference {
 __attribute__((format(printf, 2, 3))) bool differs(struct difference *to, const char *format, ...);
 bool different_number(struct difference *to, const char *name, uint64_t x, uint64_t y);
 bool different_bytes(struct difference *to, const char *name, const void *x, const void *y, size_t size);
+/* Whether observers were told that a thread waited for other registers. */
+bool different_waits(struct difference *to, const struct bench *a, const struct bench *b);
+/* Reduces the reference's issues to those of an observer that lets the engine execute ahead. */
+void reduce_issues(struct bench_issues *issues);
 bool different_issues(struct difference *to, const struct bench_issues *a, const struct bench_issues *b);
 /* Outcome, cycles, every count and charge, memory and output. */
 bool different_runs(struct difference *to, const struct run *a, const struct run *b);

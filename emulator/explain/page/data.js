@@ -24,21 +24,26 @@ function rowsOf(csv) {
   });
 }
 
-// Each column of the picture, of LEB128 numbers.
-function columnsOf(picture, bytes) {
-  const pixels = picture.width * picture.height, columns = {};
+// Reads LEB128 numbers, one after another.
+function numbersIn(bytes) {
   let at = 0;
+  return () => {
+    let value = 0, scale = 1, byte;
+    do {
+      byte = bytes[at++];
+      value += (byte & 127) * scale;
+      scale *= 128;
+    } while (byte >= 128);
+    return value;
+  };
+}
+
+// Each column of the picture.
+function columnsOf(picture, next) {
+  const pixels = picture.width * picture.height, columns = {};
   for (const [group, name, unit, meaning] of picture.columns.filter((column) => column)) {
     const values = new Float64Array(pixels);
-    for (let i = 0; i < pixels; i++) {
-      let value = 0, scale = 1, byte;
-      do {
-        byte = bytes[at++];
-        value += (byte & 127) * scale;
-        scale *= 128;
-      } while (byte >= 128);
-      values[i] = value;
-    }
+    for (let i = 0; i < pixels; i++) values[i] = next();
     columns[group ? `${group}.${name}` : name] = { group, name, unit, meaning, values };
   }
   return columns;

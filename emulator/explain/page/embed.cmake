@@ -3,7 +3,7 @@
 file(READ ${FOLDER}/page.html page)
 file(READ ${FOLDER}/page.css style)
 set(scripts)
-foreach(name data length cycles picture source tables navigation start)
+foreach(name data length cycles story picture source tables waits navigation start)
   file(READ ${FOLDER}/${name}.js text)
   string(APPEND scripts "${text}")
 endforeach()

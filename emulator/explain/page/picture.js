@@ -7,7 +7,8 @@ function rampAt(share) {
   return RAMP[step].map((from, channel) => from + (RAMP[step + 1][channel] - from) * part);
 }
 
-function drawPicture({ stats, run, causes, columns }) {
+function drawPicture(all) {
+  const { stats, run, causes, columns } = all;
   const section = byId("picture");
   if (!run.picture) { section.remove(); return; }
   const { width, height } = run.picture, pixels = width * height;
@@ -123,8 +124,9 @@ function drawPicture({ stats, run, causes, columns }) {
       return [[element("span", {}, element("i", { class: "swatch", style: `--c: ${colour}` }), name), name], [whole(own[name]), own[name]],
         [percent(own[name] / cycles[i]), own[name]], [digits(own[name] / mean, 2), own[name] / mean]];
     }));
+    tellStory(all, i, cycles[i]);
   };
-  const pin = (i) => { pinned = i; mark(); if (i < 0) hint(); else story(i); };
+  const pin = (i) => { pinned = i; mark(); byId("story-more").replaceChildren(); if (i < 0) hint(); else story(i); };
   const hint = () => byId("story").replaceChildren(element("p", { class: "soft" }, "No pixel is chosen."));
   const move = (i, x, y) => {
     const more = now === costs ? "" : `\ncycles ${whole(cycles[i])}`;

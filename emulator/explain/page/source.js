@@ -23,7 +23,10 @@ const numberOf = (name) => Number(name.slice(name.lastIndexOf(":") + 1));
 const hex = (pc) => pc === null ? "" : pc.toString(16).padStart(8, "0");
 const cell = (style, ...content) => element("td", { class: style }, ...content);
 
-function drawSource({ stats, run, causes, lines }) {
+function drawSource({ stats, run, causes, lines, waits }) {
+  const awaited = new Map([...waitsBy(waits, ({ line }) => line), ...waitsBy(waits, ({ address }) => Number(address))]
+    .map((one) => [one.key, one.total]));
+  const awaitedText = (key) => awaited.has(key) ? percent(awaited.get(key) / stats.thread_cycles) : "";
   const totalOf = (line) => line.total / stats.thread_cycles;
   const named = lines.filter((line) => line.name), files = new Map();
   for (const line of lines) {
@@ -32,13 +35,15 @@ function drawSource({ stats, run, causes, lines }) {
   }
   const ranked = [...files.entries()].sort((a, b) => b[1] - a[1]);
   const textOf = (name) => (run.sources[fileOf(name)] ?? "").split("\n")[numberOf(name) - 1]?.trim() ?? "";
-  const heads = [["line"], ["share", "n"], ["causes", "bar"], ["instructions", "n"], ["loads that hit", "n"], ["text", "clip"]];
+  const heads = [["line"], ["share", "n"], ["causes", "bar"], ["instructions", "n"], ["loads that hit", "n"], ["awaited", "n"],
+    ["text", "clip"]];
   fillTable("lines-table", "The costliest lines", heads, named.slice(0, 12).map((line) => [
     [element("button", { type: "button", class: "code", onclick: () => run.openLine(line.name) }, locationOf(run, line.name)), line.name],
     [percent(totalOf(line)), line.total],
     stack(causes, line.cycles, named[0].total),
     [whole(line.issued), line.issued],
     line.loads ? [percent(line.hits / line.loads), line.hits / line.loads] : [element("span", { class: "soft" }, "no load"), -1],
+    [awaitedText(line.name), awaited.get(line.name) ?? 0],
     element("code", {}, textOf(line.name))]));
 
   const choice = byId("source-file");
@@ -52,6 +57,7 @@ function drawSource({ stats, run, causes, lines }) {
     cell("bar", stack(causes, one.own, run.widest, "thin")),
     cell("n", whole(one.own.issued)),
     cell("n", one.loads ? percent(one.hits / one.loads) : ""),
+    cell("n", awaitedText(one.pc)),
     cell("code", one.text || "(no text)",
       element("span", { class: "soft" }, `   ${one.frames.map(([name]) => run.names[name]).join(" in ")}`)));
   const rowOf = (number, text, line) => {
@@ -66,6 +72,7 @@ function drawSource({ stats, run, causes, lines }) {
     cell("bar", line ? stack(causes, line.cycles, run.widest) : ""),
     cell("n", line ? whole(line.issued) : ""),
     cell("n", line?.loads ? percent(line.hits / line.loads) : ""),
+    cell("n", line ? awaitedText(line.name) : ""),
     cell("code", text));
     if (!line) return row;
     const below = line.instructions.map(instructionRow);
@@ -92,7 +99,7 @@ function drawSource({ stats, run, causes, lines }) {
       : text.replace(/\n$/, "").split("\n").map((line, i) => rowOf(i + 1, line, own.get(i + 1)));
     const missing = text === undefined && file;
     byId("source-note").textContent = missing ? `${file} is not in this page: its lines have numbers only.` : file ?? "";
-    const titles = ["line", "share", "causes", "instructions", "loads that hit", ""];
+    const titles = ["line", "share", "causes", "instructions", "loads that hit", "awaited", ""];
     const head = titles.map((title) => element("th", { class: title === "causes" || !title ? "" : "n" }, title));
     byId("listing").replaceChildren(element("table", {},
       element("thead", {}, element("tr", {}, ...head)), element("tbody", {}, ...rows)));

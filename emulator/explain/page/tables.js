@@ -48,25 +48,29 @@ function drawHardware({ stats, figures, causes }) {
     [["part"], ["energy", "n"], ["", "bar"], ["share", "n"]], energies);
 }
 
-function drawObjects({ run }) {
+function drawObjects({ stats, run, waits }) {
   // A bound buffer and the object of 8 bytes that says where it is have one name. A buffer's parts stand below it.
   const listed = rowsOf(run.heat), parts = rowsOf(run.parts),
     descriptors = new Set(listed.filter((one) => one.bytes === 8 && listed.some((other) => other !== one && other.object === one.object)));
   for (const one of descriptors) one.object += " (its address)";
+  const awaited = new Map(waitsBy(waits, ({ object }) => object).map((one) => [one.key, one.total]));
+  // Waits are those of the smallest object: of a buffer with parts, of its parts.
+  for (const part of parts) awaited.set(part.object.split(":")[0], (awaited.get(part.object.split(":")[0]) ?? 0) + (awaited.get(part.object) ?? 0));
   const objects = [...listed, ...parts].sort((a, b) => (b.loads + b.stores + b.atomics) - (a.loads + a.stores + a.atomics)),
     most = Math.max(1, ...objects.map((one) => one.loads + one.stores + one.atomics));
   if (!objects.length) { byId("objects").remove(); return; }
   const some = (value, text = whole) => value ? text(value) : "", cached = (one) => one.hits + one.misses + one.merged;
   fillTable("objects-table", parts.length ? "Accesses to memory; a row such as scene: nodes is a part of the buffer scene" :
     "Accesses to memory", [["object"], ["address", "n"], ["size", "n"], ["accesses", "n"], ["", "bar"], ["loads", "n"], ["hit", "n"],
-    ["misses", "n"], ["merged", "n"], ["loaded", "n"], ["stores", "n"], ["stored", "n"], ["increments", "n"]],
+    ["misses", "n"], ["merged", "n"], ["loaded", "n"], ["stores", "n"], ["stored", "n"], ["increments", "n"], ["awaited", "n"]],
     objects.map((one) => [[element("code", {}, one.object), one.object], one.address, [bytesText(one.bytes), one.bytes],
       [whole(one.loads + one.stores + one.atomics), one.loads + one.stores + one.atomics],
       partBar((one.loads + one.stores + one.atomics) / most), [some(one.loads), one.loads],
         [cached(one) ? percent(one.hits / cached(one)) : "", cached(one) ? one.hits / cached(one) : -1], [some(one.misses), one.misses],
         [some(one.merged), one.merged],
       [some(one.load_bytes, bytesText), one.load_bytes], [some(one.stores), one.stores],
-      [some(one.store_bytes, bytesText), one.store_bytes], [some(one.atomics), one.atomics]]));
+      [some(one.store_bytes, bytesText), one.store_bytes], [some(one.atomics), one.atomics],
+      [some(awaited.get(one.object), (cycles) => percent(cycles / stats.thread_cycles)), awaited.get(one.object) ?? 0]]));
 }
 
 function drawRays({ stats, run, causes }) {

@@ -28,6 +28,10 @@ static bool stops_burst(const struct trax_decoded *decoded) {
   return decoded->is_nontemporal || decoded->is_atomic;
 }
 
+static bool writes_stack_pointer(const struct trax_decoded *decoded) {
+  return decoded->rd == TRAX_STACK_POINTER && trax_op_table[decoded->op].flags & TRAX_WRITES_RD;
+}
+
 /* Whether the relative jump at `word` of a segment of `words` leaves the segment, or goes to the next instruction or
    into the middle of one. burst_steps.h assumes that others do not. */
 static bool jumps_oddly(const struct trax_decoded *decoded, uint32_t word, uint32_t words) {
@@ -68,7 +72,7 @@ static void predecode(struct trax_fast_program *program, const struct trax_decod
 }
 
 trax_status trax_fast_program_create(struct trax_fast_program *program, const struct trax_text *text,
-                                     const struct trax_config *config, trax_error *error) {
+                                     const struct trax_config *config, bool stack, trax_error *error) {
   const uint32_t line_bytes = config->icache.line_bytes;
   size_t total = 1;
   for (size_t i = 0; i < text->count; i++)
@@ -94,7 +98,8 @@ trax_status trax_fast_program_create(struct trax_fast_program *program, const st
     for (uint32_t word = 0; word <= words; word++, index++) {
       const uint32_t pc = section->begin + word * 4;
       predecode(program, &section->decoded[word], index, pc, lines + pc / line_bytes - first_line,
-                jumps_oddly(&section->decoded[word], word, words));
+                jumps_oddly(&section->decoded[word], word, words) ||
+                    (stack && writes_stack_pointer(&section->decoded[word])));
     }
     lines += section->end / line_bytes - first_line + 1;
     lines = lines < TRAX_FAST_LINES ? lines : TRAX_FAST_LINES;

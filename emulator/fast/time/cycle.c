@@ -148,8 +148,9 @@ static bool operands_usable(struct trax_tm *tm, unsigned number, bool fetched, u
   for (uint32_t rest = waits & tm->busy_registers[number]; rest; rest &= rest - 1)
     if (tp->usable[trax_first(rest)] > t) {
       uint64_t until = 0;
+      unsigned rd;
       trax_fast_export_head(tm, number);
-      const trax_cause cause = trax_tp_wait(tp, t, &until);
+      const trax_cause cause = trax_tp_wait(tp, t, &until, &rd);
       if (until == TRAX_NEVER) {
         trax_tm_sleep(tm, number, t, cause);
         tm->awaiting |= (uint64_t)1 << number;
@@ -442,6 +443,10 @@ static ALWAYS_INLINE void begin(struct tm_cycle *cycle) {
 
 static ALWAYS_INLINE void issue(const struct tm_cycle *cycle, const bool wide) {
   const uint64_t quick = cycle->granted & ~cycle->slow, slow = cycle->granted & cycle->slow;
+  if (__builtin_expect(cycle->tm->observer != NULL, false)) {
+    issue_observed(cycle->tm, quick, slow, cycle->t);
+    return;
+  }
   for (uint64_t loads = quick & cycle->banks; loads; loads &= loads - 1)
     trax_fast_set_load(cycle->tm, trax_first(loads), cycle->tm->heads.load[trax_first(loads)] + 1u);
   if (slow)

@@ -57,6 +57,13 @@ static void set_result_usable(struct trax_tm *tm, unsigned number, uint64_t t) {
   }
 }
 
+/* Returns where the instruction after a head goes on that does not execute at issue. */
+static uint32_t next_pc(const struct trax_tm *tm, unsigned number) {
+  const struct trax_tp *tp = &tm->tp[number];
+  const unsigned next = tm->heads.at[number] + 1u;
+  return next > tm->heads.last[number] ? tp->resume_pc : tm->chip->program.timing[trax_fast_index(tp, next)].pc;
+}
+
 /* Issues a slow head: one that executes at issue, the last one of a burst, or one with a latency above 1 or a bubble.
  */
 static void issue_slowly(struct trax_tm *tm, unsigned number, uint64_t t) {
@@ -79,7 +86,7 @@ static void issue_slowly(struct trax_tm *tm, unsigned number, uint64_t t) {
   }
   tm->holding &= ~bit;
   if (tm->observer)
-    trax_tm_notify_issue(tm, number, pc, inst, tm->executes_at_issue & bit ? tp->pc : tp->resume_pc);
+    trax_tm_notify_issue(tm, number, pc, inst, tm->executes_at_issue & bit ? tp->pc : next_pc(tm, number));
   if (tm->ended & bit)
     return;
   trax_fast_advance(tm, number);
@@ -120,6 +127,31 @@ static void issue_in_order(struct trax_tm *tm, uint64_t quick, uint64_t slow, ui
   issue_all_quickly(tm, quick);
   for (; slow; slow &= slow - 1)
     issue_slowly(tm, trax_first(slow), t);
+}
+
+/* The same with an observer, which is notified in the order of the TPs. Loads have not been counted. */
+static void issue_observed(struct trax_tm *tm, uint64_t quick, uint64_t slow, uint64_t t) {
+  uint64_t issued = 0; /* quick heads of which the observer has been notified */
+  while (quick | slow) {
+    const uint64_t bit = (quick | slow) & -(quick | slow);
+    const unsigned number = trax_first(bit);
+    if (bit & (slow | tm->executes_at_issue)) {
+      if (bit & tm->executes_at_issue) { /* others may roll back */
+        issue_all_quickly(tm, issued);
+        issued = 0;
+      }
+      issue_slowly(tm, number, t);
+    } else {
+      trax_fast_export_head(tm, number);
+      trax_tm_notify_issue(tm, number, tm->tp[number].pc, tm->tp[number].inst, next_pc(tm, number));
+      if ((tm->heads.low[number] & TRAX_STEP_KIND) == TRAX_STEP_BANK)
+        trax_fast_set_load(tm, number, tm->heads.load[number] + 1u);
+      issued |= bit;
+    }
+    quick &= ~bit;
+    slow &= ~bit;
+  }
+  issue_all_quickly(tm, issued);
 }
 
 #endif

@@ -103,11 +103,13 @@ static inline bool trax_tm_has_one_awake(const struct trax_tm *tm) {
   return tm->awake && !(tm->awake & (tm->awake - 1));
 }
 
+/* Notifies the observer, which must exist, of a charge. */
+void trax_tm_tell_charge(const struct trax_tm *tm, unsigned tp, trax_cause cause, uint64_t since, uint64_t cycles);
 /* Notifies an observer of a charge. */
 static inline void trax_tm_notify_charge(const struct trax_tm *tm, unsigned tp, trax_cause cause, uint64_t since,
                                          uint64_t cycles) {
-  if (__builtin_expect(tm->observer != NULL, false) && tm->observer->charge && cycles && cause != TRAX_CAUSE_ISSUED)
-    tm->observer->charge(tm->observer->context, tm->number, tp, cause, since, cycles);
+  if (__builtin_expect(tm->observer != NULL, false))
+    trax_tm_tell_charge(tm, tp, cause, since, cycles);
 }
 
 /* Charges a TP for the current cycle. */

@@ -11,7 +11,7 @@ _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "guest words are copie
 
 #define COMBINING_BLOCK 64u
 
-trax_cause trax_tp_wait(const struct trax_tp *tp, uint64_t t, uint64_t *until) {
+trax_cause trax_tp_wait(const struct trax_tp *tp, uint64_t t, uint64_t *until, unsigned *rd) {
   const struct {
     unsigned first, count;
   } groups[] = {
@@ -22,6 +22,7 @@ trax_cause trax_tp_wait(const struct trax_tp *tp, uint64_t t, uint64_t *until) {
       const unsigned number = (all ? n : groups[i].first + n) % TRAX_NUM_REGISTERS;
       if (tp->usable[number] > t) {
         *until = tp->usable[number];
+        *rd = number;
         return (trax_cause)tp->usable_cause[number];
       }
     }

@@ -49,9 +49,9 @@ struct trax_tp {
 struct trax_tm;
 
 /* Returns the cause of the first register that inst must wait for in cycle t, in the order ra, rb, rd, for a fence r1
-   to r31, and sets *until to the cycle from which it is usable, TRAX_NEVER if unknown. TRAX_CAUSE_ISSUED: there is
-   none. */
-trax_cause trax_tp_wait(const struct trax_tp *tp, uint64_t t, uint64_t *until);
+   to r31, and sets *rd to it and *until to the cycle from which it is usable, TRAX_NEVER if unknown. TRAX_CAUSE_ISSUED:
+   there is none. */
+trax_cause trax_tp_wait(const struct trax_tp *tp, uint64_t t, uint64_t *until, unsigned *rd);
 
 static inline void trax_tp_set_usable(struct trax_tp *tp, unsigned rd, uint64_t cycle, trax_cause cause) {
   tp->usable[rd] = cycle;

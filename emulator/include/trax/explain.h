@@ -26,6 +26,7 @@ struct trax_explain;
   X(sample, "profile-sample", "FILE", "executions by source line, for clang -fprofile-sample-use")                     \
   X(heat, "heat", "FILE", "accesses to memory by object, as CSV")                                                      \
   X(heat_lines, "heat-lines", "FILE", "accesses to global memory by 64 bytes, as CSV")                                 \
+  X(waits, "waits", "FILE", "waits by the load waited for, its object and the waiting instruction, as CSV")            \
   X(items, "items", "FILE", "cost of each item (pixel), as CSV")                                                       \
   X(ray_kinds, "ray-kinds", "FILE", "cost of the rays of each kind, as CSV")                                           \
   X(series, "series", "FILE", "counts of each interval of cycles, as CSV")                                             \
@@ -51,6 +52,11 @@ struct trax_explain_options {
   /* An item's place is the address of its last store to this buffer, as an offset in units of item_bytes. */
   const char *item_buffer; /* NULL: none */
   uint32_t item_bytes;
+  /* The places of items whose stories are kept, besides those of the costliest, which the page has; and the file that
+     tells them as text. NULL: none. */
+  const uint32_t *story_places;
+  unsigned story_count;
+  const char *story;
   /* The page's title (NULL: the program's name), and the parts of buffers that its tables list as objects. */
   const char *title;
   const struct trax_explore_part *parts;
@@ -98,6 +104,15 @@ struct trax_item_cost {
 void trax_explain_items(struct trax_explain *explain,
                         void (*item)(void *context, const struct trax_item_cost *cost, bool last), void *context);
 
+/* A ray of a pixel, as the caller knows it. */
+struct trax_explore_ray {
+  uint32_t place;            /* the pixel's number */
+  uint32_t nodes, triangles; /* that it visited */
+  uint32_t material;         /* of what it hit; TRAX_NO_MATERIAL: it hit nothing, or something that is not known */
+  uint8_t kind, hit;         /* kind: as in trax/ray_kinds.h */
+};
+#define TRAX_NO_MATERIAL UINT32_MAX
+
 /* The picture of the page: item_buffer has its pixels, row by row. */
 struct trax_explore_picture {
   uint32_t width, height;
@@ -107,8 +122,16 @@ struct trax_explore_picture {
     const char *name, *unit, *meaning;
     const uint32_t *values;
   } counts[4];
+  /* The rays, by place, and those of one place in the order in which the program counts them. NULL: not known. */
+  const struct trax_explore_ray *rays;
+  size_t ray_count;
+  bool counted_apart;           /* the program counts each ray where it begins */
+  const char *const *materials; /* names without quotation marks */
+  uint32_t material_count;
 };
 
+/* After the run: whether the rays of the pixel are wanted. If there are many rays, only those of stories are. */
+bool trax_explain_has_rays(const struct trax_explain *explain, uint32_t place);
 /* To be called before trax_explain_end. The objects to which `picture` points must stay valid until then. Without this
    call the page has no picture. */
 void trax_explain_picture(struct trax_explain *explain, const struct trax_explore_picture *picture);

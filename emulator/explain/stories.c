@@ -1,0 +1,308 @@
+/* A thread logs its charges. At the end of an item the log is dropped, unless the item's story is kept: then it is
+   added up. So is the log of a long item each time it is full. */
+#include "explain/stories.h"
+#include "explain/places.h"
+#include "explain/ray_kinds.h"
+#include "trax/grow.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { LOG_ENTRIES = 1 << 23, LEAST_LOG = 1 << 10, MOST_LOG = 1 << 15, MARK = 255 }; /* of all threads; of one */
+
+struct entry {
+  uint32_t index : 24, cause : 8; /* cause MARK: a ray begins, of the kind `cycles` */
+  uint32_t cycles;
+};
+
+/* The sums of a log. */
+struct draft {
+  uint32_t (*code)[TRAX_CAUSE_COUNT]; /* [places] */
+  uint32_t *touched;                  /* [places]: indices of code that is not 0 */
+  size_t touched_count;
+  struct trax_story_ray *rays;
+  size_t ray_count, ray_capacity;
+  uint64_t now; /* cycles since the item's begin */
+  uint64_t interval;
+  uint32_t time[TRAX_STORY_INTERVALS][TRAX_CAUSE_COUNT];
+};
+
+struct story_thread {
+  struct entry *log;
+  size_t logged;
+  uint32_t latest;     /* the instruction that it issued last */
+  struct draft *draft; /* of what no longer is in the log; NULL: nothing */
+};
+
+struct trax_stories {
+  struct trax_explain *explain;
+  struct story_thread *threads;
+  uint64_t thread_count;
+  size_t log_size;
+  struct draft *draft; /* for items that fit in a log */
+  struct trax_story *stories;
+  size_t count, capacity, costliest;
+};
+
+static size_t places_of(const struct trax_stories *stories) {
+  return (size_t)trax_places_count(stories->explain->places) + 2;
+}
+
+/* --- drafts --- */
+
+static void drop_draft(struct draft *draft) {
+  if (!draft)
+    return;
+  free(draft->code);
+  free(draft->touched);
+  free(draft->rays);
+  free(draft);
+}
+
+static bool begin_ray(struct draft *draft, unsigned kind) {
+  if (!trax_grow((void **)&draft->rays, draft->ray_count, &draft->ray_capacity, sizeof *draft->rays))
+    return false;
+  draft->rays[draft->ray_count++] = (struct trax_story_ray){.kind = (uint8_t)kind, .begin = draft->now};
+  return true;
+}
+
+static bool clear(struct draft *draft) {
+  for (size_t i = 0; i < draft->touched_count; i++)
+    memset(draft->code[draft->touched[i]], 0, sizeof *draft->code);
+  memset(draft->time, 0, sizeof draft->time);
+  draft->touched_count = draft->ray_count = 0;
+  draft->now = 0;
+  draft->interval = TRAX_STORY_FIRST_INTERVAL;
+  return begin_ray(draft, TRAX_NO_RAY);
+}
+
+static struct draft *new_draft(struct trax_stories *stories) {
+  struct draft *draft = calloc(1, sizeof *draft);
+  if (draft) {
+    draft->code = calloc(places_of(stories), sizeof *draft->code);
+    draft->touched = calloc(places_of(stories), sizeof *draft->touched);
+  }
+  if (draft && draft->code && draft->touched && clear(draft))
+    return draft;
+  drop_draft(draft);
+  stories->explain->out_of_memory = true;
+  return NULL;
+}
+
+static void join_pairs(struct draft *draft) {
+  for (unsigned i = 0; i < TRAX_STORY_INTERVALS; i++)
+    for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++) {
+      const uint32_t cycles = draft->time[i][cause];
+      draft->time[i][cause] = 0;
+      draft->time[i / 2][cause] += cycles;
+    }
+  draft->interval *= 2;
+}
+
+static void pass_time(struct draft *draft, unsigned cause, uint64_t cycles) {
+  while (cycles) {
+    while (draft->now >= TRAX_STORY_INTERVALS * draft->interval)
+      join_pairs(draft);
+    const uint64_t left = draft->interval - draft->now % draft->interval, part = cycles < left ? cycles : left;
+    draft->time[draft->now / draft->interval][cause] += (uint32_t)part;
+    draft->now += part;
+    cycles -= part;
+  }
+}
+
+static bool add_entry(struct draft *draft, struct entry entry) {
+  if (entry.cause == MARK)
+    return begin_ray(draft, entry.cycles);
+  uint32_t *code = draft->code[entry.index], sum = 0;
+  for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
+    sum |= code[cause];
+  if (!sum)
+    draft->touched[draft->touched_count++] = entry.index;
+  code[entry.cause] += entry.cycles;
+  draft->rays[draft->ray_count - 1].cycles[entry.cause] += entry.cycles;
+  pass_time(draft, entry.cause, entry.cycles);
+  return true;
+}
+
+static void add_log(struct trax_stories *stories, struct story_thread *thread, struct draft *draft) {
+  for (size_t i = 0; i < thread->logged; i++)
+    if (!add_entry(draft, thread->log[i]))
+      stories->explain->out_of_memory = true;
+  thread->logged = 0;
+}
+
+/* --- the log --- */
+
+static void log_entry(struct trax_stories *stories, struct story_thread *thread, uint32_t index, unsigned cause,
+                      uint64_t cycles) {
+  if (thread->logged == stories->log_size) {
+    if (!thread->draft)
+      thread->draft = new_draft(stories);
+    if (thread->draft)
+      add_log(stories, thread, thread->draft);
+    thread->logged = 0;
+  }
+  thread->log[thread->logged++] = (struct entry){.index = index, .cause = cause, .cycles = (uint32_t)cycles};
+}
+
+void trax_stories_add(struct trax_stories *stories, const struct trax_span *span) {
+  struct story_thread *thread = &stories->threads[span->thread];
+  for (size_t i = 0; i < span->count; i++) {
+    const struct trax_charge *charge = &span->charges[i];
+    log_entry(stories, thread, charge->cause == TRAX_CAUSE_BRANCH ? thread->latest : span->index, charge->cause,
+              charge->cycles);
+  }
+  if (!span->issue)
+    return;
+  const unsigned kind = trax_counted_kind(span);
+  if (kind != TRAX_NO_RAY)
+    log_entry(stories, thread, 0, MARK, kind);
+  log_entry(stories, thread, span->index, TRAX_CAUSE_ISSUED, 1);
+  thread->latest = span->index;
+}
+
+/* --- stories --- */
+
+static bool is_chosen(const struct trax_stories *stories, uint32_t place) {
+  const struct trax_explain_options *options = &stories->explain->options;
+  for (unsigned i = 0; i < options->story_count; i++)
+    if (options->story_places[i] == place)
+      return true;
+  return false;
+}
+
+static struct trax_story *cheapest(struct trax_stories *stories) {
+  struct trax_story *found = NULL;
+  for (size_t i = 0; i < stories->count; i++)
+    if (!stories->stories[i].chosen && (!found || stories->stories[i].cycles <= found->cycles))
+      found = &stories->stories[i]; /* of equals the latest, so that the first stay */
+  return found;
+}
+
+static void release(struct trax_story *story) {
+  free(story->code);
+  free(story->rays);
+}
+
+static int by_index(const void *a, const void *b) {
+  const struct trax_story_code *x = a, *y = b;
+  return x->index < y->index ? -1 : x->index > y->index;
+}
+
+static bool copy(struct trax_story *story, const struct draft *draft) {
+  story->code = calloc(draft->touched_count + 1, sizeof *story->code);
+  story->rays = calloc(draft->ray_count, sizeof *story->rays);
+  if (!story->code || !story->rays) {
+    release(story);
+    return false;
+  }
+  for (size_t i = 0; i < draft->touched_count; i++) {
+    story->code[i].index = draft->touched[i];
+    memcpy(story->code[i].cycles, draft->code[draft->touched[i]], sizeof story->code[i].cycles);
+  }
+  qsort(story->code, draft->touched_count, sizeof *story->code, by_index);
+  memcpy(story->rays, draft->rays, draft->ray_count * sizeof *story->rays);
+  for (size_t i = 0; i < draft->ray_count; i++)
+    story->rays[i].begin += story->begin;
+  memcpy(story->time, draft->time, sizeof story->time);
+  story->interval = draft->interval;
+  story->code_count = draft->touched_count;
+  story->ray_count = draft->ray_count;
+  return true;
+}
+
+/* Keeps the story of an item, in the place of the cheapest one if there are too many. */
+static void keep(struct trax_stories *stories, struct trax_story story, const struct draft *draft) {
+  struct trax_story *kept = !story.chosen && stories->costliest == TRAX_STORY_COSTLIEST ? cheapest(stories) : NULL;
+  bool complete = copy(&story, draft);
+  if (complete && kept) {
+    release(kept);
+    memmove(kept, kept + 1, (size_t)(stories->stories + stories->count - kept - 1) * sizeof *kept);
+    stories->stories[stories->count - 1] = story;
+  } else if (complete &&
+             trax_grow((void **)&stories->stories, stories->count, &stories->capacity, sizeof *stories->stories)) {
+    stories->costliest += !story.chosen;
+    stories->stories[stories->count++] = story;
+  } else {
+    if (complete)
+      release(&story);
+    stories->explain->out_of_memory = true;
+  }
+}
+
+void trax_stories_end(struct trax_stories *stories, const struct trax_item_cost *cost, bool last) {
+  struct story_thread *thread = &stories->threads[cost->thread];
+  struct trax_story story = {.place = cost->place,
+                             .thread = cost->thread,
+                             .begin = cost->begin,
+                             .cycles = cost->end - cost->begin,
+                             .chosen = is_chosen(stories, cost->place)};
+  struct draft *draft = thread->draft ? thread->draft : stories->draft;
+  const struct trax_story *least = cheapest(stories);
+  const bool wanted = !last && cost->place != TRAX_NO_PLACE &&
+                      (story.chosen || stories->costliest < TRAX_STORY_COSTLIEST || story.cycles > least->cycles);
+  if (wanted && draft) {
+    add_log(stories, thread, draft);
+    keep(stories, story, draft);
+  }
+  if (draft && (wanted || thread->draft) && !clear(draft))
+    stories->explain->out_of_memory = true;
+  thread->logged = 0;
+}
+
+static int by_cost(const void *a, const void *b) {
+  const struct trax_story *x = a, *y = b;
+  if (x->chosen != y->chosen)
+    return x->chosen ? -1 : 1;
+  if (x->cycles != y->cycles)
+    return x->cycles > y->cycles ? -1 : 1;
+  return x->begin < y->begin ? -1 : x->begin > y->begin ? 1 : (int)x->thread - (int)y->thread;
+}
+
+const struct trax_story *trax_stories_sorted(struct trax_stories *stories, size_t *count) {
+  if (stories->count)
+    qsort(stories->stories, stories->count, sizeof *stories->stories, by_cost);
+  *count = stories->count;
+  return stories->stories;
+}
+
+bool trax_stories_have(const struct trax_stories *stories, uint32_t place) {
+  for (size_t i = 0; i < stories->count; i++)
+    if (stories->stories[i].place == place)
+      return true;
+  return false;
+}
+
+struct trax_stories *trax_stories_create(struct trax_explain *explain) {
+  struct trax_stories *stories = calloc(1, sizeof *stories);
+  if (!stories)
+    return NULL;
+  stories->explain = explain;
+  stories->thread_count = explain->machine->stats.threads;
+  stories->log_size = LOG_ENTRIES / stories->thread_count;
+  stories->log_size = stories->log_size < LEAST_LOG ? LEAST_LOG : stories->log_size;
+  stories->log_size = stories->log_size > MOST_LOG ? MOST_LOG : stories->log_size;
+  stories->threads = calloc(stories->thread_count, sizeof *stories->threads);
+  bool complete = stories->threads && (stories->draft = new_draft(stories));
+  for (uint64_t i = 0; complete && i < stories->thread_count; i++)
+    complete = (stories->threads[i].log = malloc(stories->log_size * sizeof(struct entry)));
+  if (complete)
+    return stories;
+  trax_stories_destroy(stories);
+  return NULL;
+}
+
+void trax_stories_destroy(struct trax_stories *stories) {
+  if (!stories)
+    return;
+  for (uint64_t i = 0; stories->threads && i < stories->thread_count; i++) {
+    free(stories->threads[i].log);
+    drop_draft(stories->threads[i].draft);
+  }
+  for (size_t i = 0; i < stories->count; i++)
+    release(&stories->stories[i]);
+  free(stories->threads);
+  drop_draft(stories->draft);
+  free(stories->stories);
+  free(stories);
+}

@@ -1,0 +1,158 @@
+/* Waits by what is waited for: the instruction that wrote the register, a load in most cases, and the object that it
+   accessed. A wait is charged to the instruction that needs the register (profile.c); here it has both. A load or store
+   that another TP keeps from its bank of the data cache waits for its own access. So the columns add up to the
+   statistics. */
+#include "explain/objects.h"
+#include "explain/page.h"
+#include "explain/places.h"
+#include "trax/grow.h"
+#include "trax/map.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+  WAITS = TRAX_CAUSE_DATA_OTHER - TRAX_CAUSE_DATA_LOCAL + 1, /* columns: waits for a register, then for a bank */
+  BANK = WAITS,
+  COLUMNS
+};
+
+/* What a thread's register is waited for. */
+struct writer {
+  uint32_t index, address;
+  bool accesses;
+};
+
+struct record {
+  uint32_t awaited, object, waiting; /* indices of instructions; object: its number + 1, 0: none */
+  uint64_t cycles[COLUMNS];
+};
+
+struct waits {
+  struct trax_reader reader;
+  struct trax_objects objects;
+  struct writer (*writers)[TRAX_NUM_REGISTERS]; /* [threads] */
+  struct record *records;
+  size_t count, capacity;
+  struct trax_map pair_of, record_of; /* (awaited, waiting) to a number; (this number, object) to that of a record */
+  uint32_t *latest_of;                /* [places]: the latest record of the waiting instruction, + 1 */
+};
+
+static struct record *record_of(struct waits *waits, struct record wanted) {
+  uint32_t *latest = &waits->latest_of[wanted.waiting];
+  struct record *record = *latest ? &waits->records[*latest - 1] : NULL;
+  if (record && record->awaited == wanted.awaited && record->object == wanted.object)
+    return record;
+  const struct trax_map_entry *entry = trax_map_put(
+      &waits->pair_of, sizeof *entry, (uint64_t)wanted.awaited << 32 | wanted.waiting, (uint32_t)waits->pair_of.count);
+  entry = entry ? trax_map_put(&waits->record_of, sizeof *entry, (uint64_t)entry->value << 32 | wanted.object,
+                               (uint32_t)waits->count)
+                : NULL;
+  if (!entry || !trax_grow((void **)&waits->records, waits->count, &waits->capacity, sizeof *waits->records)) {
+    waits->reader.explain->out_of_memory = true;
+    return NULL;
+  }
+  const uint32_t number = entry->value;
+  if (number == waits->count)
+    waits->records[waits->count++] = wanted;
+  *latest = number + 1;
+  return &waits->records[number];
+}
+
+static void add(struct waits *waits, const struct writer *awaited, uint32_t waiting, unsigned column, uint64_t cycles) {
+  const uint32_t object = awaited->accesses ? (uint32_t)trax_objects_part_at(&waits->objects, awaited->address) + 1 : 0;
+  struct record *record =
+      record_of(waits, (struct record){.awaited = awaited->index, .object = object, .waiting = waiting});
+  if (record)
+    record->cycles[column] += cycles;
+}
+
+static void add_span(void *self, const struct trax_span *span) {
+  struct waits *waits = self;
+  const trax_op_info *op = &trax_op_table[span->inst.op];
+  struct writer *writers = waits->writers[span->thread];
+  /* Only a memory access waits for a bank. If it has not been issued, its address is not known. A fence that waits for
+     its thread's stores waits for no register. */
+  const struct writer own = {span->index, span->issue ? span->issue->address : 0, span->issue && op->access_bytes};
+  for (size_t i = 0; i < span->count; i++) {
+    const struct trax_charge *charge = &span->charges[i];
+    if (charge->cause == TRAX_CAUSE_DCACHE_BANK)
+      add(waits, &own, span->index, BANK, charge->cycles);
+    else if (trax_is_wait(charge->cause))
+      add(waits, charge->rd ? &writers[charge->rd] : &own, span->index, charge->cause - TRAX_CAUSE_DATA_LOCAL,
+          charge->cycles);
+  }
+  if (span->issue && op->flags & TRAX_WRITES_RD)
+    writers[span->inst.rd] = own;
+}
+
+/* --- the table --- */
+
+static int by_place(const void *a, const void *b) {
+  const struct record *x = a, *y = b;
+  const uint32_t keys[][2] = {{x->awaited, y->awaited}, {x->object, y->object}, {x->waiting, y->waiting}};
+  for (unsigned i = 0; i < 3; i++)
+    if (keys[i][0] != keys[i][1])
+      return keys[i][0] < keys[i][1] ? -1 : 1;
+  return 0;
+}
+
+static void put_place(const struct waits *waits, uint32_t index, FILE *out) {
+  struct trax_places *places = waits->reader.explain->places;
+  const struct trax_frame_place *frame = trax_places_at(places, index)->frames;
+  fprintf(out, "0x%08x,", trax_places_pc(places, index));
+  trax_objects_put_name(out, trax_places_name(places, frame->function));
+  fputc(',', out);
+  trax_objects_put_name(out, trax_places_name(places, frame->line));
+  fputc(',', out);
+}
+
+static trax_status put_table(void *self, FILE *out, trax_error *error) {
+  const struct waits *waits = self;
+  (void)error;
+  if (waits->count)
+    qsort(waits->records, waits->count, sizeof *waits->records, by_place); /* after the run: no map is used again */
+  fputs("address,function,line,object,waiting_address,waiting_function,waiting_line", out);
+  for (unsigned cause = TRAX_CAUSE_DATA_LOCAL; cause <= TRAX_CAUSE_DATA_OTHER; cause++)
+    fprintf(out, ",%s", trax_cause_names[cause]);
+  fprintf(out, ",%s\n", trax_cause_names[TRAX_CAUSE_DCACHE_BANK]);
+  for (size_t i = 0; i < waits->count; i++) {
+    const struct record *record = &waits->records[i];
+    put_place(waits, record->awaited, out);
+    trax_objects_put_name(out, record->object ? trax_objects_name(&waits->objects, record->object - 1) : "");
+    fputc(',', out);
+    put_place(waits, record->waiting, out);
+    for (unsigned column = 0; column < COLUMNS; column++)
+      fprintf(out, "%" PRIu64 "%c", record->cycles[column], column + 1 < COLUMNS ? ',' : '\n');
+  }
+  return TRAX_OK;
+}
+
+static trax_status open_waits(void *self, trax_error *error) {
+  struct waits *waits = self;
+  const struct trax_explain *explain = waits->reader.explain;
+  if (trax_objects_list(&waits->objects, explain, error) != TRAX_OK)
+    return TRAX_ERROR;
+  waits->writers = trax_explain_array(explain->machine->stats.threads, sizeof *waits->writers, error);
+  waits->latest_of = trax_explain_array(trax_places_count(explain->places) + 2, sizeof *waits->latest_of, error);
+  return waits->writers && waits->latest_of ? TRAX_OK : TRAX_ERROR;
+}
+
+static void close_waits(void *self) {
+  struct waits *waits = self;
+  trax_objects_release(&waits->objects);
+  free(waits->writers);
+  free(waits->latest_of);
+  free(waits->records);
+  trax_map_free(&waits->pair_of);
+  trax_map_free(&waits->record_of);
+}
+
+const struct trax_reader_kind trax_waits_reader = {
+    .bytes = sizeof(struct waits),
+    .files = {{.path = TRAX_EXPLAIN_PATH(waits), .put = put_table, .member = "waits"}},
+    .in_page = true,
+    .open = open_waits,
+    .span = add_span,
+    .close = close_waits};
