@@ -34,14 +34,23 @@ void trax_scale_scene(struct trax_scene *scene, int exponent) {
   scale_floats(scene->grid.cell, 3, exponent);
   const struct trax_node_format *format = &trax_node_formats[header->node_layout];
   unsigned char *node = (unsigned char *)scene->nodes;
-  for (uint32_t i = 0; i < scene->node_count && !format->quantised; i++, node += format->bytes)
+  /* The meshes of instances keep their coordinates, and their transforms are scaled. */
+  const uint32_t nodes = scene->instances ? scene->instance_count - 1 : scene->node_count;
+  for (uint32_t i = 0; i < nodes && !format->quantised; i++, node += format->bytes)
     for (uint32_t child = 0; child < 2; child++)
       scale_floats((float *)(void *)(node + trax_node_box(format, child)), 6, exponent);
   struct trax_triangle *triangles = (struct trax_triangle *)scene->triangles;
-  for (uint32_t i = 0; i < scene->triangle_count; i++) {
+  for (uint32_t i = 0; i < scene->triangle_count && !scene->instances; i++) {
     scale_floats(triangles[i].v0, 3, exponent);
     scale_floats(triangles[i].v1, 3, exponent);
     scale_floats(triangles[i].v2, 3, exponent);
+  }
+  for (uint32_t i = 0; i < scene->instance_count; i++) {
+    struct trax_instance *instance = &((struct trax_instance *)scene->instances)[i];
+    scale_floats(&instance->to_object[0][0], 9, -exponent);
+    scale_floats(&instance->stretch, 1, -exponent);
+    scale_floats(&instance->to_world[0][0], 9, exponent);
+    scale_floats(instance->origin, 3, exponent);
   }
   header->checksum = 0;
   header->checksum = (uint32_t)crc32(crc32(0, NULL, 0), scene->bytes, (uInt)scene->size);
@@ -195,6 +204,10 @@ trax_status trax_frame_init(struct trax_frame *frame, const struct trax_scene *s
   if (options->paths > TRAX_RENDER_MAX_DEPTH)
     return trax_fail(error, "paths of %u surfaces: there must be %u at most", options->paths, TRAX_RENDER_MAX_DEPTH);
   const uint32_t features = trax_features_of(options, view, scene);
+  if (scene->instances && features & TRAX_FEATURE_BIT(EXACT))
+    return trax_fail(error,
+                     "hits of instances are not exact, and a triangle is too large or too small for others, as seen "
+                     "from the eye (--flatten)");
   const bool lighting = features & TRAX_PATH_FEATURES;
   size_t size =
       sizeof(struct trax_render_params) + (lighting ? trax_lighting_bytes(scene, view, options)

@@ -76,6 +76,8 @@ static const trax_option rows[] = {
                 "emit:R,G,B, for the material NAME or for all (repeatable)"},
     {"diffuse", .argument = "[NAME=]R,G,B", PARSED(trax_take_diffuse, import),
      .meaning = "their colour, linear, 0 to 1 (repeatable)"},
+    {"instances", FIELD(import.instances), .meaning = "keeps a mesh of several glTF nodes once, and places it"},
+    {"flatten", FIELD(import.flatten), .meaning = "gives every instance triangles of its own"},
     {"no-textures", FIELD(import.no_textures), .meaning = "reads no images; colours remain"},
     {"texture-size", .argument = "N", PARSED(trax_take_texture_size, import.texture_size),
      .meaning = "at most N texels a side, a power of two up to 4096"},
