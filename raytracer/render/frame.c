@@ -34,24 +34,20 @@ void trax_scale_scene(struct trax_scene *scene, int exponent) {
   scale_floats(scene->grid.cell, 3, exponent);
   const struct trax_node_format *format = &trax_node_formats[header->node_layout];
   unsigned char *node = (unsigned char *)scene->nodes;
-  /* The meshes of instances keep their coordinates, and their transforms are scaled. */
-  const uint32_t nodes = scene->instances ? scene->instance_count - 1 : scene->node_count;
-  for (uint32_t i = 0; i < nodes && !format->quantised; i++, node += format->bytes)
+  for (uint32_t i = 0; i < scene->node_count && !format->quantised; i++, node += format->bytes)
     for (uint32_t child = 0; child < 2; child++)
       scale_floats((float *)(void *)(node + trax_node_box(format, child)), 6, exponent);
   struct trax_triangle *triangles = (struct trax_triangle *)scene->triangles;
-  for (uint32_t i = 0; i < scene->triangle_count && !scene->instances; i++) {
+  for (uint32_t i = 0; i < scene->triangle_count; i++) {
     scale_floats(triangles[i].v0, 3, exponent);
     scale_floats(triangles[i].v1, 3, exponent);
     scale_floats(triangles[i].v2, 3, exponent);
   }
-  for (uint32_t i = 0; i < scene->instance_count; i++) {
-    struct trax_instance *instance = &((struct trax_instance *)scene->instances)[i];
-    scale_floats(&instance->to_object[0][0], 9, -exponent);
-    scale_floats(&instance->stretch, 1, -exponent);
-    scale_floats(&instance->to_world[0][0], 9, exponent);
-    scale_floats(instance->origin, 3, exponent);
-  }
+  /* The meshes of instances are scaled as the scene is, so their matrices stay. */
+  for (uint32_t i = 0; i < scene->instance_count; i++)
+    scale_floats(((struct trax_instance *)scene->instances)[i].origin, 3, exponent);
+  for (uint32_t i = 0; i < scene->mesh_count; i++)
+    scale_floats(((struct trax_scene_mesh *)scene->meshes)[i].bounds_min, 6, exponent);
   header->checksum = 0;
   header->checksum = (uint32_t)crc32(crc32(0, NULL, 0), scene->bytes, (uInt)scene->size);
 }

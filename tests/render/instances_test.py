@@ -68,6 +68,51 @@ def check_shading():
     call("trax-compare", "kept.png", "flat.png", "--within", "2", "--at-least", "99.5")
 
 
+def looking(scale, offset):
+    """The view, scaled and moved."""
+    def place(x, y, z):
+        return ",".join(repr(scale * a + offset) for a in (x, y, z))
+    return [f"--eye={place(1, -7, 4)}", f"--look-at={place(0, 1, 0)}", f"--light={place(3, -3, 9)}", "--up=0,0,1",
+            "--size", "40x24", "-q", "--engine", "native"]
+
+
+def scaled_rows(rows, factor, offset):
+    numbers, _, rest = rows.partition("material")
+    words = [float(word) for word in numbers.split()]
+    words[3::4] = [factor * word + offset for word in words[3::4]]
+    return " ".join(map(repr, words)) + (" material" + rest if rest else "")
+
+
+def check_scales():
+    """A scene that is scaled by a power of two shows the same in every bit; far from the origin, nearly the same: no
+    surface shadows itself."""
+    bare = HEAD.replace("place floor", "")
+    for name, scale, offset in ("tiny", 2.0**-60, 0), ("huge", 2.0**40, 0), ("far", 64, 1e6):
+        points = "".join("v " + " ".join(repr(scale * float(x)) for x in line.split()[1:]) + "\n" if line[0] == "v"
+                         else line + "\n" for line in SOLID.splitlines())
+        write("scaled.obj", points if offset == 0 else SOLID)
+        size = 1 if offset == 0 else scale
+        write("floor-scaled.obj", "".join("v " + " ".join(repr(scale * float(x)) for x in line.split()[1:]) + "\n"
+                                          if line[0] == "v" else line + "\n" for line in FLOOR.splitlines()))
+        write("scaled.instances", bare.replace("solid.obj", "scaled.obj").replace("floor.obj", "floor-scaled.obj"),
+              "place floor 1 0 0 %r 0 1 0 %r 0 0 1 %r\n" % ((offset,) * 3),
+              *("place solid " + enlarged(scaled_rows(rows, scale, offset), size) + "\n" for rows in MOVED))
+        call("trax-render", "scaled.instances", *looking(scale, offset), "-o", "scaled.png")
+        write("moved.instances", HEAD, *(f"place solid {rows}\n" for rows in MOVED))
+        call("trax-render", "moved.instances", *looking(1, 0), "-o", "plain.png")
+        if offset == 0:
+            check(pathlib.Path("scaled.png").read_bytes() == pathlib.Path("plain.png").read_bytes(), name)
+        else:
+            call("trax-compare", "scaled.png", "plain.png", "--within", "3", "--at-least", "98.5")
+
+
+def enlarged(rows, factor):
+    """The matrix times a factor, but for its last column."""
+    numbers, _, rest = rows.partition("material")
+    words = [float(word) * (1 if i % 4 == 3 else factor) for i, word in enumerate(numbers.split())]
+    return " ".join(map(repr, words)) + (" material" + rest if rest else "")
+
+
 def check_groups():
     """A group in a group is its matrices' product; the outermost material counts."""
     write("nested.instances", HEAD, "group inner\nplace solid 0 -1 0 1  1 0 0 0  0 0 1 0\nplace solid\nend\n",
@@ -157,6 +202,7 @@ def main():
         write("floor.obj", FLOOR)
         check_exact()
         check_shading()
+        check_scales()
         check_groups()
         check_gltf()
         check_bad()
