@@ -36,18 +36,19 @@ static inline void log_ray(uint32_t pixel, uint32_t sample, uint32_t rays, struc
                            struct vector direction, int32_t farthest, bool found, const struct hit *hit) {
   if (!trax_access_log || !trax_access_log->ray)
     return;
-  const struct trax_traced_ray ray = {.origin = {origin.x, origin.y, origin.z},
-                                      .direction = {direction.x, direction.y, direction.z},
-                                      .farthest = bits_float(farthest),
-                                      .pixel = pixel,
-                                      .sample = sample,
-                                      .kind = rays ? (uint32_t)__builtin_ctz(rays) / TRAX_KIND_BITS : TRAX_RAY_PRIMARY,
-                                      .found = found,
-                                      .triangle =
-                                          hit->triangle ? (uint32_t)(hit->triangle - (const char *)scene.data) : 0,
-                                      .distance = bits_float(hit->distance_bits),
-                                      .weight1 = hit->weight1,
-                                      .weight2 = hit->weight2};
+  const struct trax_traced_ray ray = {
+      .origin = {origin.x, origin.y, origin.z},
+      .direction = {direction.x, direction.y, direction.z},
+      .farthest = bits_float(farthest),
+      .pixel = pixel,
+      .sample = sample,
+      .kind = rays ? (uint32_t)__builtin_ctz(rays) / TRAX_KIND_BITS : TRAX_RAY_PRIMARY,
+      .found = found,
+      .triangle = hit->triangle ? (uint32_t)(hit->triangle - (const char *)scene.data) : 0,
+      .instance = hit->triangle && hit->instance ? (uint32_t)(hit->instance - (const char *)scene.data) : 0,
+      .distance = bits_float(hit->distance_bits),
+      .weight1 = hit->weight1,
+      .weight2 = hit->weight2};
   trax_access_log->ray(trax_access_log, &ray);
 }
 

@@ -71,7 +71,7 @@ static inline __attribute__((always_inline)) uint32_t render_pixel(const struct 
       if (NEEDS(run, SMOOTH))
         smooth_surface(&surface, &hit, run->normals_distance);
       aim_at_light(&way, &surface, run->light);
-      uint32_t material = NEEDS(run, MATERIALS) ? triangle_material(hit.triangle) : 0;
+      uint32_t material = NEEDS(run, MATERIALS) ? material_of_hit(&hit) : 0;
       colour = RUN_PALETTE(run)[material].colour;
       light = ambient_light(run, &surface);
       if (way.cosine_bits <= 0 || (NEEDS(run, SMOOTH) && float_bits(dot(flat, way.direction)) <= 0))

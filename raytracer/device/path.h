@@ -107,7 +107,7 @@ PATH_STEP void begin_sample(struct path *path, const struct trax_render_params *
 static inline const struct trax_device_material *hit_material(const struct trax_render_params *run,
                                                               const struct hit *hit) {
   const struct trax_device_material *materials = path_table(RUN_PATH(run)->materials);
-  return NEEDS(run, MATERIALS) ? &materials[triangle_material(hit->triangle)] : materials;
+  return NEEDS(run, MATERIALS) ? &materials[material_of_hit(hit)] : materials;
 }
 
 static inline void add_to(struct vector *sum, struct vector throughput, struct vector light) {

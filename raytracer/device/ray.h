@@ -16,6 +16,11 @@ struct ray {
   uint32_t near_offset_x, near_offset_y, near_offset_z;
 
   struct triangle_ray triangle;
+
+#if TRAX_INSTANCES /* of the ray, and of the boxes in the scene */
+  struct vector origin, direction;
+  float margin;
+#endif
 };
 
 /* A component of the direction for box tests. Zeros and negligible components keep their sign and become 2^-30 of the
@@ -58,6 +63,9 @@ static inline __attribute__((always_inline)) void prepare_ray(struct ray *ray, u
   float product = 1.0f / (xy * way.z);
   struct vector inverse = {way.y * way.z * product, way.x * way.z * product, xy * product};
 
+#if TRAX_INSTANCES
+  ray->origin = origin, ray->direction = direction, ray->margin = box_margin;
+#endif
   const uint32_t far_planes = 3 * (uint32_t)plane_bytes(layout);
   ray->near_offset_x = near_offset(way.x, far_planes);
   ray->near_offset_y = near_offset(way.y, far_planes);

@@ -36,6 +36,10 @@ static inline void record_hit(const struct trax_render_params *run, struct pixel
     return;
   record_sample(run, pixel, sample)->triangle =
       hit->triangle ? (uint32_t)(hit->triangle - (const char *)scene.data) : 0;
+#if TRAX_INSTANCES
+  record_sample(run, pixel, sample)->instance =
+      hit->triangle && hit->instance ? (uint32_t)(hit->instance - (const char *)scene.data) : 0;
+#endif
   if (!hit->triangle) /* pixel_of is not called for a single sample */
     for (int channel = 0; channel < 3; channel++)
       record_channels.channel[channel] = (float)(int32_t)(run->background >> 8 * channel & 255);

@@ -76,6 +76,14 @@ extern struct trax_buffer scene, params, image;
 #endif
 #define PALETTE_BEHIND(params) ((const struct trax_palette_entry *)((params) + 1))
 
+/* Whether the scene has instances (instance.h). The general programs of the TPs know none. */
+#ifdef TRAX_TWIN
+#define TRAX_INSTANCES 1
+#define HAS_INSTANCES NEEDS((const struct trax_render_params *)params.data, INSTANCES)
+#elif TRAX_INSTANCES
+#define HAS_INSTANCES 1
+#endif
+
 /* A table behind trax_path_params. */
 static inline const void *path_table(uint32_t offset) {
   return (const char *)params.data + sizeof(struct trax_render_params) + offset;

@@ -31,6 +31,18 @@ struct surface {
 #define OFFSET_PER_EDGE 0x1p-17f
 #define OFFSET_PER_POSITION 0x1p-22f
 
+#if TRAX_INSTANCES
+/* The further bound of an instance's triangle, which grows with its distance from the instance's origin
+   (docs/instances.md). */
+static inline float bound_of_place(const struct hit *hit, struct vector a, int32_t edge) {
+  if (!hit->instance)
+    return 0;
+  const struct trax_instance *instance = instance_at(hit->instance);
+  const int32_t away = greatest_magnitude(minus(a, load_vector(instance->origin)));
+  return instance->spread * (bits_float(away) + bits_float(edge));
+}
+#endif
+
 static inline __attribute__((always_inline)) void find_surface(struct surface *surface, const struct hit *hit,
                                                                struct vector eye, struct vector direction) {
   (void)direction; /* exact.h needs it */
@@ -51,6 +63,9 @@ static inline __attribute__((always_inline)) void find_surface(struct surface *s
   int32_t edge = larger(greatest_magnitude(e), greatest_magnitude(f));
   float inverse_length = trax_rsqrt(dot(n, n));
   float bound = bits_float(greatest_magnitude(a)) * OFFSET_PER_POSITION + bits_float(edge) * OFFSET_PER_EDGE;
+#if TRAX_INSTANCES
+  bound += bound_of_place(hit, a, edge);
+#endif
   struct vector out = times(bound * inverse_length, n);
 
   /* Also half as far back along the sight, but not beyond the eye. Nothing is in between, so this leads away from
@@ -67,13 +82,17 @@ static inline __attribute__((always_inline)) void find_surface(struct surface *s
   surface->inverse_length = inverse_length;
 }
 
-/* Replaces the normal by that of the smooth surface, on the same side of the triangle. */
-static inline __attribute__((always_inline)) void smooth_surface(struct surface *surface, const struct hit *hit,
-                                                                 uint32_t normals_distance) {
+/* The smooth surface's, as the triangle has it. */
+static inline __attribute__((always_inline)) struct vector stored_normal(const struct hit *hit,
+                                                                         uint32_t normals_distance) {
   const float *n0 = (const float *)(const void *)(hit->triangle + normals_distance), *n1 = n0 + 3, *n2 = n0 + 6;
   struct vector first = load_vector(n0);
-  struct vector n = plus(first, plus(times(hit->weight1, minus(load_vector(n1), first)),
-                                     times(hit->weight2, minus(load_vector(n2), first))));
+  return plus(first, plus(times(hit->weight1, minus(load_vector(n1), first)),
+                          times(hit->weight2, minus(load_vector(n2), first))));
+}
+
+/* Replaces the normal by the smooth surface's, on the same side of the triangle. */
+static inline __attribute__((always_inline)) void set_smooth_normal(struct surface *surface, struct vector n) {
   int32_t side = float_bits(dot(n, surface->normal)) & SIGN_BIT;
   n = (struct vector){bits_float(float_bits(n.x) ^ side), bits_float(float_bits(n.y) ^ side),
                       bits_float(float_bits(n.z) ^ side)};
@@ -81,8 +100,17 @@ static inline __attribute__((always_inline)) void smooth_surface(struct surface 
   surface->inverse_length = trax_rsqrt(bits_float(larger(float_bits(dot(n, n)), float_bits(0x1p-40f))));
 }
 
+static inline __attribute__((always_inline)) void smooth_surface(struct surface *surface, const struct hit *hit,
+                                                                 uint32_t normals_distance) {
+  set_smooth_normal(surface, stored_normal(hit, normals_distance));
+}
+
 static inline uint32_t triangle_material(const char *triangle) {
   return load_word(triangle + 36);
+}
+
+static inline uint32_t material_of_hit(const struct hit *hit) {
+  return triangle_material(hit->triangle);
 }
 
 /* The ambient light that the surface reflects; with that of the point light at most 1. */

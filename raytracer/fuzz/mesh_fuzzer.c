@@ -32,7 +32,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
   char *words[most_words];
   const size_t count = fuzz_case_words(fuzz_case.options, words, most_words);
   struct trax_material_override overrides[most_words];
-  struct trax_import_options options = {.overrides = overrides, .texture_size = 64, .drop_nonfinite = size % 2};
+  struct trax_import_options options = {.overrides = overrides,
+                                        .texture_size = 64,
+                                        .drop_nonfinite = size % 2,
+                                        .instances = size / 2 % 2,
+                                        .flatten = size / 4 % 4 == 0};
   trax_error error = {.message = ""};
   for (size_t i = 0; i < count; i++)
     if (strcmp(words[i], "moves") == 0)
@@ -43,7 +47,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
   struct trax_mesh mesh;
   error.message[0] = 0;
   if (trax_mesh_import(&mesh, &path, 1, &options, NULL, &error) == TRAX_OK) {
-    if (mesh.triangle_count <= most_triangles) {
+    if (mesh.triangle_count <= most_triangles && mesh.instance_count <= most_triangles) {
       fuzz_build(&mesh);
       if (options.moves)
         refit(&mesh, path, options);
@@ -73,6 +77,13 @@ size_t LLVMFuzzerCustomMutator(uint8_t *bytes, size_t size, size_t capacity, uns
                                       "Ns 1e3\nKs 1 1 1\n",
                                       "v 1e30 nan -inf\n",
                                       "property float nx\n",
+                                      "mesh a a.obj\n",
+                                      "group b\n",
+                                      "place a\n",
+                                      "place b material a\n",
+                                      "place a 0 -1 0 3  1 0 0 -4e5  0 0 2 0\n",
+                                      "end\n",
+                                      "material a ggx:0.5\n",
                                       "property list uchar int vertex_indices\n",
                                       "element face 4294967295\n",
                                       "comment TextureFile a.png\n",

@@ -78,6 +78,10 @@ add_case("trax-scene-mesh", "glass:2", ("a.ply", PLY), ("a.png", image))
 add_case("trax-scene-mesh", "", ("a.ply", BINARY_PLY))
 add_case("trax-scene-mesh", "", ("a.obj", gzip.compress(OBJ, mtime=0)), ("a.mtl", MTL), ("a.png", image))
 add_case("trax-scene-mesh", "", ("a.ply", lzma.compress(PLY)), ("a.png", image))
+INSTANCES = (b"mesh m a.obj\nmaterial red 0.8,0.1,0.1\ngroup g\nplace m\n"
+             b"place m 0 -1 0 2 1 0 0 0 0 0 1 0 material red\nend\n"
+             b"place g\nplace g -1 0 0 5  0 1 0 0  0 0 0.5 1e4\nplace m material red\n")
+add_case("trax-scene-mesh", "", ("a.instances", INSTANCES), ("a.obj", OBJ.replace(b"usemtl b\n", b"")), ("a.mtl", MTL))
 GLTF = json.dumps({
     "asset": {
         "version": "2.0"
@@ -258,8 +262,11 @@ with tempfile.TemporaryDirectory() as work:
             with open(picture, "rb") as file:
                 add("trax-picture", file.read())
     box = os.path.join(here, "..", "..", "tests", "render", "box.obj")
+    instances = write("a.instances", b"mesh m box.obj\nplace m\nplace m 0 -1 0 9 0.5 0 0 0 0 0 2 1\nplace m\n")
+    with open(box, "rb") as file:
+        write("box.obj", file.read())
     for number, words in enumerate(
-        ([mesh, "--smooth"], [mesh, "--material", "b=glass"], [mesh, "--no-textures"],
+        ([instances, "--smooth"], [mesh, "--smooth"], [mesh, "--material", "b=glass"], [mesh, "--no-textures"],
          [box, "--nodes", "binary"], [box, "--nodes", "quantised", "--leaf", "2"],
          [box, "--material", "red=mirror", "--material", "white=ggx:0.3"], [box, "--smooth", "--leaf", "1"])):
         scene = os.path.join(work, f"{number}.trax")

@@ -89,6 +89,13 @@ void trax_scene_relocate(void *bytes, uint32_t address) {
       *child = at_address(*child, address);
     }
   }
+  if (header->version == TRAX_SCENE_VERSION_INSTANCES) {
+    const struct trax_scene_more *more = (const struct trax_scene_more *)(header + 1);
+    const struct trax_scene_section *instances = &more->sections[TRAX_SCENE_INSTANCES];
+    struct trax_instance *instance = (struct trax_instance *)(void *)((unsigned char *)bytes + instances->offset);
+    for (uint32_t i = 0; i < instances->count; i++)
+      instance[i].root = at_address(instance[i].root, address);
+  }
   const struct trax_scene_section *textures = &header->sections[TRAX_SCENE_TEXTURES];
   struct trax_texture *texture = (struct trax_texture *)(void *)((unsigned char *)bytes + textures->offset);
   for (uint32_t i = 0; i < textures->count; i++)

@@ -39,6 +39,8 @@ bool embree_hit(const struct embree *embree, struct double3 origin, struct doubl
   struct RTCRayHit ray = {.ray = rtc_ray(origin, direction, INFINITY), .hit = {.geomID = RTC_INVALID_GEOMETRY_ID}};
   rtc_intersect(embree->scene, &context, &ray);
   *hit = (struct exact_hit){ray.hit.primID, ray.ray.tfar, ray.hit.u, ray.hit.v};
+  if (ray.hit.geomID != RTC_INVALID_GEOMETRY_ID && embree->frame->scene->instances)
+    hit->triangle += embree->frame->scene->instances[ray.hit.instID[0]].first_number;
   return ray.hit.geomID != RTC_INVALID_GEOMETRY_ID;
 }
 
@@ -51,17 +53,22 @@ bool embree_blocked(const struct embree *embree, struct double3 origin, struct d
   return ray.tfar < 0;
 }
 
-double embree_start_bound(const struct embree *embree, const struct trax_triangle *triangle, struct double3 origin,
+double embree_start_bound(const struct embree *embree, const struct placed_triangle *placed, struct double3 origin,
                           struct double3 sight) {
+  const struct trax_triangle *triangle = &placed->triangle;
+  const struct trax_instance *instance = placed->instance;
   const struct double3 v0 = from(triangle->v0);
   const double edges = fmax(greatest(minus(from(triangle->v1), v0)), greatest(minus(from(triangle->v2), v0)));
+  if (instance)
+    return trax_start_bound(greatest(v0), edges) +
+           (double)instance->spread * (greatest(minus(v0, from(instance->origin))) + edges);
   return embree_needs(embree, TRAX_FEATURE_EXACT)
              ? trax_exact_start_bound(greatest(v0), edges, greatest(origin), greatest(sight))
              : trax_start_bound(greatest(v0), edges);
 }
 
 /* The start is moved along the normal and back along the sight. */
-struct double3 embree_start(const struct embree *embree, const struct trax_triangle *triangle, struct double3 point,
+struct double3 embree_start(const struct embree *embree, const struct placed_triangle *triangle, struct double3 point,
                             struct double3 normal, struct double3 origin) {
   const struct double3 sight = minus(point, origin);
   const double bound = embree_start_bound(embree, triangle, origin, sight);
@@ -82,18 +89,22 @@ static struct double3 trace_sample(const struct embree *embree, struct pixel pix
     return squares(params->background);
   seen->triangle = hit.triangle;
 
-  const struct trax_triangle *triangle = &embree->frame->scene->triangles[hit.triangle];
+  struct placed_triangle placed;
+  trax_place(&placed, embree->frame->scene, hit.triangle);
+  const struct trax_triangle *triangle = &placed.triangle;
   struct double3 v0 = from(triangle->v0), e = minus(from(triangle->v1), v0), f = minus(from(triangle->v2), v0);
   struct double3 normal = cross(e, f);
   double length = sqrt(dot(normal, normal));
   double facing = dot(normal, direction) < 0 ? 1 / length : -1 / length;
   normal = (struct double3){facing * normal.x, facing * normal.y, facing * normal.z};
   const struct double3 point = plus_scaled(plus_scaled(v0, hit.u, e), hit.v, f);
-  const struct double3 start = embree_start(embree, triangle, point, normal, from(params->eye));
+  const struct double3 start = embree_start(embree, &placed, point, normal, from(params->eye));
   struct double3 flat = normal;
   if (embree_needs(embree, TRAX_FEATURE_SMOOTH)) {
-    const struct trax_triangle_normals *normals = &embree->frame->scene->normals[hit.triangle];
-    struct double3 n0 = from(normals->corner[0]), n1 = from(normals->corner[1]), n2 = from(normals->corner[2]);
+    double n[3][3];
+    trax_place_normals(n, embree->frame->scene, &placed);
+    const struct double3 n0 = {n[0][0], n[0][1], n[0][2]}, n1 = {n[1][0], n[1][1], n[1][2]},
+                         n2 = {n[2][0], n[2][1], n[2][2]};
     normal = plus_scaled(plus_scaled(n0, hit.u, minus(n1, n0)), hit.v, minus(n2, n0));
     double size = sqrt(dot(normal, normal)) * (dot(normal, flat) < 0 ? -1 : 1);
     normal = (struct double3){normal.x / size, normal.y / size, normal.z / size};
@@ -174,42 +185,116 @@ static void *render_rows(void *argument) {
   return NULL;
 }
 
-trax_status embree_commit(RTCDevice device, RTCScene scene, const struct trax_scene *source, trax_error *error) {
-  rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-  if (source->triangle_count > 0) {
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    float *vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12,
-                                              3 * (size_t)source->triangle_count);
-    uint32_t *indices =
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, source->triangle_count);
-    if (!vertices || !indices) {
-      rtcReleaseGeometry(geometry);
-      return trax_fail(error, "out of memory for Embree's scene of %u triangles", source->triangle_count);
-    }
-    for (uint32_t i = 0; i < source->triangle_count; i++) {
-      memcpy(vertices + 9 * (size_t)i, source->triangles[i].v0, 36);
-      for (uint32_t corner = 0; corner < 3; corner++)
-        indices[3 * (size_t)i + corner] = 3 * i + corner;
-    }
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene, geometry);
-    rtcReleaseGeometry(geometry);
-  }
+static trax_status committed(RTCDevice device, RTCScene scene, trax_error *error) {
   rtcCommitScene(scene);
-  enum RTCError failure = rtcGetDeviceError(device);
+  const enum RTCError failure = rtcGetDeviceError(device);
   return failure ? trax_fail(error, "Embree could not build the scene (error %d)", (int)failure) : TRAX_OK;
 }
 
-static trax_status build_scene(RTCDevice device, struct embree *embree, trax_error *error) {
+static trax_status no_memory(const struct trax_scene *source, trax_error *error) {
+  return trax_fail(error, "out of memory for Embree's scene of %u triangles", source->triangle_count);
+}
+
+static trax_status add_triangles(RTCDevice device, RTCScene scene, const struct trax_scene *source, uint32_t first,
+                                 uint32_t count, trax_error *error) {
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  float *vertices =
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, 3 * (size_t)count);
+  uint32_t *indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, count);
+  if (!vertices || !indices) {
+    rtcReleaseGeometry(geometry);
+    return no_memory(source, error);
+  }
+  for (uint32_t i = 0; i < count; i++) {
+    memcpy(vertices + 9 * (size_t)i, source->triangles[first + i].v0, 9 * sizeof(float));
+    for (uint32_t corner = 0; corner < 3; corner++)
+      indices[3 * (size_t)i + corner] = 3 * i + corner;
+  }
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene, geometry);
+  rtcReleaseGeometry(geometry);
+  return TRAX_OK;
+}
+
+/* Places a scene for each mesh. They live as long as the instances. */
+static trax_status add_instances(RTCDevice device, RTCScene scene, RTCScene *meshes, const struct trax_scene *source) {
+  for (uint32_t i = 0; i < source->instance_count; i++) {
+    const struct trax_instance *instance = &source->instances[i];
+    float rows[3][4];
+    for (int row = 0; row < 3; row++) {
+      memcpy(rows[row], instance->to_world[row], sizeof instance->to_world[row]);
+      rows[row][3] = instance->origin[row];
+    }
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(geometry, meshes[instance->mesh]);
+    rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, rows);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(scene, geometry, i);
+    rtcReleaseGeometry(geometry);
+  }
+  return TRAX_OK;
+}
+
+/* Embree transforms rays in binary32, by an inverse of its own. Boxes must be wide enough for those errors. */
+static void set_rooms(struct exact_part *parts, const struct trax_scene *source, const float eye[3]) {
+  const double reach =
+      fmax(fmax(greatest(from(source->header->bounds_min)), greatest(from(source->header->bounds_max))),
+           greatest(from(eye)));
+  for (uint32_t i = 0; i < source->instance_count; i++) {
+    const struct trax_instance *instance = &source->instances[i];
+    struct exact_part *part = &parts[instance->mesh];
+    const double room = 4 * fmax((double)instance->spread, 0x1p-19) * (double)instance->stretch *
+                        (2 * reach + greatest(from(instance->origin)));
+    part->room = fmaxf(part->room, (float)room);
+  }
+}
+
+/* parts: for hits without error; NULL: Embree's own. */
+static trax_status build_scene(RTCDevice device, RTCScene scene, const struct trax_scene *source,
+                               struct exact_part *parts, trax_error *error) {
+  rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+  const uint32_t count = source->instances ? source->mesh_count : source->triangle_count > 0;
+  RTCScene *meshes = calloc(count + (size_t)1, sizeof(RTCScene));
+  trax_status status = meshes ? TRAX_OK : no_memory(source, error);
+  for (uint32_t i = 0; i < count && status == TRAX_OK; i++) {
+    const uint32_t first = source->instances ? source->meshes[i].first_triangle : 0;
+    const uint32_t triangles = source->instances ? source->meshes[i].triangle_count : source->triangle_count;
+    RTCScene to = scene;
+    if (source->instances) {
+      to = meshes[i] = rtcNewScene(device);
+      rtcSetSceneFlags(to, RTC_SCENE_FLAG_ROBUST);
+    }
+    if (parts) {
+      parts[i].source = source, parts[i].first = first, parts[i].count = triangles;
+      status = exact_attach(device, to, &parts[i]) ? TRAX_OK : no_memory(source, error);
+    } else {
+      status = add_triangles(device, to, source, first, triangles, error);
+    }
+    if (status == TRAX_OK && source->instances)
+      status = committed(device, to, error);
+  }
+  if (status == TRAX_OK && source->instances)
+    status = add_instances(device, scene, meshes, source);
+  for (uint32_t i = 0; i < count && meshes; i++)
+    if (meshes[i])
+      rtcReleaseScene(meshes[i]);
+  free(meshes);
+  return status == TRAX_OK ? committed(device, scene, error) : status;
+}
+
+trax_status embree_commit(RTCDevice device, RTCScene scene, const struct trax_scene *source, trax_error *error) {
+  return build_scene(device, scene, source, NULL, error);
+}
+
+static trax_status build(RTCDevice device, struct embree *embree, trax_error *error) {
   const struct trax_scene *source = embree->frame->scene;
-  if (!embree->exactly || source->triangle_count == 0)
+  if (!embree->exactly)
     return embree_commit(device, embree->scene, source, error);
-  rtcSetSceneFlags(embree->scene, RTC_SCENE_FLAG_ROBUST);
-  if (!exact_attach(device, embree->scene, source))
-    return trax_fail(error, "out of memory for Embree's scene of %u triangles", source->triangle_count);
-  rtcCommitScene(embree->scene);
-  enum RTCError failure = rtcGetDeviceError(device);
-  return failure ? trax_fail(error, "Embree could not build the scene (error %d)", (int)failure) : TRAX_OK;
+  embree->parts = calloc(source->mesh_count + (size_t)1, sizeof *embree->parts);
+  if (!embree->parts)
+    return no_memory(source, error);
+  set_rooms(embree->parts, source, embree->frame->params->eye);
+  return build_scene(device, embree->scene, source, embree->parts, error);
 }
 
 static trax_status render(struct embree *embree, trax_error *error) {
@@ -230,7 +315,7 @@ static trax_status run_embree(struct embree *embree, trax_error *error) {
   if (!device)
     return trax_fail(error, "Embree does not start (error %d)", (int)rtcGetDeviceError(NULL));
   embree->scene = rtcNewScene(device);
-  trax_status status = build_scene(device, embree, error);
+  trax_status status = build(device, embree, error);
   if (status == TRAX_OK && !embree_prepare_lights(embree))
     status = trax_fail(error, "out of memory for the lights of Embree's picture");
   if (status == TRAX_OK)
@@ -238,6 +323,7 @@ static trax_status run_embree(struct embree *embree, trax_error *error) {
   free(embree->emitters);
   embree->run->rays = embree->rays;
   rtcReleaseScene(embree->scene);
+  free(embree->parts);
   rtcReleaseDevice(device);
   return status;
 }

@@ -5,6 +5,7 @@
 #include "exact.h"
 #include "hits.h"
 #include "layers.h"
+#include "placed.h"
 #include "render.h"
 
 #include "../device/camera.h"
@@ -23,6 +24,7 @@ struct embree {
   struct trax_picture *picture;                   /* to fill, or else: */
   struct trax_hits *hits;                         /* of one ray a pixel, and nothing is shaded */
   bool exactly;                                   /* hits are those of exact.h, else Embree's own */
+  struct exact_part *parts;                       /* of exact.h; from malloc */
   struct trax_light lights[TRAX_VIEW_MAX_LIGHTS]; /* those that shine */
   uint32_t light_count;
   struct embree_emitter *emitters; /* from malloc */
@@ -35,7 +37,8 @@ struct embree {
   uint64_t rays;
 };
 
-/* Builds the scene of the triangles, with vertices of their own each, so that primID is the triangle's number. */
+/* Builds the scene of the triangles, with vertices of their own each, so that primID is the triangle's number; with
+   instances, that in its mesh, and instID[0] the instance's. */
 trax_status embree_commit(RTCDevice device, RTCScene scene, const struct trax_scene *source, trax_error *error);
 
 bool embree_hit(const struct embree *embree, struct double3 origin, struct double3 direction, struct exact_hit *hit);
@@ -43,10 +46,10 @@ bool embree_blocked(const struct embree *embree, struct double3 origin, struct d
 
 /* The distance from a triangle at which rays that leave it start, as in device/shade.h. The hit was found by a ray from
    `origin`, `sight` away. */
-double embree_start_bound(const struct embree *embree, const struct trax_triangle *triangle, struct double3 origin,
+double embree_start_bound(const struct embree *embree, const struct placed_triangle *triangle, struct double3 origin,
                           struct double3 sight);
 /* A point where rays start on the viewer's side. normal: towards the viewer, of unit length. */
-struct double3 embree_start(const struct embree *embree, const struct trax_triangle *triangle, struct double3 point,
+struct double3 embree_start(const struct embree *embree, const struct placed_triangle *triangle, struct double3 point,
                             struct double3 normal, struct double3 origin);
 
 static inline bool embree_needs(const struct embree *embree, enum trax_feature feature) {

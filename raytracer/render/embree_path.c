@@ -77,11 +77,11 @@ static struct texel look_up(const struct trax_scene *scene, const struct trax_te
   return sum;
 }
 
-static struct texel texel_of(const struct trax_scene *scene, const struct trax_material *material,
+static struct texel texel_of(const struct trax_scene *scene, const struct trax_material *material, uint32_t stored,
                              const struct exact_hit *hit) {
   if (!material->texture || !scene->uvs)
     return (struct texel){{1, 1, 1}, 1};
-  const float(*corner)[2] = scene->uvs[hit->triangle].corner;
+  const float(*corner)[2] = scene->uvs[stored].corner;
   double place[2];
   for (int i = 0; i < 2; i++)
     place[i] =
@@ -101,9 +101,12 @@ struct surface {
   bool turned;
 };
 
-static struct double3 smooth_normal(const struct trax_triangle_normals *normals, const struct exact_hit *hit,
-                                    struct double3 flat) {
-  const struct double3 a = from(normals->corner[0]), b = from(normals->corner[1]), c = from(normals->corner[2]);
+static struct double3 smooth_normal(const struct trax_scene *scene, const struct placed_triangle *placed,
+                                    const struct exact_hit *hit, struct double3 flat) {
+  double v[3][3];
+  trax_place_normals(v, scene, placed);
+  const struct double3 a = {v[0][0], v[0][1], v[0][2]}, b = {v[1][0], v[1][1], v[1][2]},
+                       c = {v[2][0], v[2][1], v[2][2]};
   const struct double3 n = plus_scaled(plus_scaled(scaled(1 - hit->u - hit->v, a), hit->u, b), hit->v, c);
   return embree_unit(dot(n, flat) < 0 ? scaled(-1, n) : n);
 }
@@ -111,19 +114,22 @@ static struct double3 smooth_normal(const struct trax_triangle_normals *normals,
 static void describe(struct surface *surface, const struct sample *sample, const struct exact_hit *hit,
                      struct double3 origin, struct double3 direction) {
   const struct trax_scene *scene = sample->embree->frame->scene;
-  const struct trax_triangle *triangle = &scene->triangles[hit->triangle];
+  struct placed_triangle placed;
+  trax_place(&placed, scene, hit->triangle);
+  const struct trax_triangle *triangle = &placed.triangle;
   const struct trax_material *material = &scene->materials[triangle->material];
   const struct double3 a = from(triangle->v0), e = minus(from(triangle->v1), a), f = minus(from(triangle->v2), a);
   const struct double3 on = plus_scaled(plus_scaled(a, hit->u, e), hit->v, f);
   surface->material = material;
   surface->hit = *hit;
-  surface->texel = texel_of(scene, material, hit);
+  surface->texel = texel_of(scene, material, placed.stored, hit);
   struct double3 normal = embree_winding_normal(triangle);
   surface->turned = dot(normal, direction) > 0;
   normal = surface->turned ? scaled(-1, normal) : normal;
+  surface->turned ^= placed.mirrored;
   surface->point = on;
-  surface->start = embree_start(sample->embree, triangle, on, normal, origin);
-  surface->behind = plus_scaled(on, -embree_start_bound(sample->embree, triangle, origin, minus(on, origin)), normal);
+  surface->start = embree_start(sample->embree, &placed, on, normal, origin);
+  surface->behind = plus_scaled(on, -embree_start_bound(sample->embree, &placed, origin, minus(on, origin)), normal);
 
   struct embree_surface *at = &surface->at;
   const bool scatters = material->kind == TRAX_MATERIAL_LAMBERT || material->kind == TRAX_MATERIAL_GGX;
@@ -135,7 +141,7 @@ static void describe(struct surface *surface, const struct sample *sample, const
                                 .roughness = fmax((double)material->roughness, (double)TRAX_LEAST_ROUGHNESS),
                                 .layered = material->kind == TRAX_MATERIAL_GGX};
   if (embree_needs(sample->embree, TRAX_FEATURE_SMOOTH)) {
-    const struct double3 smooth = smooth_normal(&scene->normals[hit->triangle], hit, normal);
+    const struct double3 smooth = smooth_normal(scene, &placed, hit, normal);
     if (scatters || dot(smooth, at->view) > 0)
       at->normal = smooth;
   }
@@ -351,7 +357,9 @@ static struct double3 deflect(const struct sample *sample, const struct surface 
    `density`. On a Lambert surface the ray stands for the way from point to point, which has another form factor. */
 static double share_of_emission(const struct sample *sample, const struct surface *scatterer, double density,
                                 const struct surface *surface, double distance, struct double3 direction) {
-  const struct trax_triangle *triangle = &sample->embree->frame->scene->triangles[surface->hit.triangle];
+  struct placed_triangle placed;
+  trax_place(&placed, sample->embree->frame->scene, surface->hit.triangle);
+  const struct trax_triangle *triangle = &placed.triangle;
   double own = density, share = 1;
   struct double3 way = direction;
   const double straight = embree_towards(scatterer->point, surface->point, &way);

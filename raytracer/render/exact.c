@@ -1,6 +1,7 @@
 #include "exact.h"
 
 #include "double2.h"
+#include "placed.h"
 #include "rtc_query.h"
 
 #include <gmp.h>
@@ -119,8 +120,19 @@ static void rational_volume(struct rational_triangle *r, mpq_t sum, struct ratio
     }
 }
 
-static void rational_set(struct rational_triangle *r, const struct trax_triangle *triangle, struct double3 origin,
-                         struct double3 direction) {
+/* place += the instance's image of a corner, without the corner itself */
+static void rational_place(struct rational_triangle *r, mpq_t place, const struct trax_instance *instance,
+                           const float *corner, int axis) {
+  mpq_set_d(place, (double)instance->origin[axis]);
+  for (int column = 0; column < 3; column++) {
+    mpq_set_d(r->scaled, (double)instance->to_world[axis][column] * (double)corner[column]); /* 48 bits at most */
+    mpq_add(place, place, r->scaled);
+  }
+}
+
+/* The triangle is in the instance's mesh; NULL: in the scene. */
+static void rational_set(struct rational_triangle *r, const struct trax_triangle *triangle,
+                         const struct trax_instance *instance, struct double3 origin, struct double3 direction) {
   const float *const corner[3] = {triangle->v0, triangle->v1, triangle->v2};
   const double from[3] = {origin.x, origin.y, origin.z}, towards[3] = {direction.x, direction.y, direction.z};
   for (int axis = 0; axis < 3; axis++) {
@@ -128,6 +140,8 @@ static void rational_set(struct rational_triangle *r, const struct trax_triangle
     mpq_set_d(*component(&r->direction, axis), towards[axis]);
     for (int i = 0; i < 3; i++) {
       mpq_set_d(*component(&r->vertex[i], axis), (double)corner[i][axis]);
+      if (instance)
+        rational_place(r, *component(&r->vertex[i], axis), instance, corner[i], axis);
       mpq_sub(*component(&r->vertex[i], axis), *component(&r->vertex[i], axis), r->product);
     }
   }
@@ -140,11 +154,11 @@ static void rational_set(struct rational_triangle *r, const struct trax_triangle
 }
 
 /* The same as exact_triangle. */
-static bool rational_triangle(const struct trax_triangle *triangle, struct double3 origin, struct double3 direction,
-                              struct exact_hit *hit, mpq_t distance) {
+static bool rational_triangle(const struct trax_triangle *triangle, const struct trax_instance *instance,
+                              struct double3 origin, struct double3 direction, struct exact_hit *hit, mpq_t distance) {
   struct rational_triangle r;
   rational_init(&r);
-  rational_set(&r, triangle, origin, direction);
+  rational_set(&r, triangle, instance, origin, direction);
   bool positive = false, negative = false;
   for (int i = 0; i < 3; i++) {
     positive |= mpq_sgn(r.volume[i]) > 0;
@@ -185,6 +199,76 @@ static enum answer in_double2(const struct trax_triangle *triangle, struct doubl
   return decide(edge, sum_of(edge), long_volume(&a, &c, &b), hit);
 }
 
+/* A corner as seen from the origin, and the sums of the magnitudes that were added up: all errors are within 2^-100 of
+   these. */
+static struct double2_3 placed_corner(struct double3 *size, const struct trax_instance *instance, const float v[3],
+                                      struct double3 origin) {
+  struct double2_3 corner;
+  for (int row = 0; row < 3; row++) {
+    const double start = (&origin.x)[row];
+    struct double2 *sum = &(&corner.x)[row];
+    double *magnitude = &(&size->x)[row];
+    *sum = double2_of_sum((double)instance->origin[row], -start);
+    *magnitude = fabs((double)instance->origin[row]) + fabs(start);
+    for (int column = 0; column < 3; column++) {
+      const double product = (double)instance->to_world[row][column] * (double)v[column];
+      *sum = double2_plus(*sum, (struct double2){product, 0});
+      *magnitude += fabs(product);
+    }
+  }
+  return corner;
+}
+
+/* The same in binary64: errors are within 2^-49 of the magnitudes. */
+static struct double3 rounded_corner(struct double3 *size, const struct trax_instance *instance, const float v[3],
+                                     struct double3 origin) {
+  struct double3 corner;
+  for (int row = 0; row < 3; row++) {
+    const float *a = instance->to_world[row];
+    const double x = (double)a[0] * (double)v[0], y = (double)a[1] * (double)v[1], z = (double)a[2] * (double)v[2],
+                 at = (double)instance->origin[row], start = (&origin.x)[row];
+    (&corner.x)[row] = at - start + x + y + z;
+    (&size->x)[row] = fabs(at) + fabs(start) + fabs(x) + fabs(y) + fabs(z);
+  }
+  return corner;
+}
+
+static struct bounded rounded_volume(struct double3 a, struct double3 b, struct double3 c, struct double3 size_a,
+                                     struct double3 size_b, struct double3 size_c) {
+  return (struct bounded){dot(a, cross(b, c)), 0x1p-46 * volume_size(size_a, size_b, size_c) + 0x1p-900};
+}
+
+static enum answer placed_in_binary64(const struct trax_triangle *triangle, const struct trax_instance *instance,
+                                      struct double3 origin, struct double3 way, struct exact_hit *hit) {
+  struct double3 sa, sb, sc;
+  const struct double3 a = rounded_corner(&sa, instance, triangle->v0, origin),
+                       b = rounded_corner(&sb, instance, triangle->v1, origin),
+                       c = rounded_corner(&sc, instance, triangle->v2, origin);
+  const struct bounded edge[3] = {rounded_volume(way, c, b, way, sc, sb), rounded_volume(way, a, c, way, sa, sc),
+                                  rounded_volume(way, b, a, way, sb, sa)};
+  return decide(edge, sum_of(edge), rounded_volume(a, c, b, sa, sc, sb), hit);
+}
+
+static struct bounded placed_volume(const struct double2_3 *a, const struct double2_3 *b, const struct double2_3 *c,
+                                    struct double3 size_a, struct double3 size_b, struct double3 size_c) {
+  const struct double2 value = double2_volume(a, b, c);
+  return (struct bounded){value.high,
+                          0x1p-96 * volume_size(size_a, size_b, size_c) + 0x1p-52 * fabs(value.high) + 0x1p-900};
+}
+
+static enum answer placed_in_double2(const struct trax_triangle *triangle, const struct trax_instance *instance,
+                                     struct double3 origin, struct double3 direction, struct exact_hit *hit) {
+  struct double3 sa, sb, sc;
+  const struct double2_3 a = placed_corner(&sa, instance, triangle->v0, origin),
+                         b = placed_corner(&sb, instance, triangle->v1, origin),
+                         c = placed_corner(&sc, instance, triangle->v2, origin),
+                         way = {{direction.x, 0}, {direction.y, 0}, {direction.z, 0}};
+  const struct bounded edge[3] = {placed_volume(&way, &c, &b, direction, sc, sb),
+                                  placed_volume(&way, &a, &c, direction, sa, sc),
+                                  placed_volume(&way, &b, &a, direction, sb, sa)};
+  return decide(edge, sum_of(edge), placed_volume(&a, &c, &b, sa, sc, sb), hit);
+}
+
 /* Whether the triangle lies in a plane perpendicular to an axis, at this place. Rooms have many such triangles. A ray
    that starts in their plane meets it at a distance of 0, and all triangles of a plane have one distance. Both are
    found without rational numbers. */
@@ -204,7 +288,26 @@ bool exact_triangle(const struct trax_triangle *triangle, struct double3 origin,
     return answer == HIT;
   mpq_t distance;
   mpq_init(distance);
-  const bool found = rational_triangle(triangle, origin, direction, hit, distance);
+  const bool found = rational_triangle(triangle, NULL, origin, direction, hit, distance);
+  mpq_clear(distance);
+  return found;
+}
+
+bool exact_placed(const struct trax_scene *scene, uint32_t number, struct double3 origin, struct double3 direction,
+                  struct exact_hit *hit) {
+  if (!scene->instances)
+    return exact_triangle(&scene->triangles[number], origin, direction, hit);
+  struct placed_triangle placed;
+  trax_place(&placed, scene, number);
+  const struct trax_triangle *triangle = &scene->triangles[placed.stored];
+  enum answer answer = placed_in_binary64(triangle, placed.instance, origin, direction, hit);
+  if (answer == UNCERTAIN)
+    answer = placed_in_double2(triangle, placed.instance, origin, direction, hit);
+  if (answer != UNCERTAIN)
+    return answer == HIT;
+  mpq_t distance;
+  mpq_init(distance);
+  const bool found = rational_triangle(triangle, placed.instance, origin, direction, hit, distance);
   mpq_clear(distance);
   return found;
 }
@@ -220,45 +323,82 @@ struct query {
 };
 
 static void bounds(const struct RTCBoundsFunctionArguments *arguments) {
-  const struct trax_scene *source = arguments->geometryUserPtr;
-  const struct trax_triangle *t = &source->triangles[arguments->primID];
+  const struct exact_part *part = arguments->geometryUserPtr;
+  const struct trax_scene *source = part->source;
+  const struct trax_triangle *t = &source->triangles[part->first + arguments->primID];
   struct RTCBounds *box = arguments->bounds_o;
   float *low = &box->lower_x, *high = &box->upper_x;
   for (int i = 0; i < 3; i++) {
     /* Room for the rounding of a ray's origin to floats. */
     const float size = fmaxf(fabsf(source->header->bounds_min[i]), fabsf(source->header->bounds_max[i]));
-    const float room = 0x1p-20f * fmaxf(size, source->header->bounds_max[i] - source->header->bounds_min[i]);
+    const float own = 0x1p-20f * fmaxf(size, source->header->bounds_max[i] - source->header->bounds_min[i]);
+    const float room = source->instances ? part->room : own;
     low[i] = fminf(fminf(t->v0[i], t->v1[i]), t->v2[i]) - room;
     high[i] = fmaxf(fmaxf(t->v0[i], t->v1[i]), t->v2[i]) + room;
   }
 }
 
 /* The same order as in device/triangle.h. */
-static bool comes_first(const struct trax_triangle *triangle, const struct trax_triangle *other) {
+static int compare_corners(const struct trax_triangle *triangle, const struct trax_triangle *other) {
   uint32_t words[9], other_words[9];
   memcpy(words, triangle, sizeof words);
   memcpy(other_words, other, sizeof other_words);
   for (int i = 0; i < 9; i++)
     if (words[i] != other_words[i])
-      return words[i] < other_words[i];
-  return triangle < other;
+      return words[i] < other_words[i] ? -1 : 1;
+  return 0;
+}
+
+static bool comes_first(const struct trax_triangle *triangle, const struct trax_triangle *other) {
+  const int order = compare_corners(triangle, other);
+  return order ? order < 0 : triangle < other;
+}
+
+/* The number of the triangle that Embree's ray meets. */
+static uint32_t number_of(const struct exact_part *part, const struct query *query, uint32_t primitive) {
+  return part->source->instances ? part->source->instances[query->context.instID[0]].first_number + primitive
+                                 : primitive;
+}
+
+/* Of equal distances, the first by the bits of the vertices in the scene, as on the device. */
+static bool placed_is_nearer(const struct query *query, const struct trax_scene *source, const struct exact_hit *hit,
+                             const struct exact_hit *other) {
+  struct placed_triangle placed, rival;
+  struct exact_hit ignored;
+  mpq_t distance, other_distance;
+  trax_place(&placed, source, hit->triangle);
+  trax_place(&rival, source, other->triangle);
+  mpq_inits(distance, other_distance, NULL);
+  rational_triangle(&source->triangles[placed.stored], placed.instance, query->origin, query->direction, &ignored,
+                    distance);
+  rational_triangle(&source->triangles[rival.stored], rival.instance, query->origin, query->direction, &ignored,
+                    other_distance);
+  const int order = mpq_cmp(distance, other_distance),
+            bits = order ? order : compare_corners(&placed.triangle, &rival.triangle);
+  mpq_clears(distance, other_distance, NULL);
+  if (bits)
+    return bits < 0;
+  return placed.instance == rival.instance ? placed.stored < rival.stored
+                                           : placed.instance->first_source < rival.instance->first_source;
 }
 
 /* Whether the first of two triangles that are hit is nearer. Of equal distances, the one that comes first is. */
 static bool is_nearer(const struct query *query, const struct trax_scene *source, const struct exact_hit *hit,
                       const struct exact_hit *other) {
-  const struct trax_triangle *triangle = &source->triangles[hit->triangle],
-                             *rival = &source->triangles[other->triangle];
   if (fabs(hit->distance - other->distance) > 2 * DISTANCE_ERROR * (hit->distance + other->distance))
     return hit->distance < other->distance;
+  if (source->instances)
+    return placed_is_nearer(query, source, hit, other);
+  const struct trax_triangle *triangle = &source->triangles[hit->triangle],
+                             *rival = &source->triangles[other->triangle];
   for (int axis = 0; axis < 3; axis++)
     if (lies_at(triangle, axis, triangle->v0[axis]) && lies_at(rival, axis, triangle->v0[axis]))
       return comes_first(triangle, rival);
   struct exact_hit ignored;
   mpq_t distance, other_distance;
   mpq_inits(distance, other_distance, NULL);
-  rational_triangle(triangle, query->origin, query->direction, &ignored, distance);
-  rational_triangle(rival, query->origin, query->direction, &ignored, other_distance);
+  rational_triangle(triangle, NULL, query->origin, query->direction, &ignored, distance);
+  rational_triangle(rival, NULL, query->origin, query->direction, &ignored, other_distance);
   const int order = mpq_cmp(distance, other_distance);
   mpq_clears(distance, other_distance, NULL);
   return order < 0 || (order == 0 && comes_first(triangle, rival));
@@ -267,10 +407,10 @@ static bool is_nearer(const struct query *query, const struct trax_scene *source
 /* Embree's own ray, in floats, only rules out what is too far. Its end is set behind the hit. */
 static void nearest(const struct RTCIntersectFunctionNArguments *arguments) {
   struct query *query = (struct query *)arguments->context;
-  const struct trax_scene *source = arguments->geometryUserPtr;
-  struct exact_hit hit = {.triangle = arguments->primID};
-  if (!arguments->valid[0] ||
-      !exact_triangle(&source->triangles[hit.triangle], query->origin, query->direction, &hit) ||
+  const struct exact_part *part = arguments->geometryUserPtr;
+  const struct trax_scene *source = part->source;
+  struct exact_hit hit = {.triangle = number_of(part, query, arguments->primID)};
+  if (!arguments->valid[0] || !exact_placed(source, hit.triangle, query->origin, query->direction, &hit) ||
       (query->found && !is_nearer(query, source, &hit, &query->hit)))
     return;
   query->found = true;
@@ -279,27 +419,27 @@ static void nearest(const struct RTCIntersectFunctionNArguments *arguments) {
   struct RTCRayHit *ray = (struct RTCRayHit *)(void *)arguments->rayhit;
   ray->ray.tfar = (float)(hit.distance * (1 + 0x1p-20));
   ray->hit.geomID = arguments->geomID;
-  ray->hit.primID = hit.triangle;
+  ray->hit.primID = arguments->primID;
 }
 
 static void any(const struct RTCOccludedFunctionNArguments *arguments) {
   struct query *query = (struct query *)arguments->context;
-  const struct trax_scene *source = arguments->geometryUserPtr;
-  struct exact_hit hit = {.triangle = arguments->primID};
-  if (!arguments->valid[0] ||
-      !exact_triangle(&source->triangles[hit.triangle], query->origin, query->direction, &hit) ||
+  const struct exact_part *part = arguments->geometryUserPtr;
+  const struct trax_scene *source = part->source;
+  struct exact_hit hit = {.triangle = number_of(part, query, arguments->primID)};
+  if (!arguments->valid[0] || !exact_placed(source, hit.triangle, query->origin, query->direction, &hit) ||
       hit.distance >= query->limit)
     return;
   query->found = true;
   ((struct RTCRay *)(void *)arguments->ray)->tfar = -INFINITY;
 }
 
-bool exact_attach(RTCDevice device, RTCScene scene, const struct trax_scene *source) {
+bool exact_attach(RTCDevice device, RTCScene scene, const struct exact_part *part) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
   if (!geometry)
     return false;
-  rtcSetGeometryUserPrimitiveCount(geometry, source->triangle_count);
-  rtcSetGeometryUserData(geometry, (void *)source);
+  rtcSetGeometryUserPrimitiveCount(geometry, part->count);
+  rtcSetGeometryUserData(geometry, (void *)part);
   rtcSetGeometryBoundsFunction(geometry, bounds, NULL);
   rtcSetGeometryIntersectFunction(geometry, nearest);
   rtcSetGeometryOccludedFunction(geometry, any);

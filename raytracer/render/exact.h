@@ -17,8 +17,15 @@ struct exact_hit {
   double u, v;       /* barycentric weights of v1 and v2 */
 };
 
-/* Attaches the triangles of `source`, which must outlive the scene. False: out of memory. */
-bool exact_attach(RTCDevice device, RTCScene scene, const struct trax_scene *source);
+/* Triangles of a mesh of instances, or all if there are none. */
+struct exact_part {
+  const struct trax_scene *source;
+  uint32_t first, count;
+  float room; /* with instances: boxes are widened by it, for the rounding of the ray that Embree transforms */
+};
+
+/* Attaches the part's triangles. It must outlive the scene. False: out of memory. */
+bool exact_attach(RTCDevice device, RTCScene scene, const struct exact_part *part);
 
 /* The nearest triangle at a distance above 0; of equal distances the one that comes first by the bits of its vertices,
    and of those at one place the first in the file, as on the device. A triangle's edges and vertices belong to it; one
@@ -27,6 +34,11 @@ bool exact_nearest(RTCScene scene, struct double3 origin, struct double3 directi
 
 /* Whether there is any triangle at a distance above 0 and below `limit`. */
 bool exact_any(RTCScene scene, struct double3 origin, struct double3 direction, double limit);
+
+/* Tests the triangle of a number (placed.h), which *hit has already. An instance's vertices are the products of its
+   matrix and its mesh's vertices, without rounding. */
+bool exact_placed(const struct trax_scene *scene, uint32_t number, struct double3 origin, struct double3 direction,
+                  struct exact_hit *hit);
 
 /* Tests one triangle, whose number *hit has already. */
 bool exact_triangle(const struct trax_triangle *triangle, struct double3 origin, struct double3 direction,

@@ -28,6 +28,7 @@ uint32_t trax_features_of(const struct trax_frame_options *options, const struct
                                   trax_light_is_near(scene, view->eye, view->light),
       [TRAX_FEATURE_RAY_KINDS] = options->mark_rays,
       [TRAX_FEATURE_EXACT] = trax_needs_exact(scene, view->eye),
+      [TRAX_FEATURE_INSTANCES] = scene->instances != NULL,
   };
   uint32_t features = 0;
   for (unsigned feature = 0; feature < TRAX_FEATURE_COUNT; feature++)

@@ -43,6 +43,11 @@ void trax_scale_scene(struct trax_scene *scene, int exponent) {
     scale_floats(triangles[i].v1, 3, exponent);
     scale_floats(triangles[i].v2, 3, exponent);
   }
+  /* The meshes of instances are scaled as the scene is, so their matrices stay. */
+  for (uint32_t i = 0; i < scene->instance_count; i++)
+    scale_floats(((struct trax_instance *)scene->instances)[i].origin, 3, exponent);
+  for (uint32_t i = 0; i < scene->mesh_count; i++)
+    scale_floats(((struct trax_scene_mesh *)scene->meshes)[i].bounds_min, 6, exponent);
   header->checksum = 0;
   header->checksum = (uint32_t)crc32(crc32(0, NULL, 0), scene->bytes, (uInt)scene->size);
 }
@@ -195,6 +200,10 @@ trax_status trax_frame_init(struct trax_frame *frame, const struct trax_scene *s
   if (options->paths > TRAX_RENDER_MAX_DEPTH)
     return trax_fail(error, "paths of %u surfaces: there must be %u at most", options->paths, TRAX_RENDER_MAX_DEPTH);
   const uint32_t features = trax_features_of(options, view, scene);
+  if (scene->instances && features & TRAX_FEATURE_BIT(EXACT))
+    return trax_fail(error,
+                     "hits of instances are not exact, and a triangle is too large or too small for others, as seen "
+                     "from the eye (--flatten)");
   const bool lighting = features & TRAX_PATH_FEATURES;
   size_t size =
       sizeof(struct trax_render_params) + (lighting ? trax_lighting_bytes(scene, view, options)

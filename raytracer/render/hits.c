@@ -2,6 +2,7 @@
 
 #include "double3.h"
 #include "exact.h"
+#include "placed.h"
 #include "reach.h"
 
 #include "../device/camera.h"
@@ -23,9 +24,37 @@ struct bounds {
   double distance, distance_error; /* of the plane, in units of the direction */
 };
 
+/* Bounds on the errors of a ray's components in an instance's mesh: each is a sum of three products, of an inverse that
+   was rounded, and of a difference from the instance's origin. 0 without an instance. */
+struct transformed {
+  struct double3 eye, towards;
+  double eye_error, towards_error;
+};
+
+static double most_of_products(const float m[3][3], struct double3 v) {
+  double most = 0;
+  for (int row = 0; row < 3; row++)
+    most = fmax(most, fabs((double)m[row][0] * v.x) + fabs((double)m[row][1] * v.y) + fabs((double)m[row][2] * v.z));
+  return most;
+}
+
+static struct transformed transform(const struct trax_instance *instance, struct double3 eye, struct double3 towards) {
+  if (!instance)
+    return (struct transformed){eye, towards, 0, 0};
+  const struct double3 way = minus(eye, from(instance->origin));
+  return (struct transformed){trax_to_object(instance, way), trax_to_object(instance, towards),
+                              5 * UNIT * most_of_products(instance->to_object, way),
+                              4 * UNIT * most_of_products(instance->to_object, towards)};
+}
+
 /* hit: the distance of the hit that is judged, in units of the direction. */
-static struct bounds bounds_of(const struct trax_triangle *triangle, struct double3 eye, struct double3 towards,
-                               double hit) {
+static struct bounds bounds_of(const struct trax_scene *scene, uint32_t number, struct double3 world_eye,
+                               struct double3 world_towards, double hit) {
+  struct placed_triangle placed;
+  trax_place(&placed, scene, number);
+  const struct trax_triangle *triangle = &scene->triangles[placed.stored];
+  const struct transformed ray = transform(placed.instance, world_eye, world_towards);
+  const struct double3 eye = ray.eye, towards = ray.towards;
   const float *const corners[3] = {triangle->v0, triangle->v1, triangle->v2};
   const double origin[3] = {eye.x, eye.y, eye.z}, direction[3] = {towards.x, towards.y, towards.z};
   int w = 0;
@@ -44,7 +73,8 @@ static struct bounds bounds_of(const struct trax_triangle *triangle, struct doub
     farthest = fmin(farthest, reach);
     vertex[i][u] -= direction[u] / direction[w] * vertex[i][w];
     vertex[i][v] -= direction[v] / direction[w] * vertex[i][w];
-    error[i] = 14 * UNIT * farthest;
+    error[i] =
+        14 * UNIT * farthest + 2 * ray.eye_error + 2 * fabs(vertex[i][w]) * ray.towards_error / fabs(direction[w]);
     size = fmax(size, farthest);
   }
   struct bounds bounds = {0};
@@ -66,8 +96,9 @@ static struct bounds bounds_of(const struct trax_triangle *triangle, struct doub
   }
   /* The hit is a mean of the vertices, so it is no farther off than they are. */
   bounds.distance = mean / direction[w];
-  bounds.distance_error =
-      (fmin(certain > 0 ? spread / certain : INFINITY, widest) + 16 * UNIT * size) / fabs(direction[w]);
+  bounds.distance_error = (fmin(certain > 0 ? spread / certain : INFINITY, widest) + 16 * UNIT * size +
+                           2 * ray.eye_error + 2 * fabs(mean) * ray.towards_error / fabs(direction[w])) /
+                          fabs(direction[w]);
   return bounds;
 }
 
@@ -97,8 +128,8 @@ struct ray {
 static bool exact_is_explained(const struct trax_scene *scene, uint32_t answer, uint32_t right, struct ray ray) {
   struct exact_hit own, nearest;
   return answer != TRAX_NO_TRIANGLE && right != TRAX_NO_TRIANGLE &&
-         exact_triangle(&scene->triangles[answer], ray.eye, ray.direction, &own) &&
-         exact_triangle(&scene->triangles[right], ray.eye, ray.direction, &nearest) &&
+         exact_placed(scene, answer, ray.eye, ray.direction, &own) &&
+         exact_placed(scene, right, ray.eye, ray.direction, &nearest) &&
          own.distance <= nearest.distance * (1 + 0x1p-21);
 }
 
@@ -107,20 +138,20 @@ static bool is_explained(const struct trax_scene *scene, uint32_t answer, uint32
   struct bounds own = {.distance = INFINITY};
   struct exact_hit nearest = {.distance = INFINITY};
   if (right != TRAX_NO_TRIANGLE)
-    exact_triangle(&scene->triangles[right], ray.eye, ray.direction, &nearest);
+    exact_placed(scene, right, ray.eye, ray.direction, &nearest);
   if (answer != TRAX_NO_TRIANGLE) {
-    own = bounds_of(&scene->triangles[answer], ray.eye, ray.direction, nearest.distance);
+    own = bounds_of(scene, answer, ray.eye, ray.direction, nearest.distance);
     if (!may_be_found(&own))
       return false;
   }
   if (right == TRAX_NO_TRIANGLE)
     return true;
-  const struct bounds rival = bounds_of(&scene->triangles[right], ray.eye, ray.direction, nearest.distance);
+  const struct bounds rival = bounds_of(scene, right, ray.eye, ray.direction, nearest.distance);
   return !must_be_found(&rival) || rival.distance + rival.distance_error >= own.distance - own.distance_error;
 }
 
 static uint32_t number_of(const struct trax_scene *scene, uint32_t triangle) {
-  return triangle == TRAX_NO_TRIANGLE || !scene->source_ids ? triangle : scene->source_ids[triangle];
+  return triangle == TRAX_NO_TRIANGLE ? triangle : trax_source_of(scene, triangle);
 }
 
 uint64_t trax_hits_same(const struct trax_hits *a, const struct trax_hits *b, const struct trax_frame *frame) {

@@ -60,11 +60,13 @@ static trax_status load_scene(struct inputs *inputs, const struct options *optio
         return trax_fail(error, "%s: a scene file stands alone, it cannot be merged with other meshes",
                          options->meshes[i]);
       if (options->import.override_count || options->import.no_textures || options->import.texture_size ||
-          options->build.compute_normals || options->nodes || options->splits || options->import.moves)
-        return trax_fail(error,
-                         "%s: a scene file is as trax-scene made it: --material, --diffuse, --at, --no-textures, "
-                         "--texture-size, --nodes, --splits and --normals smooth are for meshes",
-                         options->meshes[0]);
+          options->build.compute_normals || options->nodes || options->splits || options->import.moves ||
+          options->import.instances || options->import.flatten)
+        return trax_fail(
+            error,
+            "%s: a scene file is as trax-scene made it: --material, --diffuse, --at, --no-textures, "
+            "--texture-size, --nodes, --splits, --instances, --flatten and --normals smooth are for meshes",
+            options->meshes[0]);
       trax_status status = trax_scene_read_within(scene, options->meshes[0], options->import.unpack_limit, error);
       if (status == TRAX_OK && options->frame.smooth && !scene->normals && scene->triangle_count)
         status = trax_fail(error, "%s: --smooth: the scene has no normals; trax-scene --smooth makes them",

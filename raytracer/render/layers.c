@@ -1,7 +1,7 @@
 /* Layers of a picture, from the first ray through each pixel. */
 #include "layers.h"
 
-#include "double3.h"
+#include "placed.h"
 
 #include "../device/camera.h"
 
@@ -28,16 +28,13 @@ uint64_t trax_record_bytes(const struct trax_render_params *params) {
 trax_status trax_layers_take(struct trax_picture *picture, const struct trax_frame *frame, const void *record,
                              trax_error *error) {
   const size_t pixels = (size_t)picture->width * picture->height;
-  const struct trax_scene_section *section = &frame->scene->header->sections[TRAX_SCENE_TRIANGLES];
   const struct trax_pixel_record *channels = record;
   const struct trax_sample_record *samples = (const struct trax_sample_record *)(channels + pixels);
   if (trax_layers_init(picture, frame, error) != TRAX_OK)
     return TRAX_ERROR;
   for (size_t i = 0; i < pixels; i++) {
     const struct trax_sample_record *first = &samples[i * frame->params->samples];
-    const uint32_t number = (first->triangle - section->offset) / (uint32_t)sizeof(struct trax_triangle);
-    picture->layers[i].triangle =
-        first->triangle >= section->offset && number < section->count ? number : TRAX_NO_TRIANGLE;
+    picture->layers[i].triangle = trax_number_of_hit(frame->scene, first->triangle, first->instance);
     picture->layers[i].shadow = first->shadow;
     if (frame->params->features & TRAX_PATH_FEATURES)
       continue;
@@ -51,7 +48,9 @@ trax_status trax_layers_take(struct trax_picture *picture, const struct trax_fra
 
 /* Along the ray, to a triangle's plane. */
 static void find_plane(struct trax_layers *layers, const struct trax_frame *frame, struct pixel pixel, int scaled) {
-  const struct trax_triangle *triangle = &frame->scene->triangles[layers->triangle];
+  struct placed_triangle placed;
+  trax_place(&placed, frame->scene, layers->triangle);
+  const struct trax_triangle *triangle = &placed.triangle;
   const struct vector camera = camera_direction(frame->params, pixel, sample_place(0));
   const struct double3 direction = {camera.x, camera.y, camera.z}, v0 = from(triangle->v0),
                        normal = cross(minus(from(triangle->v1), v0), minus(from(triangle->v2), v0));
@@ -70,8 +69,7 @@ void trax_layers_finish(struct trax_picture *picture, const struct trax_frame *f
       const uint32_t number = layers->triangle;
       if (number != TRAX_NO_TRIANGLE)
         find_plane(layers, frame, pixel_at(x, y), scaled);
-      layers->triangle =
-          1 + (number == TRAX_NO_TRIANGLE || !frame->scene->source_ids ? number : frame->scene->source_ids[number]);
+      layers->triangle = 1 + (number == TRAX_NO_TRIANGLE ? number : trax_source_of(frame->scene, number));
     }
 }
 

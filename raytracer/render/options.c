@@ -79,6 +79,8 @@ static const trax_option rows[] = {
     {"at", .argument = "X", PARSED(trax_take_at, import),
      .meaning = "a moment: of a mesh's name with %d or %04d frame X, of glTF second X of its animation"},
     {"animation", .argument = "NAME", FIELD(import.animation), .meaning = "of glTF, instead of the first"},
+    {"instances", FIELD(import.instances), .meaning = "keeps a mesh of several glTF nodes once, and places it"},
+    {"flatten", FIELD(import.flatten), .meaning = "gives every instance triangles of its own"},
     {"no-textures", FIELD(import.no_textures), .meaning = "reads no images; colours remain"},
     {"texture-size", .argument = "N", PARSED(trax_take_texture_size, import.texture_size),
      .meaning = "at most N texels a side, a power of two up to 4096"},

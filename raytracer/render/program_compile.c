@@ -148,8 +148,8 @@ trax_status trax_program_compile(const struct recipe *recipe, const struct trax_
                                        {.params_in_memory = true},
                                        {.stack_in_memory = true}};
   const bool paths = frame->params->features & TRAX_PATH_FEATURES;
-  const bool large =
-      frame->params->features & TRAX_FEATURE_BIT(EXACT) || frame->scene->header->max_depth > TRAX_SCENE_DEFAULT_DEPTH;
+  const bool large = frame->params->features & (TRAX_FEATURE_BIT(EXACT) | TRAX_FEATURE_BIT(INSTANCES)) ||
+                     frame->scene->header->max_depth > TRAX_SCENE_DEFAULT_DEPTH;
   const size_t count = sizeof ways / sizeof *ways - (large ? 0 : 1);
   trax_status status = TRAX_ERROR;
   for (size_t i = paths ? 0 : 2; i < count && status == TRAX_ERROR; i++) {

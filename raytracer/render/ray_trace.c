@@ -1,6 +1,7 @@
 /* Rays arrive one after another, in the order of the program's slots, and are written at once. */
 #include "ray_trace.h"
 
+#include "placed.h"
 #include "ray_file.h"
 #include "trax/access.h"
 #include "trax/output.h"
@@ -20,12 +21,9 @@ static void end_slot(struct trax_access_log *log, uint32_t slot, uint32_t rays) 
   (void)log, (void)slot, (void)rays;
 }
 
-uint32_t trax_ray_triangle(const struct trax_scene *scene, uint32_t offset) {
-  if (!offset)
-    return TRAX_NO_TRIANGLE;
-  const uint32_t number =
-      (offset - scene->header->sections[TRAX_SCENE_TRIANGLES].offset) / sizeof(struct trax_triangle);
-  return scene->source_ids ? scene->source_ids[number] : number;
+uint32_t trax_ray_triangle(const struct trax_scene *scene, uint32_t offset, uint32_t instance) {
+  const uint32_t number = offset ? trax_number_of_hit(scene, offset, instance) : TRAX_NO_TRIANGLE;
+  return number == TRAX_NO_TRIANGLE ? number : trax_source_of(scene, number);
 }
 
 /* --- formats --- */
@@ -43,7 +41,7 @@ static struct trax_ray_record record_of(const struct tracer *tracer, const struc
                                    .sample = (uint16_t)ray->sample,
                                    .kind = (uint8_t)ray->kind,
                                    .hit = (uint8_t)ray->found,
-                                   .triangle = trax_ray_triangle(tracer->scene, ray->triangle),
+                                   .triangle = trax_ray_triangle(tracer->scene, ray->triangle, ray->instance),
                                    .nodes = tracer->counter.nodes,
                                    .triangles = tracer->counter.triangles};
   memcpy(record.origin, ray->origin, sizeof record.origin);

@@ -118,6 +118,8 @@ trax_status trax_rays_frame(struct trax_frame *frame, struct trax_scene *scene, 
   struct trax_view view = {.direction = {0, 0, -1}, .up = {0, 1, 0}, .fov = 60};
   const struct trax_frame_options options = {.width = 1, .height = 1, .samples = 1};
   int exponent;
+  if (scene->instances)
+    return trax_fail(error, "--rays traces no rays of a scene with instances (--flatten)");
   trax_scale_scene(scene, rays->header.exponent);
   const float *farthest = farthest_origin(rays, scene->header);
   memcpy(view.eye, farthest, sizeof view.eye);
@@ -180,7 +182,7 @@ static struct trax_ray_record result_of(const struct trax_rays *rays, const stru
   record.distance = record.weight1 = record.weight2 = 0;
   record.nodes = record.triangles = 0;
   if (hit->triangle > TRAX_ANY_TRIANGLE) {
-    record.triangle = trax_ray_triangle(scene, hit->triangle);
+    record.triangle = trax_ray_triangle(scene, hit->triangle, 0);
     record.distance = hit->distance, record.weight1 = hit->weight1, record.weight2 = hit->weight2;
   }
   return record;

@@ -34,6 +34,7 @@ struct spot {
 struct room {
   RTCDevice device;
   RTCScene scene;
+  const struct trax_scene *source;
   struct double3 up, middle, probes[PROBES], ways[WAYS];
   double diagonal;
   struct spot places[PLACES];
@@ -52,7 +53,9 @@ static float hit(const struct room *room, struct double3 origin, struct double3 
   rtc_intersect(room->scene, &context, &ray);
   if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID)
     return 0;
-  *front = dot((struct double3){ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z}, way) < 0;
+  const struct trax_instance *instance = room->source->instances ? &room->source->instances[ray.hit.instID[0]] : NULL;
+  const struct double3 normal = {ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z}; /* in the instance's mesh */
+  *front = (dot(normal, trax_to_object(instance, way)) < 0) != (instance && instance->flags & TRAX_INSTANCE_MIRRORED);
   return ray.ray.tfar;
 }
 
@@ -78,6 +81,7 @@ static trax_status begin(struct room **made, const struct trax_scene *scene, tra
   if (!room)
     return trax_fail(error, "out of memory");
   *made = room;
+  room->source = scene;
   room->device = rtcNewDevice("threads=1,isa=sse2,start_threads=0,set_affinity=0");
   if (!room->device)
     return trax_fail(error, "Embree does not start (error %d)", (int)rtcGetDeviceError(NULL));

@@ -122,7 +122,9 @@ trax_status trax_simulated_load(trax_machine *machine, const struct trax_frame *
     trax_device_scene_release(&scene);
   } else if (status == TRAX_OK) {
     /* Only programs of users read the scene as plain arrays. Some of them do not read the scene file. */
-    if (!trax_program_has(machine, "plain_nodes") || trax_program_has(machine, "scene"))
+    if (frame->scene->instances)
+      status = trax_fail(error, "%s: this program knows no instances (trax-scene --flatten)", program->path);
+    else if (!trax_program_has(machine, "plain_nodes") || trax_program_has(machine, "scene"))
       status = trax_machine_bind(machine, "scene", frame->scene->bytes, (uint32_t)frame->scene->size, error);
     if (status == TRAX_OK)
       status = trax_plain_scene_bind(machine, frame->scene, error);

@@ -77,6 +77,8 @@ static char *constants_text(const struct trax_frame *frame, unsigned queues) {
   fputs(" */\n", out);
   if (frame->params->features & TRAX_FEATURE_BIT(EXACT))
     fputs("#define TRAX_EXACT_HITS 1\n", out);
+  if (frame->params->features & TRAX_FEATURE_BIT(INSTANCES))
+    fputs("#define TRAX_INSTANCES 1\n", out);
   if (queues > 1)
     fprintf(out, "#define TRAX_QUEUES %u\n", queues < TRAX_MAX_QUEUES ? queues : TRAX_MAX_QUEUES);
   fprintf(out,
@@ -105,6 +107,8 @@ static trax_status note_or_error(const struct trax_frame *frame, const struct tr
     return trax_fail(error, "--rays: there is no program for it: %s", note);
   if (options->source)
     return trax_fail(error, "--source %s: there is no program: %s", options->source, note);
+  if (frame->params->features & TRAX_FEATURE_BIT(INSTANCES))
+    return trax_fail(error, "instances: there is no program for them: %s", note);
   if (frame->params->features & TRAX_FEATURE_BIT(RAY_KINDS))
     return trax_fail(error, "--mark-rays: there is no program for it: %s", note);
   return TRAX_OK;

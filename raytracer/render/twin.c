@@ -161,7 +161,8 @@ trax_status trax_hits_native(struct trax_hits *hits, const struct trax_frame *fr
   if (status == TRAX_OK) {
     /* One ray a pixel and no shading that matters. */
     memcpy(plain.params, frame->params, frame->params_size);
-    plain.params->features &= TRAX_FEATURE_BIT(EXACT) | (run->holes && has_holes(frame) ? HOLES : 0);
+    plain.params->features &=
+        TRAX_FEATURE_BIT(EXACT) | TRAX_FEATURE_BIT(INSTANCES) | (run->holes && has_holes(frame) ? HOLES : 0);
     plain.params->samples = 1;
     status = trax_render_twin(&picture, &plain, threads, &recorded, error);
     run->rays = recorded.rays;

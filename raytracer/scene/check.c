@@ -18,7 +18,7 @@ struct checker {
 static const struct {
   const char *name;
   uint32_t record_size;
-} section_kinds[TRAX_SCENE_SECTIONS] = {
+} section_kinds[TRAX_SCENE_SECTIONS + TRAX_SCENE_MORE_SECTIONS] = {
     [TRAX_SCENE_NODES] = {"nodes", 0}, /* as long as their layout says */
     [TRAX_SCENE_TRIANGLES] = {"triangles", sizeof(struct trax_triangle)},
     [TRAX_SCENE_MATERIALS] = {"materials", sizeof(struct trax_material)},
@@ -27,7 +27,13 @@ static const struct {
     [TRAX_SCENE_UVS] = {"texture coordinates", sizeof(struct trax_triangle_uvs)},
     [TRAX_SCENE_TEXTURES] = {"textures", sizeof(struct trax_texture)},
     [TRAX_SCENE_TEXELS] = {"texels", sizeof(uint32_t)},
+    [TRAX_SCENE_SECTIONS + TRAX_SCENE_INSTANCES] = {"instances", sizeof(struct trax_instance)},
+    [TRAX_SCENE_SECTIONS + TRAX_SCENE_MESHES] = {"meshes", sizeof(struct trax_scene_mesh)},
 };
+
+static size_t header_bytes(const struct trax_scene_header *header) {
+  return sizeof *header + (header->version == TRAX_SCENE_VERSION_INSTANCES ? sizeof(struct trax_scene_more) : 0);
+}
 
 static trax_status check_header(const struct checker *checker, const struct trax_scene_header *header, size_t size) {
   const char *name = checker->name;
@@ -36,7 +42,7 @@ static trax_status check_header(const struct checker *checker, const struct trax
     return trax_fail(error, "%s: not a scene file", name);
   if (size < sizeof *header)
     return trax_fail(error, "%s: cut off: %zu bytes, less than the header's %zu", name, size, sizeof *header);
-  if (header->version != TRAX_SCENE_VERSION)
+  if (header->version != TRAX_SCENE_VERSION && header->version != TRAX_SCENE_VERSION_INSTANCES)
     return trax_fail(error, "%s: scene file version %u; this program reads version %u: import the meshes again", name,
                      header->version, TRAX_SCENE_VERSION);
   if (header->file_size != size)
@@ -47,6 +53,8 @@ static trax_status check_header(const struct checker *checker, const struct trax
   sum = (uint32_t)crc32_z(sum, (const unsigned char *)(header + 1), size - sizeof *header);
   if (sum != header->checksum)
     return trax_fail(error, "%s: damaged: checksum %08x, where its header says %08x", name, sum, header->checksum);
+  if (size < header_bytes(header))
+    return trax_fail(error, "%s: cut off: %zu bytes, less than the header's %zu", name, size, header_bytes(header));
   if (header->file_size % TRAX_SCENE_ALIGNMENT != 0)
     return trax_fail(error, "%s: the size, %u bytes, is not a multiple of %u", name, header->file_size,
                      TRAX_SCENE_ALIGNMENT);
@@ -57,33 +65,50 @@ static trax_status check_header(const struct checker *checker, const struct trax
   return TRAX_OK;
 }
 
-static trax_status check_sections(const struct checker *checker, const struct trax_scene_header *header) {
-  for (unsigned kind = 0; kind < TRAX_SCENE_SECTIONS; kind++) {
-    const struct trax_scene_section *section = &header->sections[kind];
-    if (section->offset == 0 && section->size == 0 && section->count == 0 && section->record_size == 0)
-      continue;
-    const char *what = section_kinds[kind].name;
-    const uint32_t record_size =
-        kind == TRAX_SCENE_NODES ? trax_node_formats[header->node_layout].bytes : section_kinds[kind].record_size;
-    if (section->record_size != record_size)
-      return trax_fail(checker->error, "%s: %s: records of %u bytes instead of %u", checker->name, what,
-                       section->record_size, record_size);
-    if (section->count == 0 || section->size != (uint64_t)section->count * section->record_size)
-      return trax_fail(checker->error, "%s: %s: %u records do not make %u bytes", checker->name, what, section->count,
-                       section->size);
-    if (section->offset % TRAX_SCENE_ALIGNMENT != 0 || section->offset < sizeof *header ||
-        (uint64_t)section->offset + section->size > header->file_size)
-      return trax_fail(checker->error, "%s: %s: bytes %u to %llu are outside of the file's %u or not aligned",
-                       checker->name, what, section->offset, (unsigned long long)section->offset + section->size,
-                       header->file_size);
-    for (unsigned other = 0; other < kind; other++) {
-      const struct trax_scene_section *before = &header->sections[other];
-      if (before->count && section->offset < before->offset + before->size &&
-          before->offset < section->offset + section->size)
-        return trax_fail(checker->error, "%s: the sections %s and %s overlap", checker->name, section_kinds[other].name,
-                         what);
-    }
+/* Those of the header, and behind them those of a file with instances. */
+enum { ALL_SECTIONS = TRAX_SCENE_SECTIONS + TRAX_SCENE_MORE_SECTIONS };
+
+static struct trax_scene_section section_of(const struct trax_scene_header *header, unsigned kind) {
+  if (kind < TRAX_SCENE_SECTIONS)
+    return header->sections[kind];
+  return header->version == TRAX_SCENE_VERSION_INSTANCES
+             ? ((const struct trax_scene_more *)(header + 1))->sections[kind - TRAX_SCENE_SECTIONS]
+             : (struct trax_scene_section){0};
+}
+
+static trax_status check_section(const struct checker *checker, const struct trax_scene_header *header, unsigned kind) {
+  const struct trax_scene_section section = section_of(header, kind);
+  if (section.offset == 0 && section.size == 0 && section.count == 0 && section.record_size == 0)
+    return TRAX_OK;
+  const char *what = section_kinds[kind].name;
+  const uint32_t record_size =
+      kind == TRAX_SCENE_NODES ? trax_node_formats[header->node_layout].bytes : section_kinds[kind].record_size;
+  if (!what)
+    return trax_fail(checker->error, "%s: a section of an unknown kind", checker->name);
+  if (section.record_size != record_size)
+    return trax_fail(checker->error, "%s: %s: records of %u bytes instead of %u", checker->name, what,
+                     section.record_size, record_size);
+  if (section.count == 0 || section.size != (uint64_t)section.count * section.record_size)
+    return trax_fail(checker->error, "%s: %s: %u records do not make %u bytes", checker->name, what, section.count,
+                     section.size);
+  if (section.offset % TRAX_SCENE_ALIGNMENT != 0 || section.offset < header_bytes(header) ||
+      (uint64_t)section.offset + section.size > header->file_size)
+    return trax_fail(checker->error, "%s: %s: bytes %u to %llu are outside of the file's %u or not aligned",
+                     checker->name, what, section.offset, (unsigned long long)section.offset + section.size,
+                     header->file_size);
+  for (unsigned other = 0; other < kind; other++) {
+    const struct trax_scene_section before = section_of(header, other);
+    if (before.count && section.offset < before.offset + before.size && before.offset < section.offset + section.size)
+      return trax_fail(checker->error, "%s: the sections %s and %s overlap", checker->name, section_kinds[other].name,
+                       what);
   }
+  return TRAX_OK;
+}
+
+static trax_status check_sections(const struct checker *checker, const struct trax_scene_header *header) {
+  for (unsigned kind = 0; kind < ALL_SECTIONS; kind++)
+    if (check_section(checker, header, kind) != TRAX_OK)
+      return TRAX_ERROR;
   uint32_t triangles = header->sections[TRAX_SCENE_TRIANGLES].count;
   uint32_t ids = header->sections[TRAX_SCENE_SOURCE_IDS].count;
   if (header->triangle_count != triangles)
@@ -111,7 +136,8 @@ static trax_status check_sections(const struct checker *checker, const struct tr
 }
 
 static const void *section_view(const struct trax_scene_header *header, unsigned kind) {
-  return header->sections[kind].count ? (const unsigned char *)header + header->sections[kind].offset : NULL;
+  const struct trax_scene_section section = section_of(header, kind);
+  return section.count ? (const unsigned char *)header + section.offset : NULL;
 }
 
 /* --- contents --- */
@@ -209,22 +235,29 @@ trax_status trax_scene_check(struct trax_scene *scene, const void *bytes, size_t
   if (result != TRAX_OK)
     return result;
   const struct trax_scene_section *sections = header->sections;
-  checker.view = (struct trax_scene){.size = size,
-                                     .header = header,
-                                     .nodes = section_view(header, TRAX_SCENE_NODES),
-                                     .triangles = section_view(header, TRAX_SCENE_TRIANGLES),
-                                     .normals = section_view(header, TRAX_SCENE_NORMALS),
-                                     .uvs = section_view(header, TRAX_SCENE_UVS),
-                                     .materials = section_view(header, TRAX_SCENE_MATERIALS),
-                                     .textures = section_view(header, TRAX_SCENE_TEXTURES),
-                                     .texels = section_view(header, TRAX_SCENE_TEXELS),
-                                     .source_ids = section_view(header, TRAX_SCENE_SOURCE_IDS),
-                                     .node_count = sections[TRAX_SCENE_NODES].count,
-                                     .triangle_count = sections[TRAX_SCENE_TRIANGLES].count,
-                                     .material_count = sections[TRAX_SCENE_MATERIALS].count,
-                                     .texture_count = sections[TRAX_SCENE_TEXTURES].count,
-                                     .texel_count = sections[TRAX_SCENE_TEXELS].count,
-                                     .grid = trax_scene_grid_of(header->bounds_min, header->bounds_max)};
+  checker.view =
+      (struct trax_scene){.size = size,
+                          .header = header,
+                          .nodes = section_view(header, TRAX_SCENE_NODES),
+                          .triangles = section_view(header, TRAX_SCENE_TRIANGLES),
+                          .normals = section_view(header, TRAX_SCENE_NORMALS),
+                          .uvs = section_view(header, TRAX_SCENE_UVS),
+                          .materials = section_view(header, TRAX_SCENE_MATERIALS),
+                          .textures = section_view(header, TRAX_SCENE_TEXTURES),
+                          .texels = section_view(header, TRAX_SCENE_TEXELS),
+                          .source_ids = section_view(header, TRAX_SCENE_SOURCE_IDS),
+                          .node_count = sections[TRAX_SCENE_NODES].count,
+                          .triangle_count = sections[TRAX_SCENE_TRIANGLES].count,
+                          .material_count = sections[TRAX_SCENE_MATERIALS].count,
+                          .texture_count = sections[TRAX_SCENE_TEXTURES].count,
+                          .texel_count = sections[TRAX_SCENE_TEXELS].count,
+                          .grid = trax_scene_grid_of(header->bounds_min, header->bounds_max),
+                          .instances = section_view(header, TRAX_SCENE_SECTIONS + TRAX_SCENE_INSTANCES),
+                          .meshes = section_view(header, TRAX_SCENE_SECTIONS + TRAX_SCENE_MESHES),
+                          .instance_count = section_of(header, TRAX_SCENE_SECTIONS + TRAX_SCENE_INSTANCES).count,
+                          .mesh_count = section_of(header, TRAX_SCENE_SECTIONS + TRAX_SCENE_MESHES).count};
+  if (header->version == TRAX_SCENE_VERSION_INSTANCES && !(checker.view.instances && checker.view.meshes))
+    return trax_fail(error, "%s: a file with instances has none", name);
   result = check_triangles(&checker);
   if (result == TRAX_OK)
     result = check_materials(&checker);

@@ -1,5 +1,5 @@
 /* Checks the tree of a scene file: each node and triangle is in it once, and boxes are those of the triangles. */
-#include "internal.h"
+#include "placing.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -11,6 +11,8 @@ struct checker {
   uint32_t nodes_offset, nodes_size, triangles_offset, triangles_size;
   unsigned char *node_seen; /* one byte for each node */
   uint32_t nodes_left, next_triangle;
+  uint32_t next_instance, numbers; /* numbers: of triangles of the instances so far */
+  uint32_t first_node, end_node;   /* of this tree's */
   uint32_t max_depth, max_leaf; /* found */
   struct scene_box bounds;      /* of all triangles */
   struct scene_range *ranges;   /* of each node */
@@ -84,6 +86,35 @@ static trax_status wrong_box(const struct checker *checker, uint32_t place) {
                    place % 2);
 }
 
+/* Checks a node that is the last of `depth` on its path, and reads it. */
+static trax_status enter_node(struct checker *checker, trax_scene_ref ref, unsigned depth, uint32_t *entered,
+                              struct scene_box boxes[2], trax_scene_ref children[2]) {
+  const struct trax_node_format *format = &trax_node_formats[checker->view->header->node_layout];
+  if (ref < checker->nodes_offset || ref - checker->nodes_offset >= checker->nodes_size ||
+      (ref - checker->nodes_offset) % format->bytes != 0)
+    return trax_fail(checker->error, "%s: reference %08x is to no node", checker->name, ref);
+  const uint32_t number = *entered = (ref - checker->nodes_offset) / format->bytes;
+  if (number < checker->first_node || number >= checker->end_node)
+    return trax_fail(checker->error, "%s: node %u is of another tree", checker->name, number);
+  if (checker->node_seen[number])
+    return trax_fail(checker->error, "%s: node %u is referred to twice", checker->name, number);
+  checker->node_seen[number] = 1;
+  checker->nodes_left--;
+  if (depth > TRAX_SCENE_MAX_DEPTH)
+    return trax_fail(checker->error, "%s: node %u is deeper than %u", checker->name, number, TRAX_SCENE_MAX_DEPTH);
+  static const unsigned char zeros[sizeof(struct trax_bvh_node)];
+  const uint32_t used = trax_node_child(format, 2);
+  if (memcmp((const unsigned char *)checker->view->nodes + (size_t)number * format->bytes + used, zeros,
+             format->bytes - used) != 0)
+    return trax_fail(checker->error, "%s: node %u: reserved words are not zero", checker->name, number);
+  scene_node_boxes(boxes, children, checker->view, number);
+  if (!children[0] || !children[1])
+    return trax_fail(checker->error, "%s: node %u: fewer than two children", checker->name, number);
+  if (depth > checker->max_depth)
+    checker->max_depth = depth;
+  return TRAX_OK;
+}
+
 /* Checks the subtree below ref, with `depth` nodes above it. *box receives the box that must be stored for it; that of
    a leaf may be smaller. The recursion ends, because a node is entered once and the depth is limited. */
 static trax_status check_subtree(struct checker *checker, trax_scene_ref ref, unsigned depth, struct scene_box *box) {
@@ -94,29 +125,11 @@ static trax_status check_subtree(struct checker *checker, trax_scene_ref ref, un
     *box = as_stored(checker, &exact);
     return result;
   }
-  const struct trax_node_format *format = &trax_node_formats[checker->view->header->node_layout];
-  if (ref < checker->nodes_offset || ref - checker->nodes_offset >= checker->nodes_size ||
-      (ref - checker->nodes_offset) % format->bytes != 0)
-    return trax_fail(checker->error, "%s: reference %08x is to no node", checker->name, ref);
-  uint32_t number = (ref - checker->nodes_offset) / format->bytes;
-  if (checker->node_seen[number])
-    return trax_fail(checker->error, "%s: node %u is referred to twice", checker->name, number);
-  checker->node_seen[number] = 1;
-  checker->nodes_left--;
-  if (++depth > TRAX_SCENE_MAX_DEPTH)
-    return trax_fail(checker->error, "%s: node %u is deeper than %u", checker->name, number, TRAX_SCENE_MAX_DEPTH);
-  static const unsigned char zeros[sizeof(struct trax_bvh_node)];
-  const uint32_t used = trax_node_child(format, 2);
-  if (memcmp((const unsigned char *)checker->view->nodes + (size_t)number * format->bytes + used, zeros,
-             format->bytes - used) != 0)
-    return trax_fail(checker->error, "%s: node %u: reserved words are not zero", checker->name, number);
   struct scene_box boxes[2];
   trax_scene_ref children[2];
-  scene_node_boxes(boxes, children, checker->view, number);
-  if (!children[0] || !children[1])
-    return trax_fail(checker->error, "%s: node %u: fewer than two children", checker->name, number);
-  if (depth > checker->max_depth)
-    checker->max_depth = depth;
+  uint32_t number;
+  if (enter_node(checker, ref, ++depth, &number, boxes, children) != TRAX_OK)
+    return TRAX_ERROR;
   checker->ranges[number].first = checker->next_triangle;
   for (uint32_t i = 0; i < 2; i++) {
     struct scene_box expected = scene_empty_box();
@@ -148,6 +161,127 @@ static trax_status check_whole_tree(struct checker *checker) {
   return result;
 }
 
+/* --- two levels --- */
+
+static trax_status check_mesh(struct checker *checker, uint32_t number) {
+  const struct trax_scene_mesh *mesh = &checker->view->meshes[number];
+  const char *wrong = NULL;
+  struct scene_box root;
+  static const uint32_t zeros[sizeof mesh->reserved / sizeof *mesh->reserved];
+  const uint32_t first = checker->next_triangle;
+  checker->max_depth = 0;
+  checker->bounds = scene_empty_box();
+  if (mesh->root == 0)
+    return trax_fail(checker->error, "%s: mesh %u: a tree without triangles", checker->name, number);
+  const trax_status result = check_subtree(checker, mesh->root, 0, &root);
+  if (result != TRAX_OK)
+    return result;
+  const struct scene_box stored = {{mesh->bounds_min[0], mesh->bounds_min[1], mesh->bounds_min[2]},
+                                   {mesh->bounds_max[0], mesh->bounds_max[1], mesh->bounds_max[2]}};
+  if (mesh->first_triangle != first || mesh->triangle_count != checker->next_triangle - first)
+    wrong = "its triangles are not those of its tree";
+  else if (mesh->source_count < mesh->triangle_count)
+    wrong = "it has fewer triangles than its tree";
+  else if (!same_box(&stored, &checker->bounds))
+    wrong = "the bounds are not those of its triangles";
+  else if (mesh->depth != checker->max_depth)
+    wrong = "the depth is not that of its tree";
+  else if (checker->any_in_part)
+    wrong = "triangles are split";
+  else if (memcmp(mesh->reserved, zeros, sizeof zeros) != 0)
+    wrong = "reserved words are not zero";
+  return wrong ? trax_fail(checker->error, "%s: mesh %u: %s", checker->name, number, wrong) : TRAX_OK;
+}
+
+/* But for its stretch, which the bounds of all decide. */
+static trax_status check_instance(struct checker *checker, uint32_t number) {
+  const struct trax_scene *view = checker->view;
+  const struct trax_instance *instance = &view->instances[number];
+  struct trax_instance right = *instance;
+  if (instance->mesh >= view->mesh_count)
+    return trax_fail(checker->error, "%s: instance %u: mesh %u is out of range (%u meshes)", checker->name, number,
+                     instance->mesh, view->mesh_count);
+  const struct trax_scene_mesh *mesh = &view->meshes[instance->mesh];
+  const char *wrong = scene_derive_instance(&right);
+  memset(right.reserved, 0, sizeof right.reserved);
+  right.root = mesh->root;
+  right.first_number = checker->numbers;
+  if (!wrong && instance->material != TRAX_NO_MATERIAL && instance->material >= view->material_count)
+    wrong = "its material is out of range";
+  else if (!wrong && (uint64_t)checker->numbers + mesh->triangle_count > UINT32_MAX)
+    wrong = "there are too many triangles before it";
+  else if (!wrong && (uint64_t)instance->first_source + mesh->source_count > UINT32_MAX)
+    wrong = "its triangles' numbers are out of range";
+  else if (!wrong && memcmp(&right, instance, sizeof right) != 0)
+    wrong = "root, inverse, spread, flags, number or reserved words do not follow from its mesh and transform";
+  checker->numbers += mesh->triangle_count;
+  return wrong ? trax_fail(checker->error, "%s: instance %u: %s", checker->name, number, wrong) : TRAX_OK;
+}
+
+static trax_status check_upper(struct checker *checker, trax_scene_ref ref, unsigned depth, struct scene_box *box) {
+  const struct trax_scene *view = checker->view;
+  if (TRAX_SCENE_REF_COUNT(ref)) {
+    const uint32_t number = checker->next_instance, offset = TRAX_SCENE_REF_OFFSET(ref);
+    if (TRAX_SCENE_REF_COUNT(ref) != 1 || number >= view->instance_count ||
+        offset != (uint32_t)((const char *)&view->instances[number] - (const char *)view->header))
+      return trax_fail(checker->error, "%s: reference %08x is not to instance %u, which is next", checker->name, ref,
+                       number);
+    checker->next_instance++;
+    if (check_instance(checker, number) != TRAX_OK)
+      return TRAX_ERROR;
+    *box = scene_instance_box(view, &view->instances[number]);
+    for (int axis = 0; axis < 3; axis++)
+      if (!(box->min[axis] >= -SCENE_MAX_COORDINATE && box->max[axis] <= SCENE_MAX_COORDINATE))
+        return trax_fail(checker->error, "%s: instance %u is too far away", checker->name, number);
+    scene_box_add_box(&checker->bounds, box);
+    depth += 1 + view->meshes[view->instances[number].mesh].depth;
+    checker->max_depth = depth > checker->max_depth ? depth : checker->max_depth;
+    return TRAX_OK;
+  }
+  struct scene_box boxes[2];
+  trax_scene_ref children[2];
+  uint32_t number;
+  if (enter_node(checker, ref, ++depth, &number, boxes, children) != TRAX_OK)
+    return TRAX_ERROR;
+  for (uint32_t i = 0; i < 2; i++) {
+    struct scene_box expected;
+    if (check_upper(checker, children[i], depth, &expected) != TRAX_OK)
+      return TRAX_ERROR;
+    if (!same_box(&boxes[i], &expected))
+      return trax_fail(checker->error, "%s: node %u: box %u is not that of its instances", checker->name, number, i);
+  }
+  *box = scene_box_around(boxes);
+  return TRAX_OK;
+}
+
+/* First the meshes, which the boxes of instances depend on. */
+static trax_status check_two_levels(struct checker *checker) {
+  const struct trax_scene *view = checker->view;
+  struct scene_box root;
+  if (view->header->node_layout != TRAX_NODES_BINARY)
+    return trax_fail(checker->error, "%s: instances with nodes that are not binary", checker->name);
+  checker->first_node = view->instance_count - 1;
+  for (uint32_t i = 0; i < view->mesh_count; i++)
+    if (check_mesh(checker, i) != TRAX_OK)
+      return TRAX_ERROR;
+  checker->first_node = 0;
+  checker->end_node = view->instance_count - 1;
+  checker->max_depth = 0;
+  checker->bounds = scene_empty_box();
+  if (check_upper(checker, view->header->root, 0, &root) != TRAX_OK)
+    return TRAX_ERROR;
+  if (checker->next_instance != view->instance_count)
+    return trax_fail(checker->error, "%s: %u instances are in no leaf", checker->name,
+                     view->instance_count - checker->next_instance);
+  if (checker->max_depth > TRAX_SCENE_MAX_DEPTH)
+    return trax_fail(checker->error, "%s: deeper than %u", checker->name, TRAX_SCENE_MAX_DEPTH);
+  for (uint32_t i = 0; i < view->instance_count; i++)
+    if (view->instances[i].stretch != scene_stretch_of(&view->instances[i], &checker->bounds))
+      return trax_fail(checker->error, "%s: instance %u: its stretch does not follow from its transform", checker->name,
+                       i);
+  return scene_check_lamps(view, checker->name, checker->error);
+}
+
 static trax_status check_tree(struct checker *checker) {
   const struct trax_scene_header *header = checker->view->header;
   struct scene_box bounds = scene_empty_box();
@@ -161,8 +295,9 @@ static trax_status check_tree(struct checker *checker) {
     checker->node_seen = calloc(checker->view->node_count + (size_t)1, 1);
     checker->ranges = calloc(checker->view->node_count + (size_t)1, sizeof *checker->ranges);
     checker->in_part = calloc(header->triangle_count, sizeof *checker->in_part);
+    checker->end_node = checker->view->node_count;
     trax_status result = checker->node_seen && checker->ranges && checker->in_part
-                             ? check_whole_tree(checker)
+                             ? (checker->view->instances ? check_two_levels : check_whole_tree)(checker)
                              : scene_out_of_memory(checker->error, checker->name);
     free(checker->node_seen);
     free(checker->ranges);

@@ -416,7 +416,8 @@ static void grow(struct forest *forest) {
   }
 }
 
-trax_status scene_generate_forest(struct trax_mesh *mesh, uint64_t seed, trax_error *error) {
+static trax_status generate(struct trax_mesh *mesh, uint64_t seed, void (*grow_it)(struct forest *),
+                            trax_error *error) {
   *mesh = (struct trax_mesh){0};
   struct forest *forest = calloc(1, sizeof *forest);
   mesh->materials = malloc(sizeof forest_materials);
@@ -430,11 +431,23 @@ trax_status scene_generate_forest(struct trax_mesh *mesh, uint64_t seed, trax_er
   *forest = (struct forest){.mesh = mesh, .seed = scramble(seed + 0x9E3779B97F4A7C15u)};
   forest->random = forest->seed;
   make_circle(forest->circle);
-  grow(forest);
+  grow_it(forest);
   const bool failed = forest->failed;
   free(forest);
   if (!failed)
     return TRAX_OK;
   trax_mesh_release(mesh);
   return scene_out_of_memory(error, "forest");
+}
+
+trax_status scene_generate_forest(struct trax_mesh *mesh, uint64_t seed, trax_error *error) {
+  return generate(mesh, seed, grow, error);
+}
+
+static void grow_fir(struct forest *forest) {
+  fir(forest, (struct point){0, 0, 0});
+}
+
+trax_status scene_generate_fir(struct trax_mesh *mesh, uint64_t seed, trax_error *error) {
+  return generate(mesh, seed, grow_fir, error);
 }

@@ -86,7 +86,6 @@ trax_status gltf_copy_nodes(struct gltf *gltf);
 /* The first three rows of matrices. */
 void gltf_rest(struct gltf_pose *pose, const json_t *node); /* as the file has it */
 void gltf_transform(double m[3][4], const struct gltf_pose *pose);
-void gltf_multiply(double out[3][4], const double a[3][4], const double b[3][4]);
 
 /* gltf_animation.c: the nodes' poses at options->at, if an animation is wanted and there is one. parents: of each node
    its number and 1, 0: none. */

@@ -1,6 +1,7 @@
 /* glTF's animations: the transforms of nodes and the weights of morph targets at one time, and skins. Only additions,
    multiplications, divisions and square roots are used, so that every host gives the same bytes. */
 #include "gltf.h"
+#include "placing.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -211,7 +212,7 @@ trax_status gltf_find_poses(struct gltf *gltf, const uint32_t *parents) {
     for (uint32_t above = parents[i]; above; above = parents[above - 1]) {
       double own[3][4], product[3][4];
       gltf_transform(own, &gltf->poses[above - 1]);
-      gltf_multiply(product, own, pose->global);
+      scene_multiply(product, own, pose->global);
       memcpy(pose->global, product, sizeof product);
     }
   }
@@ -247,7 +248,7 @@ static trax_status find_joints(struct gltf_deform *deform, struct gltf *gltf, co
       gltf_read(columns, 16, &matrices, i);
     for (int k = 0; k < 12; k++)
       bind[k / 4][k % 4] = (double)columns[4 * (k % 4) + k / 4];
-    gltf_multiply(deform->joints[i], gltf->poses[joint].global, bind);
+    scene_multiply(deform->joints[i], gltf->poses[joint].global, bind);
   }
   return TRAX_OK;
 }

@@ -1,11 +1,13 @@
 /* The nodes of glTF's scene: they form trees, and place meshes and cameras. */
 #include "gltf.h"
+#include "placing.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { MOST_LEVELS = 1024 };
+static const double identity[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
 
 struct nodes {
   struct gltf *gltf;
@@ -13,7 +15,8 @@ struct nodes {
   uint32_t *parents;       /* of each node: its number and 1, 0: none */
   struct gltf_size *sizes; /* of each mesh */
   struct gltf_size whole;
-  size_t cameras;
+  size_t cameras, instances;
+  uint32_t *part_of; /* with instances: of each mesh: its part and 1, 0: it is not copied yet */
 };
 
 static const json_t *node_at(const struct gltf *gltf, size_t number) {
@@ -103,13 +106,6 @@ void gltf_transform(double m[3][4], const struct gltf_pose *pose) {
   }
 }
 
-void gltf_multiply(double out[3][4], const double a[3][4], const double b[3][4]) {
-  for (int row = 0; row < 3; row++)
-    for (int column = 0; column < 4; column++)
-      out[row][column] = a[row][0] * b[0][column] + a[row][1] * b[1][column] + a[row][2] * b[2][column] +
-                         (column == 3 ? a[row][3] : 0);
-}
-
 /* --- meshes and cameras of nodes --- */
 
 /* Leaves out cameras without a direction or perspective, or with values that are not finite. */
@@ -129,25 +125,36 @@ static void copy_camera(struct gltf *gltf, const json_t *node, const json_t *cam
     gltf->mesh->camera_count++;
 }
 
+static trax_status measure_below(struct nodes *nodes, const json_t *node);
+
 /* Adds up the node and those below it. */
 static trax_status measure_node(struct nodes *nodes, const json_t *node) {
   struct gltf *gltf = nodes->gltf;
-  const json_t *mesh = json_object_get(node, "mesh"), *children = json_object_get(node, "children");
+  const json_t *mesh = json_object_get(node, "mesh");
   if (mesh) {
     const size_t number = gltf_index(gltf, "meshes", mesh);
     if (number == SIZE_MAX)
       return trax_fail(gltf->error, "%s: a node has a mesh that is not there", gltf->path);
     struct gltf_size *size = &nodes->sizes[number];
+    const bool again = size->known && gltf->options->instances;
     if (!size->known && gltf_measure_mesh(size, gltf, number) != TRAX_OK)
       return TRAX_ERROR;
+    nodes->instances++;
+    if (again)
+      return measure_below(nodes, node);
     nodes->whole.vertices += size->vertices;
     nodes->whole.triangles += size->triangles;
     nodes->whole.primitives += size->primitives;
     nodes->whole.normals = nodes->whole.normals || size->normals;
   }
+  return measure_below(nodes, node);
+}
+
+static trax_status measure_below(struct nodes *nodes, const json_t *node) {
+  const json_t *children = json_object_get(node, "children");
   nodes->cameras += json_object_get(node, "camera") != NULL;
   for (size_t i = 0; i < json_array_size(children); i++)
-    if (measure_node(nodes, gltf_item(gltf, "nodes", json_array_get(children, i))) != TRAX_OK)
+    if (measure_node(nodes, gltf_item(nodes->gltf, "nodes", json_array_get(children, i))) != TRAX_OK)
       return TRAX_ERROR;
   return TRAX_OK;
 }
@@ -161,7 +168,35 @@ static trax_status copy_mesh(struct gltf *gltf, size_t node_number, size_t mesh,
   return result;
 }
 
-static trax_status copy_node(struct gltf *gltf, size_t number, const double above[3][4]) {
+/* Copies a mesh where a node has it first, and places it at each. */
+static trax_status place_mesh(struct nodes *nodes, size_t node_number, size_t number, const double matrix[3][4]) {
+  struct gltf *gltf = nodes->gltf;
+  struct trax_mesh *mesh = gltf->mesh;
+  struct gltf_deform deform;
+  trax_status result = gltf_find_deform(&deform, gltf, node_number);
+  if (result == TRAX_OK && (deform.joints || deform.weight_count))
+    result = trax_fail(gltf->error, "%s: mesh %zu bends by a skin or by morph targets, so --instances is not for it",
+                       gltf->path, number);
+  if (result == TRAX_OK && !nodes->part_of[number]) {
+    const uint32_t first = mesh->triangle_count;
+    result = gltf_copy_mesh(gltf, number, identity, &deform);
+    const uint32_t count = mesh->triangle_count - first;
+    for (uint32_t i = first; i < mesh->triangle_count; i++)
+      mesh->triangles[i].source_id -= first;
+    mesh->parts[mesh->part_count] = (struct trax_mesh_part){first, count, count};
+    nodes->part_of[number] = ++mesh->part_count;
+  }
+  gltf_release_deform(&deform);
+  if (result != TRAX_OK)
+    return result;
+  struct trax_mesh_instance *out = &mesh->instances[mesh->instance_count++];
+  *out = (struct trax_mesh_instance){.part = nodes->part_of[number] - 1, .material = TRAX_NO_MATERIAL};
+  memcpy(out->transform, matrix, sizeof out->transform);
+  return TRAX_OK;
+}
+
+static trax_status copy_node(struct nodes *nodes, size_t number, const double above[3][4]) {
+  struct gltf *gltf = nodes->gltf;
   const json_t *node = node_at(gltf, number);
   const json_t *children = json_object_get(node, "children"), *mesh = json_object_get(node, "mesh");
   const json_t *camera = gltf_item(gltf, "cameras", json_object_get(node, "camera"));
@@ -169,18 +204,20 @@ static trax_status copy_node(struct gltf *gltf, size_t number, const double abov
   double own[3][4], matrix[3][4];
   gltf_rest(&rest, node);
   gltf_transform(own, gltf->poses ? &gltf->poses[number] : &rest);
-  gltf_multiply(matrix, above, own);
-  trax_status result = mesh ? copy_mesh(gltf, number, gltf_index(gltf, "meshes", mesh), matrix) : TRAX_OK;
+  scene_multiply(matrix, above, own);
+  trax_status result = TRAX_OK;
+  if (mesh)
+    result = gltf->options->instances ? place_mesh(nodes, number, gltf_index(gltf, "meshes", mesh), matrix)
+                                      : copy_mesh(gltf, number, gltf_index(gltf, "meshes", mesh), matrix);
   if (camera)
     copy_camera(gltf, node, camera, matrix);
   for (size_t i = 0; result == TRAX_OK && i < json_array_size(children); i++)
-    result = copy_node(gltf, gltf_index(gltf, "nodes", json_array_get(children, i)), matrix);
+    result = copy_node(nodes, gltf_index(gltf, "nodes", json_array_get(children, i)), matrix);
   return result;
 }
 
 /* Calls one of the two for each root: the nodes of the file's scene, or, without scenes, those that have no parent. */
 static trax_status for_roots(struct nodes *nodes, bool copy) {
-  static const double identity[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
   struct gltf *gltf = nodes->gltf;
   const json_t *number = json_object_get(gltf->root, "scene"), *scenes = json_object_get(gltf->root, "scenes");
   const json_t *scene = number ? gltf_item(gltf, "scenes", number) : json_array_get(scenes, 0);
@@ -192,7 +229,7 @@ static trax_status for_roots(struct nodes *nodes, bool copy) {
   for (size_t i = 0; result == TRAX_OK && i < count; i++) {
     const size_t node = scene ? gltf_index(gltf, "nodes", json_array_get(roots, i)) : i;
     if (scene || !nodes->parents[i])
-      result = copy ? copy_node(gltf, node, identity) : measure_node(nodes, node_at(gltf, node));
+      result = copy ? copy_node(nodes, node, identity) : measure_node(nodes, node_at(gltf, node));
   }
   return result;
 }
@@ -214,6 +251,12 @@ static trax_status allocate(const struct nodes *nodes) {
   mesh->vertices = malloc((size->vertices + 1) * sizeof *mesh->vertices);
   mesh->triangles = malloc((size->triangles + 1) * sizeof *mesh->triangles);
   mesh->cameras = calloc(nodes->cameras + 1, sizeof *mesh->cameras);
+  if (gltf->options->instances) { /* at most one for each node of the file */
+    mesh->parts = calloc(gltf_count(gltf, "meshes") + 1, sizeof *mesh->parts);
+    mesh->instances = calloc(nodes->instances + 1, sizeof *mesh->instances);
+    if (!mesh->parts || !mesh->instances)
+      return scene_out_of_memory(gltf->error, gltf->path);
+  }
   if (size->normals)
     mesh->normals = calloc(size->triangles + 1, sizeof *mesh->normals);
   if (uvs)
@@ -228,8 +271,9 @@ trax_status gltf_copy_nodes(struct gltf *gltf) {
   struct nodes nodes = {.gltf = gltf, .count = gltf_count(gltf, "nodes")};
   nodes.parents = calloc(nodes.count + 1, sizeof *nodes.parents);
   nodes.sizes = calloc(gltf_count(gltf, "meshes") + 1, sizeof *nodes.sizes);
-  trax_status result =
-      nodes.parents && nodes.sizes ? check_trees(&nodes) : scene_out_of_memory(gltf->error, gltf->path);
+  nodes.part_of = calloc(gltf_count(gltf, "meshes") + 1, sizeof *nodes.part_of);
+  trax_status result = nodes.parents && nodes.sizes && nodes.part_of ? check_trees(&nodes)
+                                                                     : scene_out_of_memory(gltf->error, gltf->path);
   if (result == TRAX_OK)
     result = gltf_find_poses(gltf, nodes.parents);
   if (result == TRAX_OK)
@@ -242,5 +286,6 @@ trax_status gltf_copy_nodes(struct gltf *gltf) {
   gltf_release_poses(gltf);
   free(nodes.parents);
   free(nodes.sizes);
+  free(nodes.part_of);
   return result;
 }

@@ -154,6 +154,8 @@ trax_status scene_override_materials(struct trax_mesh *mesh, const struct trax_i
 
 /* A mesh of 174,117 triangles; other seeds give other forests. */
 trax_status scene_generate_forest(struct trax_mesh *mesh, uint64_t seed, trax_error *error);
+/* One of its firs, at the origin; y is up. */
+trax_status scene_generate_fir(struct trax_mesh *mesh, uint64_t seed, trax_error *error);
 
 /* --- normals.c --- */
 

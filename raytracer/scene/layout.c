@@ -1,42 +1,13 @@
 /* From a mesh and its tree to the bytes of a scene file. */
-#include "internal.h"
+#include "layout.h"
+#include "placing.h"
 #include "trax/output.h"
 
 #include <stdlib.h>
 #include <string.h>
 #include <zlib.h>
 
-enum { default_cache_lines = 256 }; /* 16 kB of 64-byte lines, the paper's TM: where no chip is known */
-
-struct layout {
-  const struct trax_mesh *mesh;
-  const struct scene_tree *tree;
-  const uint32_t *materials; /* of the mesh to the file's */
-  const uint32_t *positions; /* of the tree's inner nodes in the file */
-  enum trax_node_layout node_layout;
-  struct trax_scene_grid grid;
-  /* the file's sections */
-  unsigned char *bytes;
-  unsigned char *nodes;
-  struct trax_triangle *triangles;
-  struct trax_triangle_normals *normals; /* NULL: left out */
-  struct trax_triangle_uvs *uvs;         /* NULL: left out */
-  uint32_t *source_ids;                  /* NULL: left out */
-  bool file_normals;                     /* those of the mesh, where it has some */
-  uint32_t nodes_offset, triangles_offset;
-  uint32_t next_triangle;
-  uint32_t *numbers; /* in the mesh, of the file's triangles; NULL: nothing needs them */
-};
-
-/* --- materials: the file has those in use, each once, and their textures --- */
-
-struct palette {
-  uint32_t *of_mesh; /* for each material of the mesh its number in the file */
-  struct trax_material *materials;
-  uint32_t *textures; /* of the file: the mesh's numbers */
-  uint32_t count, texture_count;
-  uint64_t texel_count;
-};
+/* --- materials --- */
 
 /* Members that a kind does not read get the values of trax_default_material, so that equal materials compare equal. */
 static struct trax_material canonical(const struct trax_material *material) {
@@ -70,7 +41,7 @@ static int compare_materials(const void *a, const void *b) {
   return order ? order : left->number < right->number ? -1 : 1;
 }
 
-static void palette_release(struct palette *palette) {
+void scene_palette_release(struct palette *palette) {
   free(palette->of_mesh);
   free(palette->materials);
   free(palette->textures);
@@ -94,8 +65,8 @@ static void number_textures(struct palette *palette, uint32_t *numbers, const st
 }
 
 /* Numbered in the order of the mesh's materials. */
-static trax_status make_palette(struct palette *palette, const struct trax_mesh *mesh, bool textures,
-                                trax_error *error) {
+trax_status scene_make_palette(struct palette *palette, const struct trax_mesh *mesh, bool textures,
+                               trax_error *error) {
   enum { unused = UINT32_MAX };
   size_t count = mesh->material_count;
   *palette = (struct palette){.of_mesh = malloc((count + 1) * sizeof(uint32_t)),
@@ -114,6 +85,9 @@ static trax_status make_palette(struct palette *palette, const struct trax_mesh 
     palette->of_mesh[i] = unused;
   for (uint32_t i = 0; i < mesh->triangle_count; i++)
     palette->of_mesh[mesh->triangles[i].material] = 0;
+  for (uint32_t i = 0; i < mesh->instance_count; i++)
+    if (mesh->instances[i].material != TRAX_NO_MATERIAL)
+      palette->of_mesh[mesh->instances[i].material] = 0;
   size_t used = 0;
   for (uint32_t i = 0; i < count; i++)
     if (palette->of_mesh[i] != (uint32_t)unused) {
@@ -173,9 +147,8 @@ static trax_scene_ref place_leaf(struct layout *layout, const struct scene_tree_
   return offset | node->triangle_count;
 }
 
-/* Places a subtree depth first; returns its reference, and its box as it is stored. Recursion is bounded by the depth
-   of the tree, at most TRAX_SCENE_MAX_DEPTH. */
-static trax_scene_ref place(struct layout *layout, uint32_t index, struct scene_box *box) {
+/* Recursion is bounded by the depth of the tree, at most TRAX_SCENE_MAX_DEPTH. */
+trax_scene_ref scene_place_subtree(struct layout *layout, uint32_t index, struct scene_box *box) {
   const struct scene_tree_node *node = &layout->tree->nodes[index];
   if (node->triangle_count) {
     *box = scene_box_as_stored(layout->node_layout, &layout->grid, &node->box);
@@ -184,7 +157,7 @@ static trax_scene_ref place(struct layout *layout, uint32_t index, struct scene_
   struct scene_box boxes[2];
   trax_scene_ref children[2];
   for (int i = 0; i < 2; i++)
-    children[i] = place(layout, node->child[i], &boxes[i]);
+    children[i] = scene_place_subtree(layout, node->child[i], &boxes[i]);
   *box = scene_box_around(boxes);
   const uint32_t offset = layout->positions[index] * trax_node_formats[layout->node_layout].bytes;
   scene_node_write(layout->nodes + offset, layout->node_layout, boxes, children);
@@ -193,8 +166,7 @@ static trax_scene_ref place(struct layout *layout, uint32_t index, struct scene_
 
 /* --- the file --- */
 
-/* Appends a section at *end; a section without records stays absent. */
-static void plan_section(struct trax_scene_section *section, uint64_t *end, uint32_t count, size_t record_size) {
+void scene_plan_section(struct trax_scene_section *section, uint64_t *end, uint32_t count, size_t record_size) {
   if (count == 0)
     return;
   section->offset = (uint32_t)*end;
@@ -204,12 +176,26 @@ static void plan_section(struct trax_scene_section *section, uint64_t *end, uint
   *end += ((uint64_t)count * record_size + TRAX_SCENE_ALIGNMENT - 1) / TRAX_SCENE_ALIGNMENT * TRAX_SCENE_ALIGNMENT;
 }
 
-static void *section_bytes(unsigned char *bytes, const struct trax_scene_section *section) {
+trax_status scene_plan_materials(struct trax_scene_section *sections, uint64_t *end, const struct palette *palette,
+                                 uint32_t source_ids, trax_error *error) {
+  scene_plan_section(&sections[TRAX_SCENE_MATERIALS], end, palette->count, sizeof(struct trax_material));
+  scene_plan_section(&sections[TRAX_SCENE_TEXTURES], end, palette->texture_count, sizeof(struct trax_texture));
+  if (palette->texel_count > UINT32_MAX / sizeof(uint32_t))
+    return trax_fail(error, "the textures take %.1f GB; --texture-size makes them smaller",
+                     (double)palette->texel_count * sizeof(uint32_t) * 1e-9);
+  scene_plan_section(&sections[TRAX_SCENE_TEXELS], end, (uint32_t)palette->texel_count, sizeof(uint32_t));
+  /* Last: nothing on the device reads it. */
+  scene_plan_section(&sections[TRAX_SCENE_SOURCE_IDS], end, source_ids, sizeof(uint32_t));
+  return TRAX_OK;
+}
+
+void *scene_section_bytes(unsigned char *bytes, const struct trax_scene_section *section) {
   return section->count ? bytes + section->offset : NULL;
 }
 
 /* To 2^-40, by halving the angle from 180 degrees: cos(a / 2) = sqrt((1 + cos a) / 2), and no two libraries differ. */
-static double crease_cosine(double degrees) {
+double scene_crease_cosine(const struct trax_build_options *options) {
+  double degrees = options->crease_degrees > 0 ? (double)options->crease_degrees : TRAX_DEFAULT_CREASE;
   double cosine = 1, sine = 0, step_cosine = -1, step_sine = 0, step = 180; /* of the angle so far, and the next step */
   for (int i = 0; i < 40; i++) {
     if (degrees >= step) {
@@ -225,9 +211,12 @@ static double crease_cosine(double degrees) {
   return cosine;
 }
 
-static void copy_textures(unsigned char *bytes, const struct trax_scene_section *sections,
+void scene_copy_materials(unsigned char *bytes, const struct trax_scene_section *sections,
                           const struct palette *palette, const struct trax_mesh *mesh) {
-  struct trax_texture *out = section_bytes(bytes, &sections[TRAX_SCENE_TEXTURES]);
+  if (palette->count)
+    memcpy(bytes + sections[TRAX_SCENE_MATERIALS].offset, palette->materials,
+           palette->count * sizeof *palette->materials);
+  struct trax_texture *out = scene_section_bytes(bytes, &sections[TRAX_SCENE_TEXTURES]);
   uint32_t at = sections[TRAX_SCENE_TEXELS].offset;
   for (uint32_t i = 0; i < palette->texture_count; i++) {
     const struct trax_mesh_texture *source = &mesh->textures[palette->textures[i]];
@@ -274,21 +263,15 @@ static trax_status lay_out(struct trax_scene *scene, const struct trax_mesh *mes
                                      .triangle_count = tree->ref_count};
   uint64_t end = sizeof header;
   struct trax_scene_section *sections = header.sections;
-  plan_section(&sections[TRAX_SCENE_NODES], &end, tree->inner_count, trax_node_formats[options->nodes].bytes);
-  plan_section(&sections[TRAX_SCENE_TRIANGLES], &end, tree->ref_count, sizeof(struct trax_triangle));
+  scene_plan_section(&sections[TRAX_SCENE_NODES], &end, tree->inner_count, trax_node_formats[options->nodes].bytes);
+  scene_plan_section(&sections[TRAX_SCENE_TRIANGLES], &end, tree->ref_count, sizeof(struct trax_triangle));
   if (options->smooth)
-    plan_section(&sections[TRAX_SCENE_NORMALS], &end, tree->ref_count, sizeof(struct trax_triangle_normals));
+    scene_plan_section(&sections[TRAX_SCENE_NORMALS], &end, tree->ref_count, sizeof(struct trax_triangle_normals));
   if (palette->texture_count)
-    plan_section(&sections[TRAX_SCENE_UVS], &end, tree->ref_count, sizeof(struct trax_triangle_uvs));
-  plan_section(&sections[TRAX_SCENE_MATERIALS], &end, palette->count, sizeof(struct trax_material));
-  plan_section(&sections[TRAX_SCENE_TEXTURES], &end, palette->texture_count, sizeof(struct trax_texture));
-  if (palette->texel_count > UINT32_MAX / sizeof(uint32_t))
-    return trax_fail(error, "the textures take %.1f GB; --texture-size makes them smaller",
-                     (double)palette->texel_count * sizeof(uint32_t) * 1e-9);
-  plan_section(&sections[TRAX_SCENE_TEXELS], &end, (uint32_t)palette->texel_count, sizeof(uint32_t));
-  /* Last: nothing on the device reads it. */
-  plan_section(&sections[TRAX_SCENE_SOURCE_IDS], &end, options->without_source_ids ? 0 : tree->ref_count,
-               sizeof(uint32_t));
+    scene_plan_section(&sections[TRAX_SCENE_UVS], &end, tree->ref_count, sizeof(struct trax_triangle_uvs));
+  if (scene_plan_materials(sections, &end, palette, options->without_source_ids ? 0 : tree->ref_count, error) !=
+      TRAX_OK)
+    return TRAX_ERROR;
   if (end > UINT32_MAX)
     return trax_fail(error, "%u triangles make a scene of %.1f GB; 32-bit offsets end at 4.29", tree->ref_count,
                      (double)end * 1e-9);
@@ -304,11 +287,11 @@ static trax_status lay_out(struct trax_scene *scene, const struct trax_mesh *mes
                           .positions = positions,
                           .node_layout = options->nodes,
                           .bytes = bytes,
-                          .nodes = section_bytes(bytes, &sections[TRAX_SCENE_NODES]),
-                          .triangles = section_bytes(bytes, &sections[TRAX_SCENE_TRIANGLES]),
-                          .normals = section_bytes(bytes, &sections[TRAX_SCENE_NORMALS]),
-                          .uvs = section_bytes(bytes, &sections[TRAX_SCENE_UVS]),
-                          .source_ids = section_bytes(bytes, &sections[TRAX_SCENE_SOURCE_IDS]),
+                          .nodes = scene_section_bytes(bytes, &sections[TRAX_SCENE_NODES]),
+                          .triangles = scene_section_bytes(bytes, &sections[TRAX_SCENE_TRIANGLES]),
+                          .normals = scene_section_bytes(bytes, &sections[TRAX_SCENE_NORMALS]),
+                          .uvs = scene_section_bytes(bytes, &sections[TRAX_SCENE_UVS]),
+                          .source_ids = scene_section_bytes(bytes, &sections[TRAX_SCENE_SOURCE_IDS]),
                           .file_normals = mesh->normals && !options->compute_normals,
                           .nodes_offset = sections[TRAX_SCENE_NODES].offset,
                           .triangles_offset = sections[TRAX_SCENE_TRIANGLES].offset};
@@ -317,20 +300,16 @@ static trax_status lay_out(struct trax_scene *scene, const struct trax_mesh *mes
     free(bytes);
     return scene_out_of_memory(error, "normals");
   }
-  if (palette->count)
-    memcpy(bytes + sections[TRAX_SCENE_MATERIALS].offset, palette->materials,
-           palette->count * sizeof *palette->materials);
-  copy_textures(bytes, sections, palette, mesh);
+  scene_copy_materials(bytes, sections, palette, mesh);
   if (mesh->triangle_count) {
     memcpy(header.bounds_min, tree->bounds.min, sizeof tree->bounds.min);
     memcpy(header.bounds_max, tree->bounds.max, sizeof tree->bounds.max);
     layout.grid = trax_scene_grid_of(header.bounds_min, header.bounds_max);
     struct scene_box bounds;
-    header.root = place(&layout, 0, &bounds);
+    header.root = scene_place_subtree(&layout, 0, &bounds);
   }
   if (layout.normals) {
-    const double degrees = options->crease_degrees > 0 ? options->crease_degrees : TRAX_DEFAULT_CREASE;
-    const trax_status result = make_normals(&layout, crease_cosine(degrees), error);
+    const trax_status result = make_normals(&layout, scene_crease_cosine(options), error);
     free(layout.numbers);
     if (result != TRAX_OK) {
       free(bytes);
@@ -352,9 +331,9 @@ static trax_status lay_out(struct trax_scene *scene, const struct trax_mesh *mes
                                .triangles = layout.triangles,
                                .normals = layout.normals,
                                .uvs = layout.uvs,
-                               .materials = section_bytes(bytes, &sections[TRAX_SCENE_MATERIALS]),
-                               .textures = section_bytes(bytes, &sections[TRAX_SCENE_TEXTURES]),
-                               .texels = section_bytes(bytes, &sections[TRAX_SCENE_TEXELS]),
+                               .materials = scene_section_bytes(bytes, &sections[TRAX_SCENE_MATERIALS]),
+                               .textures = scene_section_bytes(bytes, &sections[TRAX_SCENE_TEXTURES]),
+                               .texels = scene_section_bytes(bytes, &sections[TRAX_SCENE_TEXELS]),
                                .source_ids = layout.source_ids,
                                .node_count = tree->inner_count,
                                .triangle_count = tree->ref_count,
@@ -373,6 +352,8 @@ trax_status trax_scene_build(struct trax_scene *scene, const struct trax_mesh *m
   *scene = (struct trax_scene){0};
   if (mesh->triangle_count == 0 && !options->allow_empty)
     return trax_fail(error, "the mesh has no triangles");
+  if (mesh->instance_count)
+    return scene_build_two_levels(scene, mesh, options, error);
   struct scene_tree tree;
   struct scene_order order = {0};
   struct trax_build_options chosen = *options;
@@ -395,12 +376,12 @@ trax_status trax_scene_build(struct trax_scene *scene, const struct trax_mesh *m
   if (result == TRAX_OK && !order.position)
     result =
         scene_order_nodes(&order, &tree, options->nodes,
-                          options->cache_lines ? options->cache_lines : default_cache_lines, options->interrupt, error);
+                          options->cache_lines ? options->cache_lines : SCENE_CACHE_LINES, options->interrupt, error);
   if (result == TRAX_OK) {
-    result = make_palette(&palette, mesh, mesh->uvs != NULL, error);
+    result = scene_make_palette(&palette, mesh, mesh->uvs != NULL, error);
     if (result == TRAX_OK)
       result = lay_out(scene, mesh, &tree, &palette, order.position, options, error);
-    palette_release(&palette);
+    scene_palette_release(&palette);
   }
   scene_order_release(&order);
   scene_tree_release(&tree);

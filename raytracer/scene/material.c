@@ -1,5 +1,5 @@
 /* Materials that the command line gives. */
-#include "internal.h"
+#include "placing.h"
 #include "trax/names.h"
 #include "trax/scene_options.h"
 
@@ -142,6 +142,14 @@ static void apply(struct trax_material *surface, const struct trax_material_over
     break;
   }
   memcpy(surface->specular, override->colour, sizeof surface->specular);
+}
+
+bool scene_set_material(struct trax_material *surface, const char *what) {
+  struct trax_material_override override = {.kind = TRAX_OVERRIDE_DIFFUSE};
+  if (!parse_colour(what, override.colour, 1) && !parse_kind(&override, what))
+    return false;
+  apply(surface, &override);
+  return true;
 }
 
 static const char *material_name(const void *mesh, size_t i) {

@@ -1,5 +1,5 @@
 /* Meshes: import by the reader of each format, merging, and triangles that no ray can hit. */
-#include "internal.h"
+#include "placing.h"
 #include "trax/message.h"
 
 #include <errno.h>
@@ -17,6 +17,8 @@ void trax_mesh_release(struct trax_mesh *mesh) {
   free(mesh->cameras);
   free(mesh->normals);
   free(mesh->uvs);
+  free(mesh->parts);
+  free(mesh->instances);
   *mesh = (struct trax_mesh){0};
 }
 
@@ -28,12 +30,23 @@ bool trax_mesh_is_generated(const char *path) {
 
 const struct trax_material trax_default_material = {.diffuse = {0.75f, 0.75f, 0.75f}, .ior = 1, .opacity = 1};
 
-/* Parses "generate:forest" or "generate:forest:SEED". */
-static trax_status parse_generated(const char *path, uint64_t *seed, trax_error *error) {
-  static const char name[] = "forest";
-  const char *what = path + sizeof generated_prefix - 1, *rest = what + sizeof name - 1;
+static const struct generator {
+  const char *name;
+  trax_status (*generate)(struct trax_mesh *mesh, uint64_t seed, trax_error *error);
+} generators[] = {{"forest", scene_generate_forest}, {"fir", scene_generate_fir}};
+
+/* Parses "generate:NAME" or "generate:NAME:SEED". */
+static trax_status parse_generated(const char *path, const struct generator **generator, uint64_t *seed,
+                                   trax_error *error) {
+  const char *what = path + sizeof generated_prefix - 1;
+  const size_t length = strcspn(what, ":");
+  const char *rest = what + length;
   *seed = 0;
-  bool good = strncmp(what, name, sizeof name - 1) == 0 && (*rest == '\0' || *rest == ':');
+  *generator = NULL;
+  for (size_t i = 0; i < sizeof generators / sizeof *generators; i++)
+    if (strlen(generators[i].name) == length && strncmp(what, generators[i].name, length) == 0)
+      *generator = &generators[i];
+  bool good = *generator;
   if (good && *rest == ':') {
     char *end;
     errno = 0;
@@ -41,7 +54,7 @@ static trax_status parse_generated(const char *path, uint64_t *seed, trax_error 
     good = rest[1] >= '0' && rest[1] <= '9' && *end == '\0' && errno == 0;
   }
   return good ? TRAX_OK
-              : trax_fail(error, "%s: expected %sforest, or %sforest:SEED with a whole number below 2^64", path,
+              : trax_fail(error, "%s: expected %sforest, %sfir, or either with :SEED, a whole number below 2^64", path,
                           generated_prefix, generated_prefix);
 }
 
@@ -79,11 +92,12 @@ static trax_status name_at(char **name, const char *path, const struct trax_impo
 }
 
 trax_status trax_mesh_check(const char *path, trax_error *error) {
+  const struct generator *generator;
   uint64_t seed;
   int digits;
   size_t length;
   if (trax_mesh_is_generated(path))
-    return parse_generated(path, &seed, error);
+    return parse_generated(path, &generator, &seed, error);
   return strcmp(path, "-") == 0 || find_number(path, &digits, &length) || access(path, R_OK) == 0
              ? TRAX_OK
              : trax_fail(error, "%s: cannot be read: %s", path, strerror(errno));
@@ -91,10 +105,11 @@ trax_status trax_mesh_check(const char *path, trax_error *error) {
 
 static trax_status generate(struct trax_mesh *mesh, const char *path, struct trax_import_report *report,
                             trax_error *error) {
+  const struct generator *generator;
   uint64_t seed;
-  if (parse_generated(path, &seed, error) != TRAX_OK)
+  if (parse_generated(path, &generator, &seed, error) != TRAX_OK)
     return TRAX_ERROR;
-  trax_status result = scene_generate_forest(mesh, seed, error);
+  trax_status result = generator->generate(mesh, seed, error);
   report->source_triangles = mesh->triangle_count;
   return result;
 }
@@ -104,8 +119,11 @@ static trax_status read_mesh(struct trax_mesh *mesh, const char *path, const str
   static const struct {
     const char *extension;
     scene_reader *read;
-  } readers[] = {
-      {".ply", scene_read_ply}, {".obj", scene_read_obj}, {".gltf", scene_read_gltf}, {".glb", scene_read_gltf}};
+  } readers[] = {{".ply", scene_read_ply},
+                 {".obj", scene_read_obj},
+                 {".gltf", scene_read_gltf},
+                 {".glb", scene_read_gltf},
+                 {".instances", scene_read_instances}};
   *mesh = (struct trax_mesh){0};
   if (trax_mesh_is_generated(path))
     return generate(mesh, path, report, error);
@@ -121,7 +139,8 @@ static trax_status read_mesh(struct trax_mesh *mesh, const char *path, const str
     return trax_fail(error, "%s: cannot be read: %s", path, strerror(errno));
   return read ? read(mesh, path, options, report, error)
               : trax_fail(error,
-                          "%s: not a mesh that can be read: its name ends in none of .ply, .obj, .gltf and .glb, with "
+                          "%s: not a mesh that can be read: its name ends in none of .ply, .obj, .gltf, .glb and "
+                          ".instances, with "
                           ".xz or .gz if it is packed; Blender, for example, exports glTF from other formats",
                           path);
 }
@@ -161,13 +180,48 @@ static bool append_records(void *array, size_t used, const void *records, size_t
   return true;
 }
 
-/* Appends one file's mesh, whose arrays are released. */
-static trax_status append(struct trax_mesh *mesh, struct trax_mesh *part, uint32_t first_source_id, const char *path,
-                          trax_error *error) {
+/* Makes all triangles one part, at its place. */
+static bool make_part(struct trax_mesh *mesh, uint32_t sources) {
+  static const double identity[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
+  mesh->parts = malloc(sizeof *mesh->parts);
+  mesh->instances = malloc(sizeof *mesh->instances);
+  if (!mesh->parts || !mesh->instances)
+    return false;
+  mesh->parts[0] = (struct trax_mesh_part){0, mesh->triangle_count, sources};
+  mesh->instances[0] = (struct trax_mesh_instance){.material = TRAX_NO_MATERIAL};
+  memcpy(mesh->instances[0].transform, identity, sizeof identity);
+  mesh->part_count = mesh->instance_count = 1;
+  return true;
+}
+
+/* With instances in either mesh, triangles are numbered part by part, and each part is placed at least once. */
+static bool unite_parts(struct trax_mesh *mesh, struct trax_mesh *part, uint32_t first_source_id,
+                        uint32_t part_sources) {
+  if (mesh->part_count + part->part_count == 0)
+    return true;
+  if ((mesh->triangle_count && !mesh->part_count && !make_part(mesh, first_source_id)) ||
+      (part->triangle_count && !part->part_count && !make_part(part, part_sources)))
+    return false;
+  for (uint32_t i = 0; i < part->part_count; i++)
+    part->parts[i].first_triangle += mesh->triangle_count;
+  for (uint32_t i = 0; i < part->instance_count; i++) {
+    struct trax_mesh_instance *instance = &part->instances[i];
+    instance->part += mesh->part_count;
+    instance->material += instance->material == TRAX_NO_MATERIAL ? 0 : mesh->material_count;
+  }
+  return true;
+}
+
+/* sources: of the part, with those that were dropped. */
+trax_status scene_append_mesh(struct trax_mesh *mesh, struct trax_mesh *part, uint32_t first_source_id,
+                              uint32_t part_sources, const char *path, trax_error *error) {
+  if (!unite_parts(mesh, part, first_source_id, part_sources))
+    return scene_out_of_memory(error, path);
   const uint64_t counts[] = {
       (uint64_t)mesh->vertex_count + part->vertex_count,     (uint64_t)mesh->triangle_count + part->triangle_count,
       (uint64_t)mesh->material_count + part->material_count, (uint64_t)mesh->texture_count + part->texture_count,
-      (uint64_t)mesh->texel_count + part->texel_count,       (uint64_t)mesh->camera_count + part->camera_count};
+      (uint64_t)mesh->texel_count + part->texel_count,       (uint64_t)mesh->camera_count + part->camera_count,
+      (uint64_t)mesh->part_count + part->part_count,         (uint64_t)mesh->instance_count + part->instance_count};
   for (size_t i = 0; i < sizeof counts / sizeof *counts; i++)
     if (counts[i] > UINT32_MAX)
       return trax_fail(error, "%s: too large together with the files before it", path);
@@ -176,7 +230,7 @@ static trax_status append(struct trax_mesh *mesh, struct trax_mesh *part, uint32
     for (int corner = 0; corner < 3; corner++)
       triangle->vertices[corner] += mesh->vertex_count;
     triangle->material += mesh->material_count;
-    triangle->source_id += first_source_id;
+    triangle->source_id += part->part_count ? 0 : first_source_id;
   }
   for (uint32_t i = 0; i < part->material_count; i++)
     if (part->materials[i].surface.texture)
@@ -192,7 +246,8 @@ static trax_status append(struct trax_mesh *mesh, struct trax_mesh *part, uint32
   append_records(&mesh->name, mesh->count * sizeof *mesh->name, part->name, part->count * sizeof *part->name)
   if (!APPEND(vertices, vertex_count) || !APPEND(triangles, triangle_count) || !APPEND(materials, material_count) ||
       !APPEND(textures, texture_count) || !APPEND(texels, texel_count) || !APPEND(cameras, camera_count) ||
-      !APPEND(normals, triangle_count) || !APPEND(uvs, triangle_count))
+      !APPEND(normals, triangle_count) || !APPEND(uvs, triangle_count) || !APPEND(parts, part_count) ||
+      !APPEND(instances, instance_count))
     return scene_out_of_memory(error, path);
 #undef APPEND
   mesh->vertex_count = (uint32_t)counts[0];
@@ -201,6 +256,8 @@ static trax_status append(struct trax_mesh *mesh, struct trax_mesh *part, uint32
   mesh->texture_count = (uint32_t)counts[3];
   mesh->texel_count = (uint32_t)counts[4];
   mesh->camera_count = (uint32_t)counts[5];
+  mesh->part_count = (uint32_t)counts[6];
+  mesh->instance_count = (uint32_t)counts[7];
   trax_mesh_release(part);
   return TRAX_OK;
 }
@@ -246,8 +303,12 @@ static bool is_degenerate(const float p[3], const float q[3], const float r[3]) 
 /* Removes triangles from one file's mesh, as the options say. */
 static trax_status filter(struct trax_mesh *mesh, const struct trax_import_options *options, const char *path,
                           struct trax_import_report *report, trax_error *error) {
-  uint32_t kept = 0, nonfinite = 0, first_nonfinite = 0;
-  for (uint32_t i = 0; i < mesh->triangle_count; i++) {
+  uint32_t kept = 0, nonfinite = 0, first_nonfinite = 0, next_part = 0;
+  for (uint32_t i = 0; i <= mesh->triangle_count; i++) {
+    for (; next_part < mesh->part_count && mesh->parts[next_part].first_triangle == i; next_part++)
+      mesh->parts[next_part].first_triangle = kept;
+    if (i == mesh->triangle_count)
+      break;
     struct trax_mesh_triangle triangle = mesh->triangles[i];
     const float *p = mesh->vertices[triangle.vertices[0]], *q = mesh->vertices[triangle.vertices[1]],
                 *r = mesh->vertices[triangle.vertices[2]];
@@ -272,6 +333,9 @@ static trax_status filter(struct trax_mesh *mesh, const struct trax_import_optio
                      path, nonfinite, mesh->triangle_count, (double)SCENE_MAX_COORDINATE, first_nonfinite);
   report->nonfinite += nonfinite;
   mesh->triangle_count = kept;
+  for (uint32_t i = 0; i < mesh->part_count; i++)
+    mesh->parts[i].triangle_count =
+        (i + 1 < mesh->part_count ? mesh->parts[i + 1].first_triangle : kept) - mesh->parts[i].first_triangle;
   return TRAX_OK;
 }
 
@@ -291,6 +355,20 @@ static void add_report(struct trax_import_report *total, const struct trax_impor
   total->bad_images += part->bad_images;
   total->moved |= part->moved;
   total->unread |= part->unread;
+}
+
+/* Leaves out instances of nothing, and gives all others triangles of their own if that is asked for. */
+static trax_status place_instances(struct trax_mesh *mesh, const struct trax_import_options *options,
+                                   struct trax_import_report *report, trax_error *error) {
+  scene_drop_empty_parts(mesh);
+  if (mesh->instance_count == 0 || !options->flatten)
+    return TRAX_OK;
+  trax_status result = scene_flatten_mesh(mesh, error);
+  if (result == TRAX_OK) /* transforms may make triangles flat, or too large */
+    result = filter(mesh, options, "the instances", report, error);
+  if (result == TRAX_OK)
+    scene_mend_normals(mesh, report);
+  return result;
 }
 
 trax_status trax_mesh_import(struct trax_mesh *mesh, const char *const *paths, size_t path_count,
@@ -323,7 +401,8 @@ trax_status trax_mesh_import(struct trax_mesh *mesh, const char *const *paths, s
     if (result == TRAX_OK && total.source_triangles + part_report.source_triangles > UINT32_MAX)
       result = trax_fail(error, "%s: too large together with the files before it", paths[i]);
     if (result == TRAX_OK)
-      result = append(mesh, &part, (uint32_t)total.source_triangles, paths[i], error);
+      result = scene_append_mesh(mesh, &part, (uint32_t)total.source_triangles, (uint32_t)part_report.source_triangles,
+                                 paths[i], error);
     trax_mesh_release(&part);
     if (result != TRAX_OK)
       break;
@@ -332,6 +411,8 @@ trax_status trax_mesh_import(struct trax_mesh *mesh, const char *const *paths, s
   if (result == TRAX_OK && options->moves && !total.moved)
     result = trax_fail(error, "%s: nothing moves: no glTF file has an animation, and no name has %%d for the frame",
                        path_count ? paths[0] : "no mesh");
+  if (result == TRAX_OK)
+    result = place_instances(mesh, options, &total, error);
   if (result == TRAX_OK)
     result = scene_override_materials(mesh, options, error);
   if (result != TRAX_OK) {

@@ -54,6 +54,10 @@ static size_t list_statistics(struct statistic list[max_statistics], const struc
   }
   list[n++] = (struct statistic){"scene.bytes", "B", "size of the file", (double)f->scene->size};
   list[n++] = (struct statistic){"scene.triangles", "", "", f->scene->triangle_count};
+  if (f->scene->instances) {
+    list[n++] = (struct statistic){"scene.instances", "", "", f->scene->instance_count};
+    list[n++] = (struct statistic){"scene.meshes", "", "", f->scene->mesh_count};
+  }
   list[n++] = (struct statistic){"scene.materials", "", "in use, each once", f->scene->material_count};
   list[n++] = (struct statistic){"scene.textures", "", "", f->scene->texture_count};
   list[n++] = (struct statistic){"scene.texels", "", "", f->scene->texel_count};

@@ -57,6 +57,9 @@ static const trax_option rows[] = {
     {"at", .argument = "X", PARSED(trax_take_at, import),
      .meaning = "the meshes of a moment: of a name with %d or %04d frame X, of glTF second X of an animation"},
     {"animation", .argument = "NAME", FIELD(import.animation), .meaning = "of glTF, instead of the first"},
+    {"instances", FIELD(import.instances),
+     .meaning = "keep a mesh of several glTF nodes once, and place it; files of instances are always kept so"},
+    {"flatten", FIELD(import.flatten), .meaning = "give every instance triangles of its own"},
     {"drop-nonfinite", FIELD(import.drop_nonfinite),
      .meaning = "leave triangles with NaN or infinite vertices out instead of refusing the mesh"},
     {"keep-degenerate", .instead = "no ray hits triangles of zero area"},
@@ -111,7 +114,7 @@ static const trax_option rows[] = {
 const trax_command scene_command = {
     .name = "trax-scene",
     .synopsis = "[options] MESH... -o SCENE\n--check SCENE [--stats] [--stats-json FILE]",
-    .description = "Imports meshes (PLY, OBJ with MTL, glTF, GLB, also as .xz or .gz), merges them, "
+    .description = "Imports meshes (PLY, OBJ with MTL, glTF, GLB, instances, also as .xz or .gz), merges them, "
                    "builds\n"
                    "the BVH and writes a scene file. The mesh generate:forest[:SEED] is made by the program itself.",
     .rows = rows,

@@ -152,7 +152,7 @@ accept "$bin/trax-scene" "$box" -o box.trax
 accept "$render" box.trax -o b.png $native --size 32x24
 refuse 'box.trax: --smooth: the scene has no normals' "$render" box.trax -o x.png $native --smooth
 accept "$compare" a.png b.png
-refuse '--nodes, --splits and --normals smooth are for meshes' "$render" box.trax -o x.png $native --nodes binary
+refuse '--nodes, --splits, --instances, --flatten and --normals smooth are for meshes' "$render" box.trax -o x.png $native --nodes binary
 
 # The picture does not depend on how the tree is stored; the file does.
 refuse "--splits: '0.5' is neither auto nor a number from 1 to 8" "$render" "$box" -o x.png --splits=0.5

@@ -607,7 +607,7 @@ static const struct bad_mesh {
      "base.gltf: a data URI has a byte that is not base64"},
     {"cut.glb", "glTF\2\1\1\1\60\1\1\1", "cut.glb: GLB of version 16843010; only 2 is read"},
     {"model.stl", "solid",
-     "model.stl: not a mesh that can be read: its name ends in none of .ply, .obj, .gltf and .glb"},
+     "model.stl: not a mesh that can be read: its name ends in none of .ply, .obj, .gltf, .glb and .instances"},
     {"draco.gltf", GLTF("[0]") "\"extensionsRequired\":[\"KHR_draco_mesh_compression\"],\"nodes\":[{}]}",
      "draco.gltf: it requires the extension KHR_draco_mesh_compression, which is not read"},
     {"prose.ply", "plywood\n", "prose.ply: not a mesh"},

@@ -17,6 +17,7 @@ struct trax_traced_ray {
   uint32_t kind;     /* enum trax_ray_kind */
   uint32_t found;    /* it hit something */
   uint32_t triangle; /* the nearest: bytes from the start of the scene; 0: none, or any hit sufficed */
+  uint32_t instance; /* of the triangle: bytes from the start of the scene; 0: the scene has none */
   float distance, weight1,
       weight2; /* of that: in units of the direction; barycentric, of the second and third corner */
 };

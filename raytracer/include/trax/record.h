@@ -13,11 +13,12 @@ struct trax_pixel_record {
 struct trax_sample_record {
   uint32_t triangle; /* the triangle that the ray from the eye hit: bytes from the start of the scene; 0: none */
   uint32_t shadow;   /* enum trax_shadow */
+  uint32_t instance; /* of the triangle: bytes from the start of the scene; 0: the scene has none */
 };
 
 /* The result of the ray towards the light. */
 enum trax_shadow { TRAX_SHADOW_NOT_ASKED, TRAX_SHADOW_LIT, TRAX_SHADOW_BLOCKED };
 
-_Static_assert(sizeof(struct trax_pixel_record) == 12 && sizeof(struct trax_sample_record) == 8, "no padding");
+_Static_assert(sizeof(struct trax_pixel_record) == 12 && sizeof(struct trax_sample_record) == 12, "no padding");
 
 #endif

@@ -52,6 +52,19 @@ struct trax_mesh_camera {
   float fov;                         /* vertical, degrees */
 };
 
+/* Triangles that are placed together. */
+struct trax_mesh_part {
+  uint32_t first_triangle, triangle_count;
+  uint32_t source_count; /* with those that were dropped: their source_id is below it */
+};
+
+/* The point p of the part is at transform (p, 1). */
+struct trax_mesh_instance {
+  double transform[3][4];
+  uint32_t part;
+  uint32_t material; /* of all triangles; TRAX_NO_MATERIAL: their own */
+};
+
 struct trax_mesh {
   float (*vertices)[3];
   struct trax_mesh_triangle *triangles;
@@ -63,6 +76,11 @@ struct trax_mesh {
   float (*normals)[3][3];
   float (*uvs)[3][2];
   uint32_t vertex_count, triangle_count, material_count, texture_count, texel_count, camera_count;
+  /* Without instances every triangle is where its vertices are. Otherwise parts follow one another, and have all of the
+     triangles. */
+  struct trax_mesh_part *parts;
+  struct trax_mesh_instance *instances;
+  uint32_t part_count, instance_count;
 };
 
 /* A name of at most TRAX_MESH_NAME - 1 characters. A longer one becomes its beginning, "~", and 16 digits that depend
@@ -102,6 +120,8 @@ bool trax_parse_size(const char *text, size_t *bytes);
 struct trax_import_options {
   bool drop_nonfinite;     /* drop triangles with a NaN or infinite vertex instead of refusing the mesh */
   bool no_textures;        /* images are not read; materials keep only their colours */
+  bool instances;          /* a mesh of several glTF nodes is kept once, and placed */
+  bool flatten;            /* every instance gets triangles of its own */
   unsigned texture_size;   /* limit of texels a side; a power of two up to 4096; 0: 4096 */
   size_t unpack_limit;     /* bytes; 0: TRAX_DEFAULT_UNPACK_LIMIT */
   bool moves;              /* meshes are those of a moment: `at` */
@@ -179,6 +199,9 @@ struct trax_scene {
   const uint32_t *source_ids;
   uint32_t node_count, triangle_count, material_count, texture_count, texel_count;
   struct trax_scene_grid grid;
+  const struct trax_instance *instances; /* NULL: triangles are where their vertices are */
+  const struct trax_scene_mesh *meshes;
+  uint32_t instance_count, mesh_count;
 };
 
 /* A layout of nodes. A node begins with two boxes of six planes each and two references. */

@@ -5,6 +5,8 @@
      byte   0  struct trax_scene_header, 3 lines of 64 bytes
      byte 192  the sections, each 64-byte aligned, zero bytes between them
 
+   A file with instances has version 3, struct trax_scene_more at byte 192, and the sections behind it.
+
    A 64-byte line is the machine's unit of traffic, so the format minimises the lines per ray: - a BVH node holds both
    children's boxes and is one line; - a leaf's triangles are contiguous, 40 bytes each, their material with them, in
    the order in which a depth-first
@@ -17,6 +19,7 @@
      0                nothing: only as the root of a scene without triangles
      offset | 0       an inner node at that offset
      offset | 1..7    a leaf: so many triangles, the first at that offset
+   In the tree over instances (struct trax_instance) a leaf is offset | 1, and the offset is an instance's.
    Included by C for the TP, C for the host, and C++. */
 #ifndef TRAX_SCENE_FORMAT_H
 #define TRAX_SCENE_FORMAT_H
@@ -25,6 +28,7 @@
 
 #define TRAX_SCENE_MAGIC 0x53585254u /* the bytes "TRXS" */
 #define TRAX_SCENE_VERSION 2u
+#define TRAX_SCENE_VERSION_INSTANCES 3u
 #define TRAX_SCENE_ALIGNMENT 64u
 #define TRAX_SCENE_MAX_LEAF 7u       /* limit of the triangles in a leaf */
 #define TRAX_SCENE_MAX_DEPTH 62u     /* limit of the inner nodes from the root to a leaf */
@@ -68,7 +72,7 @@ struct trax_scene_section {
 
 struct trax_scene_header {
   uint32_t magic;          /* TRAX_SCENE_MAGIC */
-  uint32_t version;        /* TRAX_SCENE_VERSION */
+  uint32_t version;        /* TRAX_SCENE_VERSION, or TRAX_SCENE_VERSION_INSTANCES */
   uint32_t file_size;      /* bytes, header included, a multiple of 64 */
   uint32_t checksum;       /* CRC-32 (ISO 3309, as in zlib) of the whole file with this field zero */
   trax_scene_ref root;     /* an inner node; a leaf if that holds all triangles; 0 if there are none */
@@ -76,12 +80,59 @@ struct trax_scene_header {
                               never has more entries on its stack */
   uint32_t max_leaf;       /* most triangles in one leaf */
   uint32_t triangle_count; /* = sections[TRAX_SCENE_TRIANGLES].count */
-  float bounds_min[3];     /* of all triangles; zeros if there are none */
+  float bounds_min[3];     /* of all triangles, or of all instances' boxes; zeros if there are none */
   float bounds_max[3];
   uint32_t base; /* 0: references are offsets, as in every file. Otherwise they are addresses in the device's memory,
                     which has the scene at this one (render/device_scene.c) */
   uint32_t node_layout; /* enum trax_node_layout */
   struct trax_scene_section sections[TRAX_SCENE_SECTIONS];
+};
+
+/* --- instances: triangles once, at many places --- */
+
+/* Nodes are binary. First come those of the tree over the instances, one fewer than there are instances; header.root is
+   its root. Then come those of each mesh. header.max_depth is the depth of the deepest instance with that of its mesh
+   and one: a traversal marks on its stack where it left the upper tree. */
+enum trax_scene_more_kind {
+  TRAX_SCENE_INSTANCES = 0,     /* struct trax_instance, in the order of a depth-first traversal */
+  TRAX_SCENE_MESHES = 1,        /* struct trax_scene_mesh; for the host only */
+  TRAX_SCENE_MORE_SECTIONS = 4, /* the others are zero */
+};
+
+struct trax_scene_more {
+  struct trax_scene_section sections[TRAX_SCENE_MORE_SECTIONS];
+};
+
+#define TRAX_NO_MATERIAL UINT32_MAX
+
+/* The point p of the mesh is at origin + to_world p. The first line is what a traversal reads. to_object, stretch,
+   spread and flags follow from the rest (scene/placing.c). */
+struct trax_instance {
+  float to_object[3][3]; /* the inverse of to_world, rounded once: a ray from o along d is a ray from to_object (o -
+                            origin) along to_object d in the mesh, and distances are the same */
+  float origin[3];
+  trax_scene_ref root; /* of the mesh's tree */
+  float stretch;       /* the margin of boxes in the mesh is this times that of the scene's */
+  uint32_t material;   /* of all triangles; TRAX_NO_MATERIAL: their own */
+  uint32_t flags;      /* TRAX_INSTANCE_MIRRORED */
+  float to_world[3][3];
+  float spread; /* the error of a surface's place is this times its distance from `origin`; 0: the transform has
+                   no error */
+  uint32_t first_number; /* the triangles of the instances before it in the file */
+  uint32_t first_source; /* its triangles' numbers in the mesh begin here when all are flattened */
+  uint32_t mesh;
+  uint32_t reserved[3]; /* zero */
+};
+
+#define TRAX_INSTANCE_MIRRORED 0x80000000u /* to_world turns v0, v1, v2 counterclockwise into clockwise */
+
+struct trax_scene_mesh {
+  trax_scene_ref root;
+  uint32_t first_triangle, triangle_count; /* of the section of triangles; the meshes follow one another */
+  uint32_t source_count;                   /* of the triangles as imported, with those that were dropped */
+  uint32_t depth;                          /* most inner nodes from the root to a leaf */
+  float bounds_min[3], bounds_max[3];
+  uint32_t reserved[5]; /* zero */
 };
 
 /* box[c] bounds every triangle below child[c] exactly: the least and the greatest of its vertices' coordinates, never
@@ -166,6 +217,9 @@ struct trax_texture {
 #endif
 TRAX_SCENE_ASSERT_SIZE(struct trax_scene_section, 16);
 TRAX_SCENE_ASSERT_SIZE(struct trax_scene_header, 192);
+TRAX_SCENE_ASSERT_SIZE(struct trax_scene_more, 64);
+TRAX_SCENE_ASSERT_SIZE(struct trax_instance, 128);
+TRAX_SCENE_ASSERT_SIZE(struct trax_scene_mesh, 64);
 TRAX_SCENE_ASSERT_SIZE(struct trax_bvh_node, 64);
 TRAX_SCENE_ASSERT_SIZE(struct trax_quantised_node, 32);
 TRAX_SCENE_ASSERT_SIZE(struct trax_triangle, 40);

@@ -1,0 +1,213 @@
+#!/usr/bin/env python3
+"""instances_test.py BIN: pictures of instances are those of the flattened meshes, in every bit where the transforms are
+exact, and triangles have the same numbers; nested groups, glTF's nodes, materials, all kinds of shading against
+Embree's instances; bad files of instances."""
+import functools
+import json
+import os
+import pathlib
+import sys
+import struct
+import tempfile
+import time
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import checking  # noqa: E402
+from checking import check, equal  # noqa: E402
+
+BIN = pathlib.Path(sys.argv[1]).resolve()
+call = functools.partial(checking.call, BIN)
+
+# A solid without symmetry, and a floor.
+SOLID = ("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 0.25 1\nf 4 3 2 1\nusemtl side\nf 1 2 5\nf 2 3 5\n"
+         "usemtl other\nf 3 4 5\nf 4 1 5\n")
+FLOOR = "v -4 -4 -2\nv 4 -4 -2\nv 4 4 -2\nv -4 4 -2\nf 1 2 3 4\n"
+LOOK = ["--eye=1,-7,4", "--look-at=0,1,0", "--up=0,0,1", "--light=3,-3,9", "--size", "40x24", "-q"]
+HEAD = "mesh solid solid.obj\nmesh floor floor.obj\nmaterial red 0.8,0.1,0.1\nplace floor\n"
+
+# Rotations by right angles, times a power of two: nothing is rounded, and the same is computed.
+EXACT = ["1 0 0 0  0 1 0 0  0 0 1 0", "0 -2 0 0  2 0 0 0  0 0 2 0 material red", "0 0 -1 0  0 -1 0 0  -1 0 0 0",
+         "-0.5 0 0 0  0 0 0.5 0  0 0.5 0 0"]
+MOVED = ["1 0 0 0.3  0 1 0 0.7  0 0 1 0", "0.6 -0.8 0 -2.1  0.8 0.6 0 0.4  0 0 1.7 0 material red",
+         "-0.7 0 0 2  0 0.9 0.3 -1  0.2 0 1 0.1"]
+
+
+def write(name, *lines):
+    pathlib.Path(name).write_text("".join(lines))
+
+
+def render(name, *words):
+    call("trax-render", *words, *LOOK, "-o", f"{name}.png")
+    return pathlib.Path(f"{name}.png").read_bytes()
+
+
+def check_exact():
+    """In every bit: pictures, shadows, numbers of triangles. The emulated chip draws the twin's."""
+    write("exact.instances", HEAD, *(f"place solid {rows}\n" for rows in EXACT))
+    for options in ([], ["--paths", "3", "--one-sided"]):
+        kept = render("kept", "exact.instances", "--engine", "native", *options)
+        flat = render("flat", "exact.instances", "--flatten", "--engine", "native", *options)
+        check(kept == flat, "exact transforms", options)
+    check(render("emulated", "exact.instances") == render("kept", "exact.instances", "--engine", "native"), "emulated")
+    numbers = []
+    for flatten in ([], ["--flatten"]):
+        call("trax-render", "exact.instances", *flatten, *LOOK, "--engine", "native", "--id-picture", "id.png")
+        numbers.append(pathlib.Path("id.png").read_bytes())
+    check(numbers[0] == numbers[1], "numbers of triangles")
+
+
+def check_shading():
+    """Against Embree's instances, twin against chip, hits against exact arithmetic."""
+    write("moved.instances", HEAD, *(f"place solid {rows}\n" for rows in MOVED))
+    for options in (["--smooth", "--samples", "2"], ["--paths", "3", "--samples", "2", "--material", "side=mirror"],
+                    ["--occlusion", "2", "--one-sided"], ["--material", "other=glass"]):
+        done = call("trax-render", "moved.instances", *LOOK, "-o", "x.png", "--compare", *options)
+        check("identical in every bit" in done.stdout and " 0 beyond it" in done.stdout, options, done.stdout)
+    render("kept", "moved.instances", "--engine", "native")
+    render("flat", "moved.instances", "--flatten", "--engine", "native")
+    call("trax-compare", "kept.png", "flat.png", "--within", "2", "--at-least", "99.5")
+
+
+def looking(scale, offset):
+    """The view, scaled and moved."""
+    def place(x, y, z):
+        return ",".join(repr(scale * a + offset) for a in (x, y, z))
+    return [f"--eye={place(1, -7, 4)}", f"--look-at={place(0, 1, 0)}", f"--light={place(3, -3, 9)}", "--up=0,0,1",
+            "--size", "40x24", "-q", "--engine", "native"]
+
+
+def scaled_rows(rows, factor, offset):
+    numbers, _, rest = rows.partition("material")
+    words = [float(word) for word in numbers.split()]
+    words[3::4] = [factor * word + offset for word in words[3::4]]
+    return " ".join(map(repr, words)) + (" material" + rest if rest else "")
+
+
+def check_scales():
+    """A scene that is scaled by a power of two shows the same in every bit; far from the origin, nearly the same: no
+    surface shadows itself."""
+    bare = HEAD.replace("place floor", "")
+    for name, scale, offset in ("tiny", 2.0**-60, 0), ("huge", 2.0**40, 0), ("far", 64, 1e6):
+        points = "".join("v " + " ".join(repr(scale * float(x)) for x in line.split()[1:]) + "\n" if line[0] == "v"
+                         else line + "\n" for line in SOLID.splitlines())
+        write("scaled.obj", points if offset == 0 else SOLID)
+        size = 1 if offset == 0 else scale
+        write("floor-scaled.obj", "".join("v " + " ".join(repr(scale * float(x)) for x in line.split()[1:]) + "\n"
+                                          if line[0] == "v" else line + "\n" for line in FLOOR.splitlines()))
+        write("scaled.instances", bare.replace("solid.obj", "scaled.obj").replace("floor.obj", "floor-scaled.obj"),
+              "place floor 1 0 0 %r 0 1 0 %r 0 0 1 %r\n" % ((offset,) * 3),
+              *("place solid " + enlarged(scaled_rows(rows, scale, offset), size) + "\n" for rows in MOVED))
+        call("trax-render", "scaled.instances", *looking(scale, offset), "-o", "scaled.png")
+        write("moved.instances", HEAD, *(f"place solid {rows}\n" for rows in MOVED))
+        call("trax-render", "moved.instances", *looking(1, 0), "-o", "plain.png")
+        if offset == 0:
+            check(pathlib.Path("scaled.png").read_bytes() == pathlib.Path("plain.png").read_bytes(), name)
+        else:
+            call("trax-compare", "scaled.png", "plain.png", "--within", "3", "--at-least", "98.5")
+
+
+def enlarged(rows, factor):
+    """The matrix times a factor, but for its last column."""
+    numbers, _, rest = rows.partition("material")
+    words = [float(word) * (1 if i % 4 == 3 else factor) for i, word in enumerate(numbers.split())]
+    return " ".join(map(repr, words)) + (" material" + rest if rest else "")
+
+
+def check_groups():
+    """A group in a group is its matrices' product; the outermost material counts."""
+    write("nested.instances", HEAD, "group inner\nplace solid 0 -1 0 1  1 0 0 0  0 0 1 0\nplace solid\nend\n",
+          "group outer\nplace inner 1 0 0 0  0 0 -2 0  0 1 0 0.5 material red\nend\n",
+          "place outer -1 0 0 0  0 1 0 0  0 0 1 0\n")
+    write("product.instances", HEAD, "place solid 0 1 0 -1  0 0 -2 0  1 0 0 0.5 material red\n",
+          "place solid -1 0 0 0  0 0 -2 0  0 1 0 0.5 material red\n")
+    for name in "nested", "product":
+        call("trax-scene", f"{name}.instances", "-q", "-o", f"{name}.trax")
+    check(pathlib.Path("nested.trax").read_bytes() == pathlib.Path("product.trax").read_bytes(), "groups")
+
+
+def check_gltf():
+    """Nodes that share a mesh are kept with --instances, and show the same picture."""
+    points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 2]]
+    floats = b"".join(struct.pack("<3f", *point) for point in points)
+    corners = bytes(sum([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]], []))
+    pathlib.Path("solid.bin").write_bytes(floats + corners)
+    nodes = [{"mesh": 0, "rotation": [0, 0, 0.6, 0.8], "translation": [-1, 0, 0], "children": [1]},
+             {"mesh": 0, "scale": [-1, 2, 1], "translation": [2, 0.5, 0]}, {"mesh": 0, "translation": [0, 2, -1]}]
+    write("nodes.gltf", json.dumps({
+        "asset": {"version": "2.0"}, "nodes": nodes, "scenes": [{"nodes": [0, 2]}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
+                      {"bufferView": 1, "componentType": 5121, "count": 12, "type": "SCALAR"}],
+        "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 12}],
+        "buffers": [{"byteLength": 60, "uri": "solid.bin"}]}))
+    statistics = {}
+    for name, words in ("kept", ["--instances"]), ("flat", []):
+        call("trax-scene", "nodes.gltf", *words, "-q", "-o", f"{name}.trax", "--stats-json", "s.json")
+        statistics[name] = json.loads(pathlib.Path("s.json").read_text())
+        call("trax-scene", "--check", f"{name}.trax")
+        render(name, f"{name}.trax", "--engine", "native", "--one-sided")
+    equal(statistics["kept"]["scene.instances"], 3, "instances")
+    equal(statistics["kept"]["scene.triangles"], 4, "stored triangles")
+    equal(statistics["flat"]["scene.triangles"], 12, "flattened triangles")
+    call("trax-compare", "kept.png", "flat.png", "--within", "2", "--at-least", "99")
+
+
+BAD = [
+    ("place solid", "1:7: no mesh and no group has this name before here: 'solid'"),
+    ("mesh a solid.obj\nplace a 1 2 3", "2:14: a transform has 12 numbers"),
+    ("mesh a solid.obj\nplace a 1 0 0 0  0 1 0 0  0 0 0 0", "2:9: the transform is singular"),
+    ("mesh a solid.obj\nplace a 1 0 0 0  0 1 0 0  0 0 1 nan", "2:33: not a finite number: 'nan'"),
+    ("mesh a solid.obj\nplace a 1e6 0 0 0  0 1e6 0 0  0 0 1e6 0", "instance 0 (from 0): the transform scales"),
+    ("mesh a solid.obj\nplace a 1e5 0 0 0  0 1 0 0  0 0 1 0", "instance 0 (from 0): the transform is nearly singular"),
+    ("mesh a solid.obj\nplace a material blue", "2:18: no material has this name"),
+    ("mesh a solid.obj\nplace a material", "2:17: expected the material's name"),
+    ("mesh a solid.obj\nmaterial red purple", "2:14: neither a kind of material nor R,G,B: 'purple'"),
+    ("mesh a solid.obj\nmesh a floor.obj", "2:6: there is a mesh or a group of this name already: 'a'"),
+    ("mesh a none.obj", "1:8: none.obj: "),
+    ("mesh a bad.instances", "1:8: a mesh cannot be a file of instances"),
+    ("mesh a solid.obj\ngroup g\nplace g\nend", "3:7: no mesh and no group has this name before here: 'g'"),
+    ("mesh a solid.obj\ngroup g\nend", "3:1: a group without a place: 'g'"),
+    ("mesh a solid.obj\ngroup g\nplace a", "3:1: the group 'g' has no end"),
+    ("mesh a solid.obj\nend", "2:1: no group is open"),
+    ("rotate", "1:1: expected mesh, material, group, place or end, not 'rotate'"),
+    ("mesh a solid.obj", "nothing is placed"),
+    ("mesh a solid.obj\nmaterial lamp emit:1,1,1\nplace a material lamp", "an instance emits light"),
+]
+
+
+def check_bad():
+    for text, reason in BAD:
+        write("bad.instances", text)
+        done = call("trax-scene", "bad.instances", "-o", "bad.trax", status=1)
+        check(reason in done.stderr and not os.path.exists("bad.trax"), text, reason, done.stderr)
+    # 2^31 instances in 900 bytes are refused before there is memory for them.
+    groups = ["mesh m solid.obj\ngroup g0\nplace m\nplace m\nend\n"]
+    groups += [f"group g{i}\nplace g{i - 1}\nplace g{i - 1}\nend\n" for i in range(1, 31)]
+    write("bomb.instances", *groups, "place g30\n")
+    begun = time.monotonic()
+    done = call("trax-scene", "bomb.instances", "-o", "bad.trax", status=1)
+    check("too large: more instances than memory in proportion" in done.stderr, done.stderr)
+    check(time.monotonic() - begun < 20, "a bomb takes long")
+    # A damaged file: every word of the first instance that follows from its transform.
+    call("trax-scene", "moved.instances", "-q", "-o", "moved.trax")
+    for words in (["--tree", "x.npy", "--tree-triangles", "y.npy"], ["--nodes", "quantised"], ["--splits=2"]):
+        done = call("trax-scene", "moved.instances", "-o", "bad.trax", *words, status=1)
+        check("--flatten" in done.stderr, words, done.stderr)
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        write("solid.obj", SOLID)
+        write("floor.obj", FLOOR)
+        check_exact()
+        check_shading()
+        check_scales()
+        check_groups()
+        check_gltf()
+        check_bad()
+        os.chdir("/")
+    sys.exit(checking.failures > 0)
+
+
+main()
