@@ -98,6 +98,7 @@ static void waits(void) {
 static void library(void) {
   char *memory = malloc(100), *large = malloc(5000);
   FILE *file = fopen("/dev/null", "r+");
+  CHECK(sizeof(FILE) >= sizeof *stdin);
   CHECK(malloc_usable_size(memory) >= 100 && malloc_usable_size(large) >= 5000 && malloc_usable_size(NULL) == 0);
   free(memory);
   free(large);

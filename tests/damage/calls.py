@@ -77,26 +77,29 @@ int main(int word_count, char **words) {
   state = (unsigned)atoi(words[1]) * 2654435761u + 1;
   for (int i = atoi(words[2]); i > 0; i--) {
     unsigned block[6], at = (unsigned)(size_t)block;
-    const unsigned number = any(30) ? 1 + any(13) : any(0xFFFFFFFF);
-    if (number >= 10 && any(12))
+    const unsigned number = any(30) ? 1 + any(15) : any(0xFFFFFFFF);
+    if (number >= 10 && number <= 13 && any(12))
       continue; /* few of those that take names away */
-    const int named = number == 1 || number == 6 || number >= 10;
+    const int named = number == 1 || number == 6 || (number >= 10 && number != 15);
     block[0] = number;
     block[1] = named ? path() : descriptor();
     block[2] = number == 1    ? (any(5) ? any(3) | 0x200 * any(2) | 0x400 * any(2) | 8 * any(2) | 0x800 * !any(5)
                                         : any(0xFFFFFFFF))
                : number == 11 ? path()
+               : number == 15 ? descriptor()
                : number == 5 || number == 8 ? offset()
                                             : address();
     block[3] = number == 5 ? any(4) : size();
     block[4] = any(0xFFFFFFFF), block[5] = size();
-    if (number == 4 && block[1] <= 2)
+    if ((number == 4 || number == 15) && block[1] <= 2)
       continue; /* so many messages */
     if (!any(40000))
       at = blocks[any(sizeof blocks / sizeof *blocks)];
     __asm__ volatile("trap %0, host" : : "r"(at) : "memory");
     const unsigned place = block[2] - (unsigned)(size_t)space;
     if (number == 3 && (int)block[0] > 0 && place < sizeof space - 64 && memmem(space + place, 64, "ECRET", 5))
+      exit(99);
+    if (number == 14 && (int)block[0] > 0 && place < sizeof space - 64 && memmem(space + place, 64, "secret", 6))
       exit(99);
   }
   return 0;
