@@ -87,7 +87,7 @@ class Riscv:
 
     def __init__(self, build, work, name="riscv", flags=(), library=True, extensions=""):
         self.build, self.work, self.name = build, work, name
-        self.compiler = ["clang-19", *RISCV, f"-march=rv32im{extensions}_zfinx", "-nostdlibinc", "-isystem",
+        self.compiler = ["clang-19", *RISCV, f"-march=rv32im{extensions}_zfinx", "-nostdlibinc", "-idirafter",
                          build / "lib/trax/include", "-I", BENCH / "twin",
                          *flags]
         if not library:  # to compile only

@@ -119,12 +119,12 @@ def measure(shop, machine, name, level):
     for source in [*files, BENCH / f"outside/{name}.c"]:
         objects.append(work / f"{len(objects)}.o")
         run([*machine.compiler, *flags, level, "-ffunction-sections", "-c", source, "-o", objects[-1]])
+    driver, program = work / "driver.o", work / "program.elf"
+    run([*machine.compiler, "-O3", "-c", BENCH / "driver.c", "-o", driver])
+    machine.link([driver, *objects], program)
     counts = []
-    for repetitions in (1, 2):
-        driver, program = work / f"driver{repetitions}.o", work / f"{repetitions}.elf"
-        run([*machine.compiler, "-O3", f"-DREPETITIONS={repetitions}", "-c", BENCH / "driver.c", "-o", driver])
-        machine.link([driver, *objects], program)
-        printed, count = machine.execute(program)
+    for repetitions in "12":
+        printed, count = machine.execute(program, repetitions)
         counts.append(count)
     return printed.split()[0], counts[1] - counts[0]
 

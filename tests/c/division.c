@@ -1,8 +1,9 @@
-// Integer division in every form that the compiler writes out, and the library's, against what defines it: n = q * d +
-// r, and r below d. The special unit has 24 bits, or so few that nearly every estimate is wrong. RUN: %run_c %s %t
-// --levels -O2,-Os RUN: %run_c %s %t --levels -O3 --simflags "--set special.precision_bits=1" RUN: %run_c %s %t
-// --levels -O2 --simflags "--set special.precision_bits=7" docs/testing-long.md has the command for more operands: the
-// program's argument is a multiple of these.
+// RUN: %run_c %s %t --levels -O2,-Os
+// RUN: %run_c %s %t --levels -O3 --simflags "--set special.precision_bits=1"
+// RUN: %run_c %s %t --levels -O2 --simflags "--set special.precision_bits=7"
+// Integer division in every form that the compiler writes out, and the library's, against what defines it:
+// n = q * d + r, and r below d. The special unit has 24 bits, or so few that nearly every estimate is wrong.
+// docs/results/division.md has the command for more operands: the argument is a multiple of these.
 #include <limits.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -160,9 +161,10 @@ int main(int argc, char **argv) {
   }
   volatile int zero = 0; /* gives anything, and ends */
   volatile int32_t least = INT32_MIN, minus_one = -1;
-  (void)(quotient(next(), (uint32_t)zero) + remainder_of(0, (uint32_t)zero));
-  (void)(quotient_signed(0, zero) + remainder_signed((int32_t)next(), zero) + quotient_signed(-1, zero));
-  (void)(quotient_signed(least, minus_one) + remainder_signed(least, minus_one));
+  volatile uint32_t any = quotient(next(), (uint32_t)zero) + remainder_of(0, (uint32_t)zero);
+  any = (uint32_t)quotient_signed(0, zero) + (uint32_t)remainder_signed((int32_t)next(), zero);
+  any = (uint32_t)quotient_signed(least, minus_one) + (uint32_t)remainder_signed(least, minus_one);
+  (void)any;
   static uint32_t some[MANY] = {1, 2, 0, UINT32_MAX}, results[MANY], rests[MANY];
   divide_many(some, (uint32_t)zero, results, rests);
   printf("%u\n", failures);
