@@ -136,6 +136,14 @@ void trax_explain_items(struct trax_explain *explain,
     }
 }
 
+static trax_status create_pixels(struct trax_explain *explain, uint32_t bytes) {
+  const bool stories = trax_stories_fit(explain);
+  explain->pixels = trax_pixels_create(bytes / explain->options.item_bytes);
+  explain->stories = stories ? trax_stories_create(explain) : NULL;
+  explain->pixel_rays = stories ? trax_pixel_rays_create() : NULL;
+  return explain->pixels && (!stories || (explain->stories && explain->pixel_rays)) ? TRAX_OK : TRAX_ERROR;
+}
+
 /* Finds the buffer to which the items store. */
 static trax_status find_buffer(struct items *items, trax_error *error) {
   struct trax_explain *explain = items->reader.explain;
@@ -147,9 +155,7 @@ static trax_status find_buffer(struct items *items, trax_error *error) {
     if (strcmp(loaded->buffers[i].symbol, options->item_buffer) == 0) {
       items->buffer_begin = loaded->buffers[i].address;
       items->buffer_bytes = loaded->buffers[i].bytes;
-      if ((options->explore || options->story) &&
-          (!(explain->pixels = trax_pixels_create(loaded->buffers[i].bytes / options->item_bytes)) ||
-           !(explain->stories = trax_stories_create(explain)) || !(explain->pixel_rays = trax_pixel_rays_create())))
+      if ((options->explore || options->story) && create_pixels(explain, loaded->buffers[i].bytes) != TRAX_OK)
         return trax_fail(error, "out of memory for the cost of %u pixels",
                          loaded->buffers[i].bytes / options->item_bytes);
       return TRAX_OK;

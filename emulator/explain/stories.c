@@ -8,12 +8,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LOG_ENTRIES = 1 << 23, LEAST_LOG = 1 << 10, MOST_LOG = 1 << 15, MARK = 255 }; /* of all threads; of one */
+enum { LOG_ENTRIES = 1 << 23, LEAST_LOG = 1 << 10, MOST_LOG = 1 << 14 }; /* of all threads; of one */
+enum { INDEX_BITS = 19, MARK = 31, MOST_CYCLES = 255 };
 
+/* Small, since the logs of all threads are written at once. More cycles are several entries. */
 struct entry {
-  uint32_t index : 24, cause : 8; /* cause MARK: a ray begins, of the kind `cycles` */
-  uint32_t cycles;
+  uint32_t index : INDEX_BITS, cause : 5, cycles : 8; /* cause MARK: a ray begins, of the kind `cycles` */
 };
+_Static_assert(sizeof(struct entry) == 4 && (int)TRAX_CAUSE_COUNT <= MARK, "the bits of an entry suffice");
 
 /* The sums of a log. */
 struct draft {
@@ -133,24 +135,31 @@ static void add_log(struct trax_stories *stories, struct story_thread *thread, s
 
 /* --- the log --- */
 
+static __attribute__((noinline)) void empty_log(struct trax_stories *stories, struct story_thread *thread) {
+  if (!thread->draft)
+    thread->draft = new_draft(stories);
+  if (thread->draft)
+    add_log(stories, thread, thread->draft);
+  thread->logged = 0;
+}
+
 static void log_entry(struct trax_stories *stories, struct story_thread *thread, uint32_t index, unsigned cause,
-                      uint64_t cycles) {
-  if (thread->logged == stories->log_size) {
-    if (!thread->draft)
-      thread->draft = new_draft(stories);
-    if (thread->draft)
-      add_log(stories, thread, thread->draft);
-    thread->logged = 0;
-  }
-  thread->log[thread->logged++] = (struct entry){.index = index, .cause = cause, .cycles = (uint32_t)cycles};
+                      uint32_t cycles) {
+  if (thread->logged == stories->log_size)
+    empty_log(stories, thread);
+  thread->log[thread->logged++] = (struct entry){.index = index, .cause = cause, .cycles = cycles};
 }
 
 void trax_stories_add(struct trax_stories *stories, const struct trax_span *span) {
   struct story_thread *thread = &stories->threads[span->thread];
   for (size_t i = 0; i < span->count; i++) {
     const struct trax_charge *charge = &span->charges[i];
-    log_entry(stories, thread, charge->cause == TRAX_CAUSE_BRANCH ? thread->latest : span->index, charge->cause,
-              charge->cycles);
+    const uint32_t index = charge->cause == TRAX_CAUSE_BRANCH ? thread->latest : span->index;
+    uint64_t left = charge->cause == TRAX_CAUSE_HALTED ? 0 : charge->cycles; /* a halted thread ends no item */
+    for (; left > MOST_CYCLES; left -= MOST_CYCLES)
+      log_entry(stories, thread, index, charge->cause, MOST_CYCLES);
+    if (left)
+      log_entry(stories, thread, index, charge->cause, (uint32_t)left);
   }
   if (!span->issue)
     return;
@@ -271,6 +280,10 @@ bool trax_stories_have(const struct trax_stories *stories, uint32_t place) {
     if (stories->stories[i].place == place)
       return true;
   return false;
+}
+
+bool trax_stories_fit(const struct trax_explain *explain) {
+  return trax_places_count(explain->places) + 2 <= 1u << INDEX_BITS;
 }
 
 struct trax_stories *trax_stories_create(struct trax_explain *explain) {

@@ -224,6 +224,8 @@ trax_status trax_stories_put(void *items, FILE *out, trax_error *error) {
   const struct trax_explain_options *options = &explain->options;
   const uint32_t width = explain->picture.width ? explain->picture.width : 1;
   size_t count;
+  if (!explain->stories)
+    return trax_fail(error, "the program has too many instructions for the stories of pixels");
   const struct trax_story *stories = trax_stories_sorted(explain->stories, &count);
   trax_status status = TRAX_OK;
   for (unsigned i = 0; i < options->story_count && status == TRAX_OK; i++) {

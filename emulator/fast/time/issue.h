@@ -129,9 +129,15 @@ static void issue_in_order(struct trax_tm *tm, uint64_t quick, uint64_t slow, ui
     issue_slowly(tm, trax_first(slow), t);
 }
 
-/* The same with an observer, which is notified in the order of the TPs. Loads have not been counted. */
+/* The same with an observer, which is notified in the order of the TPs. heads.load has not been advanced. */
 static void issue_observed(struct trax_tm *tm, uint64_t quick, uint64_t slow, uint64_t t) {
   uint64_t issued = 0; /* quick heads of which the observer has been notified */
+  for (uint64_t rest = quick | slow; rest; rest &= rest - 1) { /* whose bursts are in many lines of the host's cache */
+    const unsigned number = trax_first(rest), at = tm->heads.at[number];
+    __builtin_prefetch(&tm->tp[number].burst.distance[at]);
+    __builtin_prefetch(&tm->tp[number].burst.index[at]);
+    __builtin_prefetch(&tm->tp[number].reg);
+  }
   while (quick | slow) {
     const uint64_t bit = (quick | slow) & -(quick | slow);
     const unsigned number = trax_first(bit);
