@@ -244,6 +244,10 @@ add_case("trax-scene-tree", "deep", ("nodes.npy", LEAVES), ("order.npy", ORDER),
          ("boxes.npy", npy("<f4", (3, 2, 3), 3 * everything)))
 add_case("trax-scene-tree", "lamps", ("nodes.npy", npy("<i4", (3, 3), struct.pack("<9i", 1, 2, 0, 0, 0, 5, 4, 0, 5))),
          ("order.npy", ORDER), ("boxes.npy", npy("<f4", (3, 6), 3 * everything)))
+WIDE = struct.pack("<20i", 1, 2, 3, 0, 0, *(number for first in (0, 3, 6) for number in (first, 0, 0, 0, 3)))
+add_case("trax-scene-tree", "", ("nodes.npy", npy("<i4", (4, 5), WIDE)), ("order.npy", ORDER))
+add_case("trax-scene-tree", "quantised", ("nodes.npy", npy("<i4", (4, 5), WIDE)), ("order.npy", ORDER),
+         ("boxes.npy", npy("<f4", (4, 6), 4 * everything)))
 
 with tempfile.TemporaryDirectory() as work:
 

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LEFT, RIGHT, COUNT, COLUMNS, PLANES = 6 };
+enum { FIRST, MOST_CHILDREN = 8, PLANES = 6 };
 #define NOT_SEEN UINT32_MAX
 
 struct reading {
@@ -15,6 +15,7 @@ struct reading {
   const struct trax_mesh *mesh;
   struct scene_npy nodes, triangles, boxes;
   bool has_boxes;
+  unsigned children; /* most of a node, which are the first columns; the last one is the count */
   unsigned max_depth;
   uint32_t *parents; /* [nodes]: the first node that has it as a child; NOT_SEEN */
   uint32_t *copies;  /* [triangles of the mesh]: how many leaves have it */
@@ -27,13 +28,16 @@ static trax_status open_arrays(struct reading *reading, const struct trax_build_
       (options->tree_boxes && scene_npy_read(boxes, options->tree_boxes, SCENE_NPY_FLOATS, error) != TRAX_OK))
     return TRAX_ERROR;
   reading->has_boxes = options->tree_boxes != NULL;
-  if (nodes->dimensions != 2 || nodes->shape[1] != COLUMNS || nodes->shape[0] == 0 || nodes->shape[0] > INT32_MAX)
-    return trax_fail(error, "%s: the nodes' shape is (N, 3): left, right, count", nodes->path);
+  if (nodes->dimensions != 2 || nodes->shape[1] < 3 || nodes->shape[1] > MOST_CHILDREN + 1 || nodes->shape[0] == 0 ||
+      nodes->shape[0] > INT32_MAX)
+    return trax_fail(error, "%s: the nodes' shape is (N, 3): left, right, count; or, for k children, (N, k + 1)",
+                     nodes->path);
+  reading->children = (unsigned)nodes->shape[1] - 1;
   if (triangles->dimensions != 1 || triangles->count > INT32_MAX)
     return trax_fail(error, "%s: the shape of the leaves' triangles is (M,)", triangles->path);
   if (triangles->count == 0 || nodes->shape[0] > 2 * triangles->count - 1)
-    return trax_fail(error, "%s: %" PRIu64 " nodes; a binary tree over the %" PRIu64 " triangles of %s has fewer",
-                     nodes->path, nodes->shape[0], triangles->count, triangles->path);
+    return trax_fail(error, "%s: %" PRIu64 " nodes; a tree over the %" PRIu64 " triangles of %s has fewer", nodes->path,
+                     nodes->shape[0], triangles->count, triangles->path);
   if (reading->mesh->triangle_count == 0)
     return trax_fail(error, "%s: the mesh has no triangles for a tree", triangles->path);
   if (reading->has_boxes && (boxes->dimensions < 2 || boxes->shape[0] != nodes->shape[0] ||
@@ -97,15 +101,23 @@ static trax_status add_part(struct scene_tree_node *leaf, const struct reading *
 
 /* --- nodes --- */
 
+static uint64_t place_in_row(const struct reading *reading, uint32_t node, unsigned column) {
+  return (uint64_t)node * (reading->children + 1) + column;
+}
+
 static trax_status read_child(uint32_t *child, struct reading *reading, uint32_t node, unsigned column,
                               trax_error *error) {
-  const uint64_t index = (uint64_t)node * COLUMNS + column, count = reading->nodes.shape[0];
+  static const char *const sides[] = {"left", "right"}, *const names[MOST_CHILDREN] = {"first",   "second", "third",
+                                                                                       "fourth",  "fifth",  "sixth",
+                                                                                       "seventh", "eighth"};
+  const uint64_t index = place_in_row(reading, node, column), count = reading->nodes.shape[0];
   const uint64_t value = scene_npy_integer(&reading->nodes, index, count);
   char text[24];
   if (value == count) {
     scene_npy_print(&reading->nodes, index, text);
     return trax_fail(error, "%s: node %" PRIu32 ": its %s child is %s, and the nodes are 0 to %" PRIu64,
-                     reading->nodes.path, node, column == LEFT ? "left" : "right", text, count - 1);
+                     reading->nodes.path, node, reading->children == 2 ? sides[column] : names[column], text,
+                     count - 1);
   }
   *child = (uint32_t)value;
   if (*child == 0)
@@ -122,7 +134,7 @@ static trax_status read_child(uint32_t *child, struct reading *reading, uint32_t
 static trax_status read_leaf(struct scene_tree_node *leaf, struct reading *reading, uint32_t node, uint32_t count,
                              trax_error *error) {
   const uint64_t all = reading->triangles.count;
-  const uint64_t first = scene_npy_integer(&reading->nodes, (uint64_t)node * COLUMNS + LEFT, all + 1);
+  const uint64_t first = scene_npy_integer(&reading->nodes, place_in_row(reading, node, FIRST), all + 1);
   if (first + count > all)
     return trax_fail(error,
                      "%s: node %" PRIu32 ": a leaf of %" PRIu32 " triangles has no place in %s, which has %" PRIu64,
@@ -153,58 +165,80 @@ static trax_status read_leaf(struct scene_tree_node *leaf, struct reading *readi
   return TRAX_OK;
 }
 
-static trax_status read_inner(struct scene_tree_node *inner, struct reading *reading, uint32_t node,
+/* Finds the rows of a node's children. In nodes of more than two, 0 is no child. */
+static trax_status read_inner(uint32_t child[MOST_CHILDREN], unsigned *count, struct reading *reading, uint32_t node,
                               trax_error *error) {
   struct scene_box box, below;
-  uint32_t child[2];
-  for (unsigned i = LEFT; i <= RIGHT; i++)
-    if (read_child(&child[i], reading, node, i, error) != TRAX_OK)
+  *count = 0;
+  for (unsigned i = 0; i < reading->children; i++) {
+    if (reading->children > 2 && scene_npy_integer(&reading->nodes, place_in_row(reading, node, i), 1) == 0)
+      continue;
+    if (read_child(&child[(*count)++], reading, node, i, error) != TRAX_OK)
       return TRAX_ERROR;
-  for (int i = 0; i < 2 && reading->has_boxes; i++) {
+  }
+  if (*count < 2)
+    return trax_fail(error, "%s: node %" PRIu32 ": an inner node with %u children; it has 2 to %u", reading->nodes.path,
+                     node, *count, reading->children);
+  for (unsigned i = 0; i < *count && reading->has_boxes; i++) {
     if (read_box(&box, reading, node, error) != TRAX_OK || read_box(&below, reading, child[i], error) != TRAX_OK)
       return TRAX_ERROR;
     if (!contains(&box, &below))
       return trax_fail(error, "%s: node %" PRIu32 ": its box does not contain that of its child %" PRIu32,
                        reading->boxes.path, node, child[i]);
   }
-  inner->triangle_count = 0;
-  memcpy(inner->child, child, sizeof child); /* numbers of rows; read_subtree replaces them by places */
   return TRAX_OK;
 }
 
-/* Depth first. The recursion is bounded by the greatest depth. */
 static trax_status read_subtree(struct reading *reading, uint32_t *rows, uint32_t node, unsigned depth,
-                                trax_error *error) {
+                                trax_error *error);
+
+/* Adds the binary node above children of a row, which are halved in their order, and what is below it. Recursion is
+   bounded by the greatest depth. */
+static trax_status add_inner(struct reading *reading, uint32_t *rows, uint32_t node, const uint32_t child[],
+                             unsigned count, unsigned depth, trax_error *error) {
   struct scene_tree *tree = reading->tree;
-  const uint64_t count =
-      scene_npy_integer(&reading->nodes, (uint64_t)node * COLUMNS + COUNT, (uint64_t)TRAX_SCENE_MAX_LEAF + 1);
-  if (count > TRAX_SCENE_MAX_LEAF) {
-    char text[24];
-    scene_npy_print(&reading->nodes, (uint64_t)node * COLUMNS + COUNT, text);
-    return trax_fail(error, "%s: node %" PRIu32 ": a count of %s; a leaf has 1 to %u triangles, and an inner node 0",
-                     reading->nodes.path, node, text, TRAX_SCENE_MAX_LEAF);
-  }
-  const uint32_t place = tree->node_count++;
-  struct scene_tree_node *out = &tree->nodes[place];
-  rows[place] = node;
-  if (count)
-    return read_leaf(out, reading, node, (uint32_t)count, error);
   if (depth == reading->max_depth)
     return trax_fail(error, "%s: node %" PRIu32 ": the tree is deeper than %u inner nodes%s", reading->nodes.path, node,
                      reading->max_depth,
                      reading->max_depth < TRAX_SCENE_MAX_DEPTH ? "; --depth 62 allows the most" : "");
-  if (read_inner(out, reading, node, error) != TRAX_OK)
-    return TRAX_ERROR;
+  const uint32_t place = tree->node_count++;
+  rows[place] = node;
   tree->inner_count++;
   if (depth + 1 > tree->max_depth)
     tree->max_depth = depth + 1;
-  for (int i = 0; i < 2; i++) {
-    const uint32_t row = out->child[i];
-    out->child[i] = tree->node_count;
-    if (read_subtree(reading, rows, row, depth + 1, error) != TRAX_OK)
+  for (unsigned i = 0, half = count / 2; i < 2; i++) {
+    const uint32_t *part = i ? child + half : child;
+    const unsigned size = i ? count - half : half;
+    tree->nodes[place].child[i] = tree->node_count;
+    const trax_status status = size == 1 ? read_subtree(reading, rows, *part, depth + 1, error)
+                                         : add_inner(reading, rows, node, part, size, depth + 1, error);
+    if (status != TRAX_OK)
       return TRAX_ERROR;
   }
   return TRAX_OK;
+}
+
+/* Depth first. */
+static trax_status read_subtree(struct reading *reading, uint32_t *rows, uint32_t node, unsigned depth,
+                                trax_error *error) {
+  struct scene_tree *tree = reading->tree;
+  const uint64_t index = place_in_row(reading, node, reading->children);
+  const uint64_t count = scene_npy_integer(&reading->nodes, index, (uint64_t)TRAX_SCENE_MAX_LEAF + 1);
+  uint32_t child[MOST_CHILDREN];
+  unsigned children;
+  if (count > TRAX_SCENE_MAX_LEAF) {
+    char text[24];
+    scene_npy_print(&reading->nodes, index, text);
+    return trax_fail(error, "%s: node %" PRIu32 ": a count of %s; a leaf has 1 to %u triangles, and an inner node 0",
+                     reading->nodes.path, node, text, TRAX_SCENE_MAX_LEAF);
+  }
+  if (count == 0)
+    return read_inner(child, &children, reading, node, error) == TRAX_OK
+               ? add_inner(reading, rows, node, child, children, depth, error)
+               : TRAX_ERROR;
+  const uint32_t place = tree->node_count++;
+  rows[place] = node;
+  return read_leaf(&tree->nodes[place], reading, node, (uint32_t)count, error);
 }
 
 /* After all leaves were read. */
@@ -268,10 +302,11 @@ trax_status scene_read_tree(struct scene_tree *tree, const struct trax_mesh *mes
   trax_status result = open_arrays(&reading, options, error);
   if (result == TRAX_OK) {
     const size_t nodes = (size_t)reading.nodes.shape[0];
-    tree->nodes = calloc(nodes, sizeof *tree->nodes);
+    const size_t most = reading.children == 2 ? nodes : 2 * nodes; /* with the binary nodes between wide ones */
+    tree->nodes = calloc(most, sizeof *tree->nodes);
     reading.parents = malloc(nodes * sizeof *reading.parents);
     reading.copies = calloc(mesh->triangle_count, sizeof *reading.copies);
-    rows = malloc(nodes * sizeof *rows);
+    rows = malloc(most * sizeof *rows);
     result = tree->nodes && reading.parents && reading.copies && rows ? read_tree(&reading, rows, error)
                                                                       : scene_out_of_memory(error, "BVH");
   }

@@ -81,7 +81,7 @@ MUTANTS = [
     ("gltf-mirror", "gltf_meshes.c", "mirror = mirrors(placing->matrix)", "mirror = false"),
     ("gltf-normal-side", "gltf_meshes.c", "mirror ? -sum : sum", "sum"),
     ("gltf-v", "gltf_meshes.c", "(1 - uv[1])", "uv[1]"),
-    ("gltf-order", "gltf_nodes.c", "gltf_multiply(matrix, above, own);", "gltf_multiply(matrix, own, above);"),
+    ("gltf-order", "gltf_nodes.c", "scene_multiply(matrix, above, own);", "scene_multiply(matrix, own, above);"),
     ("gltf-quaternion", "gltf_nodes.c", "q[row] * q[next] - q[3] * q[last]", "q[row] * q[next] + q[3] * q[last]"),
     ("gltf-parents", "gltf_nodes.c", "if (nodes->parents[child])", "if (0)"),
     ("gltf-levels", "gltf_nodes.c", "if (levels > MOST_LEVELS)", "if (0)"),

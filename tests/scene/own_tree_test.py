@@ -5,6 +5,7 @@ import json
 import math
 import os
 import pathlib
+import random
 import struct
 import sys
 import tempfile
@@ -75,8 +76,50 @@ def median_split(triangles, most):
     return nodes, order, boxes
 
 
+def widen(nodes, boxes, most, children_of):
+    """Rows of up to `most` children, for which children_of(number) chooses nodes below a node."""
+    rows, kept = [], []
+
+    def place(number):
+        row = len(rows)
+        rows.append(None)
+        kept.append(boxes[number])
+        if nodes[number][2]:
+            rows[row] = (nodes[number][0], *[0] * (most - 1), nodes[number][2])
+        else:
+            children = [place(child) for child in children_of(number)]
+            rows[row] = (*children, *[0] * (most - len(children)), 0)
+        return row
+
+    place(0)
+    return rows, kept
+
+
+def whole_levels(nodes, levels):
+    """Up to so many levels of the tree as one, whole: halves of such children are the binary tree's again."""
+    def children_of(number):
+        children = [number]
+        for _ in range(levels):
+            if any(nodes[child][2] for child in children):
+                break
+            children = [below for child in children for below in nodes[child][:2]]
+        return children
+    return children_of
+
+
+def any_children(nodes, most, chance):
+    def children_of(number):
+        children = list(nodes[number][:2])
+        while len(children) < most and chance.random() < 0.9:
+            which = chance.randrange(len(children))
+            if not nodes[children[which]][2]:
+                children[which:which + 1] = nodes[children[which]][:2]
+        return children
+    return children_of
+
+
 def write(nodes, order, boxes, code="<i4"):
-    npy("nodes.npy", code, (len(nodes), 3), [value for row in nodes for value in row])
+    npy("nodes.npy", code, (len(nodes), len(nodes[0])), [value for row in nodes for value in row])
     npy("order.npy", code, (len(order),), order)
     npy("boxes.npy", "<f4", (len(nodes), 2, 3), [value for box in boxes for value in box])
 
@@ -111,12 +154,24 @@ def pictures():
     write(nodes, order, boxes)
     theirs, cycles = measure("few.obj", *TREE)
     check(ours == theirs, "another picture with a tree of medians")
+    scene = pathlib.Path("s.trax").read_bytes()
+    for most, levels in ((5, 2), (8, 3)):
+        wide, wide_boxes = widen(nodes, boxes, most, whole_levels(nodes, levels))
+        check(len(wide) < 0.9 * len(nodes), most, "children:", len(wide), "rows of", len(nodes))
+        write(wide, order, wide_boxes)
+        call("trax-scene", "few.obj", *TREE, *BOXES, "-q", "-o", "s.trax")
+        check(pathlib.Path("s.trax").read_bytes() == scene, most, "children make another scene than two")
+    write(nodes, order, boxes)
     check(cycles > 1.02 * our_cycles, "a tree of medians takes", cycles, "cycles, ours", our_cycles)
     print(f"cycles: ours {our_cycles}, medians {cycles}")
     with_boxes, again = measure("few.obj", *TREE, *BOXES)
     check(with_boxes == ours and again == cycles, "exact boxes change something")
     for kind in ("binary", "quantised"):
         check(measure("few.obj", *TREE, "--nodes", kind)[0] == ours, "another picture with nodes", kind)
+    wide, wide_boxes = widen(nodes, boxes, 7, any_children(nodes, 7, random.Random(37)))
+    check({sum(map(bool, row[:-1])) for row in wide if not row[-1]} == set(range(2, 8)), "numbers of children")
+    write(wide, order, wide_boxes)
+    check(measure("few.obj", *TREE, *BOXES)[0] == ours, "another picture with up to 7 children")
 
 
 def forms():
@@ -210,6 +265,15 @@ def refusals():
     other = next(i for i in range(2, len(good[1])) if good[1][i] != good[1][0])
     write(good[0], good[1][other:other + 1] + good[1][1:], good[2])
     refuse("needs --tree-boxes", place="order.npy")
+    wide, wide_boxes = widen(good[0], good[2], 4, whole_levels(good[0], 2))
+    for row, message in (((1, 0, 0, 0, 0), "node 0: an inner node with 1 children; it has 2 to 4"),
+                         ((0, 0, 0, 0, 0), "node 0: an inner node with 0 children"),
+                         ((1, 2, 2, 0, 0), "its child 2 is node 0's, too"), ((1, 2, -1, 0, 0), "its third child is -1"),
+                         ((0, 0, 0, 0, 8), "a count of 8")):
+        write([row, *wide[1:]], good[1], wide_boxes)
+        refuse(message)
+    write([(*row[:-1], *[0] * 5, row[-1]) for row in wide], good[1], wide_boxes)
+    refuse("for k children, (N, k + 1)")
     for inner_nodes in (33, 40):
         write_chain(inner_nodes)
         refuse("the tree is deeper than 32 inner nodes; --depth 62", mesh="many.obj")
@@ -289,7 +353,7 @@ def damaged():
     refuse("the shape of the leaves' triangles is (M,)", place="order.npy")
     for few in ([], order[:len(nodes) // 2]):
         npy("order.npy", "<i4", (len(few),), few)
-        refuse(f"{len(nodes)} nodes; a binary tree over the {len(few)} triangles of order.npy has fewer")
+        refuse(f"{len(nodes)} nodes; a tree over the {len(few)} triangles of order.npy has fewer")
     write(nodes, order, boxes)
     npy("boxes.npy", "<f8", (len(nodes), 6), [value for box in boxes for value in box])
     refuse(".astype('<f4')", *TREE, *BOXES, place="boxes.npy")

@@ -13,9 +13,11 @@ from .programs import Program, convert
 from .scratch import new_scratch
 from .tools import run_tools
 from .util import Problem, hash_file, hash_value, remark
+from .workloads import KINDS
 
 WHOLE_FILES = ("whole.trax", "picture.view")  # what trax-render makes a program's inputs of
 COUNTERS = "counters"  # the buffer of a program that counts
+RAYS = "rays.bin"
 SOURCE = "source"  # of a program that trax-render is to compile again
 
 
@@ -31,6 +33,12 @@ class Request(typing.NamedTuple):
     options: tuple  # of trax-render
     sampling: tuple  # those for a run of some parts
     whole: bool  # trax-render is to run again, to estimate or to measure
+    rays: str  # the kind of the picture's rays that are traced again, alone; "": the picture is rendered
+    again: tuple  # options of trax-render for that
+
+    def traced(self):
+        """The things that a picture's rays are made of."""
+        return self.scene, self.view, self.size, self.options
 
 
 def prepare_inputs(out, tools, requests, jobs, only_look=False):
@@ -44,9 +52,18 @@ def prepare_inputs(out, tools, requests, jobs, only_look=False):
             stack.callback(shutil.rmtree, folder, ignore_errors=True)
             return folder
 
-        waiting = [(request, built, new_folder()) for request, built in requests.items()]
+        traced = trace_rays(tools, requests, jobs, new_folder())
+        waiting = []
+        for request, built in requests.items():
+            rays = traced[request.traced()] if request.rays else None
+            if isinstance(rays, Problem):
+                yield request, rays
+            elif rays and not (rays / request.rays).exists():
+                yield request, Problem(f"{request.scene}: the picture has no rays of kind {request.rays}")
+            else:
+                waiting.append((request, built, new_folder()))
         runs = stack.enter_context(
-            contextlib.closing(run_tools([prepare_command(tools, *one) for one in waiting], jobs)))
+            contextlib.closing(run_tools([prepare_command(tools, traced, *one) for one in waiting], jobs)))
         for place, run in runs:
             request, built, folder = waiting[place]
             try:
@@ -60,7 +77,49 @@ def prepare_inputs(out, tools, requests, jobs, only_look=False):
             yield request, result
 
 
-def prepare_command(tools, request, built, folder):
+def trace_rays(tools, requests, jobs, folder):
+    """The pictures whose rays are traced again: by Request.traced(), a folder with a file of each kind, or Problem."""
+    places = {}
+    for request in requests:
+        if request.rays:
+            places.setdefault(request.traced(), os.path.join(folder, str(len(places))))
+    commands, pictures, result = [], list(places), {}
+    for scene, view, size, options in pictures:
+        place = places[scene, view, size, options]
+        os.mkdir(place)
+        commands.append([
+            tools.path("trax-render"), str(scene), "--size", size, *(["--view", view] if view else []), *options,
+            "--engine", "native", "--ray-trace", os.path.join(place, RAYS), "--quiet"
+        ])
+    with contextlib.closing(run_tools(commands, jobs)) as runs:
+        for number, run in runs:
+            picture = pictures[number]
+            result[picture] = pathlib.Path(places[picture])
+            if run.returncode != 0:
+                result[picture] = Problem(
+                    f"{picture[0]}: {run.stderr.strip() or f'trax-render ended with status {run.returncode}'}")
+            else:
+                split_rays(result[picture])
+    return result
+
+
+def split_rays(folder):
+    """A file of each kind of rays (docs/traces.md, "Rays"): a header of 32 bytes, and 64 bytes a ray."""
+    data = (folder / RAYS).read_bytes()
+    for number, kind in enumerate(KINDS):
+        rays = [data[at:at + 64] for at in range(32, len(data), 64) if data[at + 38] == number]
+        if rays:
+            (folder / kind).write_bytes(data[:32] + b"".join(rays))
+    (folder / RAYS).unlink()
+
+
+def prepare_command(tools, traced, request, built, folder):
+    if request.rays:
+        queues = ["--queues", str(request.chip[0]), "--set", f"icache.bytes={request.chip[1]}"]
+        return [
+            tools.path("trax-render"), str(request.scene), "--rays", str(traced[request.traced()] / request.rays),
+            "--prepare", folder, "--quiet", *built, *queues, *request.again
+        ]
     command = [tools.path("trax-render"), str(request.scene), "--size", request.size, "--prepare", folder, "--quiet"]
     command += ["--write-view", f"{folder}/picture.view"] if request.whole else []
     command += ["--view", request.view] if request.view else []
@@ -137,7 +196,7 @@ def seal_inputs(program, folder):
 
 def description_of(manifest):
     """The part of the manifest that decides a result. The machine is the job's."""
-    return {name: manifest[name] for name in ("program", "buffers", "items", "picture")}
+    return {name: manifest[name] for name in ("program", "buffers", "items", "picture") if name in manifest}
 
 
 def share(path, content):

@@ -129,7 +129,9 @@ def command_of(tools, inputs, job, scratch, threads):
         tools.path("trax-sim"), "--quiet", "--config", f"{scratch}/machine.cfg", "--engine", job["engine"], "--stats",
         f"{scratch}/stats.json"
     ]
-    command += ["--dump", f"{job['inputs']['picture']['buffer']}={scratch}/image.raw", "--host-threads", str(threads)]
+    # Rays that are traced again make no picture.
+    output = job["inputs"]["picture"]["buffer"] if "picture" in job["inputs"] else "hits"
+    command += ["--dump", f"{output}={scratch}/image.raw", "--host-threads", str(threads)]
     if job.get("counters"):
         command += ["--dump", f"{COUNTERS}={scratch}/counters.raw"]
     if job["series"]:
@@ -215,7 +217,8 @@ def run_job(out, tools, key, threads=1, on_start=None):
 
 def keep_results(out, key, job, scratch, statistics, figures, code, host):
     picture = None
-    if job["engine"] != "quick":  # a quick one is the native twin's, and of nothing that was simulated
+    # A quick one is the native twin's, and of nothing that was simulated.
+    if job["engine"] != "quick" and "picture" in job["inputs"]:
         pixels = pathlib.Path(scratch, "image.raw").read_bytes()
         picture = hash_bytes(pixels)
         path = out / "pictures" / f"{picture}.png"

@@ -10,7 +10,7 @@ from .inputs import Request, prepare_inputs
 from .jobs import key_of, make_job, write_job
 from .programs import Program, build
 from .scenes import import_scenes, order_options, plan_scene
-from .sweep import CHIPS, TAKEN, option_of, option_words
+from .sweep import CHIPS, TAKEN, option_of, option_words, without_option
 from .util import Problem, hash_value, nearest, read_sealed
 
 
@@ -155,8 +155,14 @@ class Planner:
         chip = None
         if program.specialised:
             chip = tuple(self.tools.whole(*machine, key) for key in ("chip.tms", "icache.bytes"))
+        again = ()
+        if workload["rays"]:
+            rest = tuple(without_option(rendered, "ray-order"))
+            again = (*(word for word in rendered if word not in rest), "--set",
+                     f"dcache.bytes={self.tools.whole(*machine, 'dcache.bytes')}")
+            rendered = rest
         return Request(path, scene["view"], point.size, program, chip, rendered, sampling,
-                       whole=point.mode == "quick" or point.error or point.hits)
+                       whole=point.mode == "quick" or point.error or point.hits, rays=workload["rays"], again=again)
 
     def prepare_all(self, sweeps, jobs):
         """The inputs of all sweeps, several at the same time."""

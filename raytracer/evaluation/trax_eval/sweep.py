@@ -29,7 +29,7 @@ KEYS = ("name", "title", "claim", "x", "y", "y_per", "scenes", "programs", "chip
 TAKEN = {
     "trax-scene": ("check", "stats", "quiet"),
     "trax-render": ("size", "frames", "show", "config", "set", "engine", "threads", "compare", "source", "program",
-                    "sampled", "rays", "ray-order", "quiet")
+                    "sampled", "rays", "quiet")
 }
 VARIANT_KEYS = ("name", "program")  # of an object in the list `set`, beside keys that are set
 
@@ -262,7 +262,8 @@ def check_programs(reader, used, rays, measured):
     if measured and (unfit := [program for program in used if not program.specialised or program.convert]):
         reader.fail(
             "programs",
-            f'error and hits need programs that are "specialised", without "convert", which {unfit[0].file} is not')
+            'error, hits and workloads with "rays" need programs that are "specialised", without "convert", which '
+            f"{unfit[0].file} is not")
 
 
 def mode_of(reader, mode, needs_exact):
@@ -271,8 +272,8 @@ def mode_of(reader, mode, needs_exact):
     chosen = mode or reader.strings("mode", "exact", MODES)[0]
     if needs_exact and chosen != "exact" and "mode" in reader.value and not mode:
         reader.fail(
-            "mode", "series, ray_kinds, error, hits and programs that are compiled or converted "
-            'need "exact"')
+            "mode", 'series, ray_kinds, error, hits, workloads with "rays" and programs that are compiled or '
+            'converted need "exact"')
     return "exact" if needs_exact else chosen
 
 
@@ -307,8 +308,16 @@ def read_sweep(path, *, size=None, mode=None, programs=None, chips=None, only_sc
         variants = [(label, program, settings) for label, program, settings in variants
                     if not program or program.name in programs]
     used = used_programs(chosen_programs, variants)
-    check_programs(reader, used, rays, error or hits)
-    needs_exact = bool(series or ray_kinds or error or hits) or not all(program.can_be_sampled for program in used)
+    alone = [name for name, workload in workloads.items() if workload["rays"]]
+    if alone and (ray_kinds or ray_cycles or error or hits):
+        reader.fail("workloads", f'"{alone[0]}" traces rays of one kind again, which makes no picture: '
+                    "not with ray_kinds, ray_cycles, error or hits")
+    if len(alone) < len(workloads) and any(key == "trax-render --ray-order" for _, _, settings in variants
+                                           for key, _ in settings):
+        reader.fail("set", '--ray-order needs workloads with "rays"')
+    check_programs(reader, used, rays, error or hits or alone)
+    needs_exact = bool(series or ray_kinds or error or hits or alone)
+    needs_exact = needs_exact or not all(program.can_be_sampled for program in used)
     chosen_mode = mode_of(reader, mode, needs_exact)
     if mode == "quick" and not size and not ray_kinds and not ray_cycles:
         chosen_size, chosen_mode = quick_size(chosen_size, chosen_mode)

@@ -2,19 +2,23 @@
 
 from .fields import find_file, read_fields, unknown
 
-KEYS = ("name", "title", "render", "scene")
+KEYS = ("name", "title", "render", "scene", "rays")
+# In the order of their numbers in files of rays (trax/ray_kinds.h).
+KINDS = ("primary", "shadow", "occlusion", "diffuse", "glossy", "mirror", "glass", "other")
 PAPER = ""  # one point light, its shadows, Lambert's law: what a sweep without workloads has
 
 
 def no_workload():
-    return {"name": PAPER, "title": "", "render": [], "scene": [], "file": ""}
+    return {"name": PAPER, "title": "", "render": [], "scene": [], "rays": "", "file": ""}
 
 
 def read_workload(path):
     fields = read_fields(path, KEYS)
-    name = fields.name()
+    name, rays = fields.name(), fields.text("rays", "")
+    if rays and rays not in KINDS:
+        fields.fail("rays", f'allowed are {", ".join(KINDS)}, is "{rays}"')
     return {
-        "name": name, "title": fields.text("title", name), "file": str(path),
+        "name": name, "title": fields.text("title", name), "rays": rays, "file": str(path),
         **{key: fields.words(key, "the options and their values") for key in ("render", "scene")}
     }
 
