@@ -192,6 +192,24 @@ static void test_inside(void **state) {
   }
 }
 
+/* The mesh is a million away from its own origin, and its place is near the scene's. The ray in the mesh is then off by
+   a thousandth of the sphere, which boxes must allow for. */
+static void test_far_mesh(void **state) {
+  (void)state;
+  const struct transform near = product(turned(0.4, 0), product(turned(1.1, 1), moved(-1e6, 1e6, -5e5)));
+  for (int inside = 0; inside < 2; inside++) {
+    struct trax_mesh mesh = {0};
+    mesh_sphere(&mesh, 1, 4, 0);
+    mesh_transform(&mesh, 100, 1e6f, -1e6f, 5e5f);
+    end_part(&mesh);
+    place(&mesh, 0, near);
+    check(inside ? "far-mesh-inside" : "far-mesh", &mesh,
+          inside ? view_from(5, -10, 2, 0.02f, 0.013f, -1, 120, 4, 5, 6)
+                 : view_from(10, 20, 400, 0.02f, 0.013f, -1, 45, 4, 5, 6),
+          PIXELS - 400, inside);
+  }
+}
+
 /* Everything twice at one place: which of two instances is visible depends on neither tree nor traversal. */
 static void test_ties(void **state) {
   (void)state;
@@ -207,6 +225,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_families),
       cmocka_unit_test(test_inside),
+      cmocka_unit_test(test_far_mesh),
       cmocka_unit_test(test_ties),
   };
   return cmocka_run_group_tests_name("instances", tests, NULL, NULL);
