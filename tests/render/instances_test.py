@@ -204,11 +204,12 @@ def check_bad():
     done = call("trax-scene", "bomb.instances", "-o", "bad.trax", status=1)
     check("too large: more instances than memory in proportion" in done.stderr, done.stderr)
     check(time.monotonic() - begun < 20, "a bomb takes long")
-    # A damaged file: every word of the first instance that follows from its transform.
     call("trax-scene", "moved.instances", "-q", "-o", "moved.trax")
     for words in (["--tree", "x.npy", "--tree-triangles", "y.npy"], ["--nodes", "quantised"], ["--splits=2"]):
         done = call("trax-scene", "moved.instances", "-o", "bad.trax", *words, status=1)
         check("--flatten" in done.stderr, words, done.stderr)
+    done = call("trax-scene", "moved.instances", "--write-triangles", "x.npy", status=1)
+    check("several places" in done.stderr and not os.path.exists("x.npy"), done.stderr)
 
 
 def main():

@@ -25,7 +25,7 @@ MUTANTS = [
     ("zero-outside", "triangle.h", " && a_bits << 1 != 0 && b_bits << 1 != 0", "", "axis-plus-zero"),
     ("any-determinant", "triangle.h", "LEAST_DETERMINANT_BITS 0x00800000", "LEAST_DETERMINANT_BITS 1", "vanishing"),
     ("no-doubt", "triangle.h", "UNITS_OF_DOUBT 4", "UNITS_OF_DOUBT 0", "duplicates-turned"),
-    ("last-of-equals", "triangle.h", "!comes_first(triangle, hit->triangle)", "false", "duplicates"),
+    ("last-of-equals", "triangle.h", "!comes_before(triangle, hit)", "false", "duplicates"),
     ("shear", "triangle.h", "- ray->origin.x - ray->shear_u * w;", "- ray->origin.x - ray->shear_v * w;", "soup"),
     ("direction-of-zero", "ray.h", "* 0x1p-30f", "* 0", "axis-plus-zero"),
     ("far-planes", "nodes_binary.h", "far_origin = minus(origin, margin)", "far_origin = plus(origin, margin)",
