@@ -83,9 +83,7 @@ bool trax_needs_exact(const struct trax_scene *scene, const float eye[3]) {
   return false;
 }
 
-/* Whether the light is within TRAX_NEAR_LIGHT of the start of shadow rays of the triangle. further: the instance's
- * bound.
- */
+/* Whether the light is within TRAX_NEAR_LIGHT of the triangle, in units of the bound. further: the instance's bound. */
 static bool is_near(const struct trax_triangle *triangle, const float eye[3], const float light[3], bool exact,
                     double further) {
   const struct double3 v0 = from(triangle->v0), a = minus(v0, from(light)), b = minus(from(triangle->v1), from(light)),

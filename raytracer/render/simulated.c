@@ -144,7 +144,7 @@ trax_status trax_simulated_load(trax_machine *machine, const struct trax_frame *
 }
 
 /* The sections of the scene in the machine's memory, if it has them. */
-static size_t list_parts(struct trax_explore_part parts[TRAX_SCENE_SECTIONS], trax_machine *machine) {
+static size_t list_parts(struct trax_explore_part parts[TRAX_SCENE_SECTIONS + 1], trax_machine *machine) {
   static const char *const names[TRAX_SCENE_SECTIONS] = {
       [TRAX_SCENE_NODES] = "scene: nodes",         [TRAX_SCENE_TRIANGLES] = "scene: triangles",
       [TRAX_SCENE_MATERIALS] = "scene: materials", [TRAX_SCENE_SOURCE_IDS] = "scene: source numbers",
@@ -161,6 +161,11 @@ static size_t list_parts(struct trax_explore_part parts[TRAX_SCENE_SECTIONS], tr
     if (header->sections[kind].size)
       parts[count++] =
           (struct trax_explore_part){names[kind], address + header->sections[kind].offset, header->sections[kind].size};
+  if (header->version == TRAX_SCENE_VERSION_INSTANCES) {
+    const struct trax_scene_section *instances =
+        &((const struct trax_scene_more *)(header + 1))->sections[TRAX_SCENE_INSTANCES];
+    parts[count++] = (struct trax_explore_part){"scene: instances", address + instances->offset, instances->size};
+  }
   return count;
 }
 
@@ -172,7 +177,7 @@ trax_status trax_simulated_run(struct trax_picture *picture, const struct trax_f
     wanted.item_buffer = "image";
     wanted.item_bytes = trax_frame_image_bytes(frame) / (frame->params->width * frame->params->height);
   }
-  struct trax_explore_part parts[TRAX_SCENE_SECTIONS];
+  struct trax_explore_part parts[TRAX_SCENE_SECTIONS + 1];
   if (wanted.explore) {
     wanted.title = options->title;
     wanted.parts = parts;

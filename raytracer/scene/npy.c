@@ -223,6 +223,8 @@ static size_t make_header(char text[128], const uint64_t *shape, unsigned dimens
 trax_status trax_mesh_write_triangles(const struct trax_mesh *mesh, const char *path, trax_error *error) {
   trax_output output;
   char header[128];
+  if (mesh->instance_count)
+    return trax_fail(error, "%s: triangles of instances have several places (--flatten)", path);
   if (trax_output_open(&output, path, error) != TRAX_OK)
     return TRAX_ERROR;
   fwrite(header, 1, make_header(header, (const uint64_t[]){mesh->triangle_count, 3, 3}, 3), output.file);

@@ -67,10 +67,12 @@ const char *scene_derive_instance(struct trax_instance *instance) {
   return NULL;
 }
 
-/* render/frame.c's margin is 64 units of 2^-24 of D, the greatest distance of a ray's origin from the scene. The ray in
-   the mesh adds errors of at most 20 units of the distance between the ray's origin and the instance's
-   (docs/instances.md has the sum), which is at most 1 + q times D, where q is the distance between the scene's far side
-   and the instance's origin, over the scene's extent. */
+/* render/frame.c's margin is 64 units of 2^-24 of D, the greatest distance of a ray's origin from the scene, which is
+   twice what tests of boxes and triangles need. In the mesh both tests see one and the same ray, and distances grow by
+   the norm of to_object at most. But the margin is added to coordinates of the origin there, which may be larger than
+   its distance from the mesh. They are rounded by at most 1 unit of the distance between the ray's origin and the
+   instance's, 1 + q times D at most, where q is the distance between the scene's far side and the instance's origin,
+   over the scene's extent: 5 units are more than enough. */
 float scene_stretch_of(const struct trax_instance *instance, const struct scene_box *bounds) {
   double extent = 0, away = 0;
   for (int axis = 0; axis < 3; axis++) {
@@ -79,7 +81,7 @@ float scene_stretch_of(const struct trax_instance *instance, const struct scene_
     away = fmax(away, fmax(fabs(low - origin), fabs(high - origin)));
   }
   const double in = norm(instance->to_object);
-  const double further = instance->spread == 0 ? 0 : 20.0 / 64 * (1 + away / fmax(extent, 0x1p-100));
+  const double further = instance->spread == 0 ? 0 : 5.0 / 64 * (1 + away / fmax(extent, 0x1p-100));
   return (float)(in * (1 + further) * (1 + 0x1p-20));
 }
 

@@ -319,7 +319,7 @@ static trax_status make_file(struct two_levels *two) {
 /* With a stack for LOCAL_DEPTH nodes the program of the paper's workload fits in local memory, which makes it some
    times as fast. So the upper tree gets as many levels as are left, if one more than the least suffices for it. */
 static unsigned upper_depth(const struct two_levels *two) {
-  enum { LOCAL_DEPTH = 29 };
+  enum { LOCAL_DEPTH = 36 };
   const unsigned room = TRAX_SCENE_MAX_DEPTH - 1 - two->depth, least = scene_least_height(two->mesh->instance_count, 1);
   unsigned most = two->parts.max_depth;
   if (most == 0)

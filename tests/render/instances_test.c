@@ -8,6 +8,7 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <zlib.h>
 
 #include <cmocka.h>
 
@@ -192,6 +193,24 @@ static void test_inside(void **state) {
   }
 }
 
+/* The mesh is a million away from its own origin, and its place is near the scene's. The ray in the mesh is then off by
+   a thousandth of the sphere, which boxes must allow for. */
+static void test_far_mesh(void **state) {
+  (void)state;
+  const struct transform near = product(turned(0.4, 0), product(turned(1.1, 1), moved(-1e6, 1e6, -5e5)));
+  for (int inside = 0; inside < 2; inside++) {
+    struct trax_mesh mesh = {0};
+    mesh_sphere(&mesh, 1, 4, 0);
+    mesh_transform(&mesh, 100, 1e6f, -1e6f, 5e5f);
+    end_part(&mesh);
+    place(&mesh, 0, near);
+    check(inside ? "far-mesh-inside" : "far-mesh", &mesh,
+          inside ? view_from(5, -10, 2, 0.02f, 0.013f, -1, 120, 4, 5, 6)
+                 : view_from(10, 20, 400, 0.02f, 0.013f, -1, 45, 4, 5, 6),
+          PIXELS - 400, inside);
+  }
+}
+
 /* Everything twice at one place: which of two instances is visible depends on neither tree nor traversal. */
 static void test_ties(void **state) {
   (void)state;
@@ -203,11 +222,57 @@ static void test_ties(void **state) {
   check("ties", &mesh, view_from(0.1f, 0.2f, 3, 0, 0, -1, 45, 2, 2, 2), PIXELS, false);
 }
 
+/* Every word of a file, changed in several ways and sealed: it is refused with a reason, or renders. */
+static void test_sealed_changes(void **state) {
+  (void)state;
+  static const uint32_t steps[] = {1, 2, 8, 64, 128, 0x80000000u, 0x7F800000u, 0xFFFFFFFFu};
+  struct trax_mesh mesh = {0};
+  struct trax_scene scene = {0}, changed = {0};
+  unsigned accepted = 0, refused = 0;
+  mesh_box(&mesh, (float[]){-1, -1, -1}, (float[]){0, 0, 0}, 0);
+  end_part(&mesh);
+  for (int i = 0; i < 3; i++)
+    place(&mesh, 0, product(turned(i, 2), moved(i, 0.5, 0)));
+  build(&scene, &mesh, NULL);
+  uint32_t *bytes = aligned_alloc(64, scene.size);
+  assert_non_null(bytes);
+  for (size_t at = 4; at < scene.size / 4; at++)
+    for (size_t step = 0; step < 2 * sizeof steps / sizeof *steps; step++) {
+      memcpy(bytes, scene.bytes, scene.size);
+      struct trax_scene_header *header = (struct trax_scene_header *)(void *)bytes;
+      bytes[at] = step % 2 ? bytes[at] ^ steps[step / 2] : bytes[at] + steps[step / 2];
+      header->checksum = 0;
+      header->checksum = (uint32_t)crc32_z(0, (unsigned char *)bytes, scene.size);
+      trax_error error = {.message = ""};
+      if (trax_scene_check(&changed, bytes, scene.size, "scene", &error) != TRAX_OK) {
+        assert_true(error.message[0]);
+        refused++;
+        continue;
+      }
+      const struct trax_frame_options options = {.width = 4, .height = 4, .samples = 1};
+      struct trax_view view = view_from(0, 0, 9, 0, 0, -1, 45, 4, 5, 6);
+      struct trax_frame frame = {0};
+      struct trax_hits hits;
+      changed.bytes = bytes;
+      accepted++;
+      if (trax_frame_init(&frame, &changed, &view, &options, &error) == TRAX_OK) {
+        find(&hits, &frame, 0);
+        trax_hits_release(&hits);
+      }
+      trax_frame_release(&frame);
+    }
+  if (getenv("TRAX_TEST_VERBOSE"))
+    printf("%u changed files accepted, %u refused\n", accepted, refused);
+  assert_true(refused > 4 * accepted && accepted > 0);
+  free(bytes);
+  trax_scene_release(&scene);
+  trax_mesh_release(&mesh);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_families),
-      cmocka_unit_test(test_inside),
-      cmocka_unit_test(test_ties),
+      cmocka_unit_test(test_families), cmocka_unit_test(test_inside),         cmocka_unit_test(test_far_mesh),
+      cmocka_unit_test(test_ties),     cmocka_unit_test(test_sealed_changes),
   };
   return cmocka_run_group_tests_name("instances", tests, NULL, NULL);
 }

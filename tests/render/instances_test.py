@@ -43,7 +43,8 @@ def render(name, *words):
 
 def check_exact():
     """In every bit: pictures, shadows, numbers of triangles. The emulated chip draws the twin's."""
-    write("exact.instances", HEAD, *(f"place solid {rows}\n" for rows in EXACT))
+    write("exact.instances", HEAD, "material blue 0.1,0.1,0.8\n", *(f"place solid {rows}\n" for rows in EXACT),
+          *(f"place solid material {name}\nplace solid\n" for name in ("blue", "red", "blue")))  # at one place
     for options in ([], ["--paths", "3", "--one-sided"]):
         kept = render("kept", "exact.instances", "--engine", "native", *options)
         flat = render("flat", "exact.instances", "--flatten", "--engine", "native", *options)
@@ -106,6 +107,20 @@ def check_scales():
             call("trax-compare", "scaled.png", "plain.png", "--within", "3", "--at-least", "98.5")
 
 
+def check_shadows():
+    """A convex solid does not shadow itself, however far away its own origin is."""
+    points = [[float(x) for x in line.split()[1:]] for line in SOLID.splitlines() if line[0] == "v"]
+    faces = "".join(line + "\n" for line in SOLID.splitlines() if line[0] == "f")
+    for away in 0, 1e5, 1e6:
+        write("away.obj", *("v %r %r %r\n" % tuple(64 * x + away for x in point) for point in points), faces)
+        middle = 0.6 * away - 0.8 * away, 0.8 * away + 0.6 * away, away
+        write("away.instances", "mesh away away.obj\nplace away 0.6 -0.8 0 %r  0.8 0.6 0 %r  0 0 1 %r\n"
+              % tuple(-x for x in middle))
+        pictures = [call("trax-render", "away.instances", *looking(32, 0), "-o", f"{i}.png", *words) and
+                    pathlib.Path(f"{i}.png").read_bytes() for i, words in enumerate(([], ["--no-shadows"]))]
+        check(pictures[0] == pictures[1], "shadows of itself", away)
+
+
 def enlarged(rows, factor):
     """The matrix times a factor, but for its last column."""
     numbers, _, rest = rows.partition("material")
@@ -115,7 +130,8 @@ def enlarged(rows, factor):
 
 def check_groups():
     """A group in a group is its matrices' product; the outermost material counts."""
-    write("nested.instances", HEAD, "group inner\nplace solid 0 -1 0 1  1 0 0 0  0 0 1 0\nplace solid\nend\n",
+    write("nested.instances", HEAD, "material blue 0.1,0.1,0.8\n",
+          "group inner\nplace solid 0 -1 0 1  1 0 0 0  0 0 1 0 material blue\nplace solid\nend\n",
           "group outer\nplace inner 1 0 0 0  0 0 -2 0  0 1 0 0.5 material red\nend\n",
           "place outer -1 0 0 0  0 1 0 0  0 0 1 0\n")
     write("product.instances", HEAD, "place solid 0 1 0 -1  0 0 -2 0  1 0 0 0.5 material red\n",
@@ -188,11 +204,12 @@ def check_bad():
     done = call("trax-scene", "bomb.instances", "-o", "bad.trax", status=1)
     check("too large: more instances than memory in proportion" in done.stderr, done.stderr)
     check(time.monotonic() - begun < 20, "a bomb takes long")
-    # A damaged file: every word of the first instance that follows from its transform.
     call("trax-scene", "moved.instances", "-q", "-o", "moved.trax")
     for words in (["--tree", "x.npy", "--tree-triangles", "y.npy"], ["--nodes", "quantised"], ["--splits=2"]):
         done = call("trax-scene", "moved.instances", "-o", "bad.trax", *words, status=1)
         check("--flatten" in done.stderr, words, done.stderr)
+    done = call("trax-scene", "moved.instances", "--write-triangles", "x.npy", status=1)
+    check("several places" in done.stderr and not os.path.exists("x.npy"), done.stderr)
 
 
 def main():
@@ -203,6 +220,7 @@ def main():
         check_exact()
         check_shading()
         check_scales()
+        check_shadows()
         check_groups()
         check_gltf()
         check_bad()
