@@ -24,8 +24,8 @@ MUTANTS = [
     # --- Operands ---
     ("reference/operands.c", "{trax_ref_is(tp, TRAX_READS_RD | TRAX_WRITES_RD), tp->inst.rd}",
      "{trax_ref_is(tp, TRAX_READS_RD), tp->inst.rd}"),
-    ("reference/operands.c", "if (reg->usable > t) {\n        trax_ref_charge(tm, tp, t, reg->cause)",
-     "if (reg->usable > t + 1) {\n        trax_ref_charge(tm, tp, t, reg->cause)"),
+    ("reference/operands.c", "if (tp->scoreboard[number].usable > t) {",
+     "if (tp->scoreboard[number].usable > t + 1) {"),
     ("reference/operands.c", "if (trax_ref_is(tp, TRAX_WRITES_RD) && tp->inst.rd != 0)",
      "if (trax_ref_is(tp, TRAX_WRITES_RD))"),
     ("reference/operands.c", "if (trax_ref_active(tp) && trax_ref_accesses_memory(tp)) {",
