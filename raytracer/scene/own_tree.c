@@ -92,7 +92,12 @@ static trax_status add_part(struct scene_tree_node *leaf, const struct reading *
         if (part.min[axis] > box.max[axis] || part.max[axis] < box.min[axis])
           return trax_fail(error, "%s: node %" PRIu64 ": triangle %" PRIu32 " is not in its box", reading->boxes.path,
                            node, triangle);
+      const struct scene_box whole = part;
       part = scene_clip_triangle(corners, &box);
+      for (int axis = 0; axis < 3; axis++) { /* it was rounded outwards, even beyond the triangle */
+        part.min[axis] = fmaxf(part.min[axis], whole.min[axis]);
+        part.max[axis] = fminf(part.max[axis], whole.max[axis]);
+      }
     }
   }
   scene_box_add_box(&leaf->box, &part);

@@ -196,6 +196,14 @@ def forms():
     triangles = read_triangles("t.npy")
     write([(0, 0, 1)], [0], [box_of(triangles[0])])
     call("trax-scene", "one.obj", *TREE, "-q", "-o", "s.trax")
+    # Parts of triangles that are cut at a subnormal number are rounded outwards, but not beyond the triangles.
+    corners = [(i, i * 7 % 5, i * 8 % 5) for i in range(11)]
+    write_mesh("strip.obj", [corners[i] + corners[i + 1] + corners[i + 2] for i in range(9)])
+    whole, cut = [-99] * 3 + [99] * 3, [-99, 2.5e-44, -99, 99, 2, 99]
+    rows = [(1, 2, 3, 0, 0), (0, 0, 0, 0, 6), (0, 0, 0, 0, 3), (6, 0, 0, 0, 3)]
+    write(rows, list(range(9)), [whole, whole, cut, whole])
+    call("trax-scene", "strip.obj", *TREE, *BOXES, "--nodes", "quantised", "-q", "-o", "s.trax")
+    call("trax-scene", "--check", "s.trax")
     # The large triangle in two leaves, each time with a half of its box.
     low, high = box_of(triangles[0])[:3], box_of(triangles[0])[3:]
     middle = (low[0] + high[0]) / 2
