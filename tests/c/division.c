@@ -99,10 +99,10 @@ static NOINLINE void divide_many(const uint32_t *n, uint32_t d, uint32_t *q, uin
   }
 }
 static NOINLINE void divide_many_signed(const uint32_t *n, int32_t d, int32_t *q, int32_t *r) {
-  for (int i = 0; i < MANY; i++) {
+  for (int i = 0; i < MANY; i++) /* alone, a quotient's dividend is known not to be negative */
     q[i] = (int32_t)(n[i] >> 1) / d;
+  for (int i = 0; i < MANY; i++)
     r[i] = (int32_t)(n[i] >> 1) % d;
-  }
 }
 
 static void divide_all(const uint32_t *n, uint32_t d) {
