@@ -95,6 +95,7 @@ static void add_report(struct trax_import_report *total, const struct trax_impor
   total->mended_uvs += before.mended_uvs;
   total->missing_files += before.missing_files;
   total->bad_images += before.bad_images;
+  total->moved |= before.moved;
   total->unread |= before.unread;
   if (before.missing_files)
     memcpy(total->first_missing_file, before.first_missing_file, sizeof total->first_missing_file);
@@ -106,7 +107,6 @@ static trax_status import_mesh(struct reader *reader, const char *at, const char
   struct trax_import_options options = *reader->options;
   struct trax_import_report report = {0};
   struct trax_mesh mesh;
-  options.overrides = NULL, options.override_count = 0;
   options.instances = options.flatten = false;
   char *name = scene_unpacked_name(path);
   const bool nested = name && scene_has_extension(name, ".instances");
@@ -114,7 +114,7 @@ static trax_status import_mesh(struct reader *reader, const char *at, const char
   if (nested)
     return fail_at(reader, at, "a mesh cannot be a file of instances; groups nest", NULL);
   trax_error reason;
-  trax_status result = trax_mesh_import(&mesh, &path, 1, &options, &report, &reason);
+  trax_status result = scene_import_meshes(&mesh, &path, 1, &options, &report, &reason);
   if (result != TRAX_OK)
     return result == TRAX_INTERRUPTED ? result : fail_at(reader, at, reason.message, NULL);
   mesh.camera_count = 0;

@@ -133,6 +133,13 @@ bool scene_reach(void *array, size_t record_size, uint32_t count, size_t *capaci
 /* Moves large texture coordinates near zero by whole repeats, and replaces those that are not finite by zeros. */
 void scene_mend_uvs(struct trax_mesh *mesh, struct trax_import_report *report);
 
+/* --- mesh.c --- */
+
+/* Reads and merges the files: what trax_mesh_import does before it places instances and overrides materials. */
+trax_status scene_import_meshes(struct trax_mesh *mesh, const char *const *paths, size_t path_count,
+                                const struct trax_import_options *options, struct trax_import_report *report,
+                                trax_error *error);
+
 /* --- gltf_reader.c, obj_reader.c, ply_reader.c --- */
 
 /* Import one file. source_id and material of the triangles count within the file; report is added to. */

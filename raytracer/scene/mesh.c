@@ -371,14 +371,11 @@ static trax_status place_instances(struct trax_mesh *mesh, const struct trax_imp
   return result;
 }
 
-trax_status trax_mesh_import(struct trax_mesh *mesh, const char *const *paths, size_t path_count,
-                             const struct trax_import_options *options, struct trax_import_report *report,
-                             trax_error *error) {
-  static const struct trax_import_options defaults;
-  if (!options)
-    options = &defaults;
+trax_status scene_import_meshes(struct trax_mesh *mesh, const char *const *paths, size_t path_count,
+                                const struct trax_import_options *options, struct trax_import_report *total,
+                                trax_error *error) {
   *mesh = (struct trax_mesh){0};
-  struct trax_import_report total = {0};
+  *total = (struct trax_import_report){0};
   trax_status result = TRAX_OK;
   for (size_t i = 0; i < path_count && result == TRAX_OK; i++) {
     if (options->progress)
@@ -398,16 +395,29 @@ trax_status trax_mesh_import(struct trax_mesh *mesh, const char *const *paths, s
       scene_mend_normals(&part, &part_report);
       scene_mend_uvs(&part, &part_report);
     }
-    if (result == TRAX_OK && total.source_triangles + part_report.source_triangles > UINT32_MAX)
+    if (result == TRAX_OK && total->source_triangles + part_report.source_triangles > UINT32_MAX)
       result = trax_fail(error, "%s: too large together with the files before it", paths[i]);
     if (result == TRAX_OK)
-      result = scene_append_mesh(mesh, &part, (uint32_t)total.source_triangles, (uint32_t)part_report.source_triangles,
+      result = scene_append_mesh(mesh, &part, (uint32_t)total->source_triangles, (uint32_t)part_report.source_triangles,
                                  paths[i], error);
     trax_mesh_release(&part);
     if (result != TRAX_OK)
       break;
-    add_report(&total, &part_report);
+    add_report(total, &part_report);
   }
+  if (result != TRAX_OK)
+    trax_mesh_release(mesh);
+  return result;
+}
+
+trax_status trax_mesh_import(struct trax_mesh *mesh, const char *const *paths, size_t path_count,
+                             const struct trax_import_options *options, struct trax_import_report *report,
+                             trax_error *error) {
+  static const struct trax_import_options defaults;
+  if (!options)
+    options = &defaults;
+  struct trax_import_report total;
+  trax_status result = scene_import_meshes(mesh, paths, path_count, options, &total, error);
   if (result == TRAX_OK && options->moves && !total.moved)
     result = trax_fail(error, "%s: nothing moves: no glTF file has an animation, and no name has %%d for the frame",
                        path_count ? paths[0] : "no mesh");

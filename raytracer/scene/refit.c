@@ -157,6 +157,8 @@ static trax_status check_base(const struct refit *refit, const struct trax_build
   if (!refit->base->source_ids || !refit->base->node_count)
     return trax_fail(error, "%s: a scene %s has nothing to refit", refit->name,
                      refit->base->source_ids ? "without nodes" : "without the triangles' numbers");
+  if (refit->base->instance_count)
+    return trax_fail(error, "%s: a scene with instances has no tree to refit (--flatten)", refit->name);
   if (!options->choose_nodes && options->nodes != refit->base->header->node_layout)
     return trax_fail(error, "%s: its nodes are %s; a tree that is refitted keeps its layout", refit->name,
                      trax_node_formats[refit->base->header->node_layout].name);

@@ -22,6 +22,8 @@ struct two_levels {
 };
 
 static trax_status check_options(const struct trax_build_options *options, trax_error *error) {
+  if (options->refit)
+    return trax_fail(error, "--refit: instances move without it; it is for meshes (--flatten)");
   if (options->tree_nodes)
     return trax_fail(error, "--tree is the tree of a mesh without instances (--flatten)");
   if (options->splits > 1 && !options->choose_splits)
