@@ -88,6 +88,22 @@ def test_lost_half():
     check(root == nodes, "the root is the first node", root, nodes)
 
 
+def test_instances():
+    """Meshes of a file of instances have their own moments; those that bend, and refitting, are refused."""
+    pathlib.Path("placed.instances").write_text("mesh moves wave-%02d.obj\nmesh stands wave-00.obj\n"
+                                                "place moves\nplace stands 1 0 0 9  0 1 0 0  0 0 1 0\n")
+    call("trax-scene", "placed.instances", "--at", "20", "--flatten", "--splits=1", "-q", "-o", "flat.trax")
+    pathlib.Path("stands.obj").write_text(pathlib.Path("wave-00.obj").read_text())
+    pathlib.Path("both.instances").write_text("mesh moves wave-20.obj\nmesh stands stands.obj\n"
+                                              "place moves\nplace stands 1 0 0 9  0 1 0 0  0 0 1 0\n")
+    call("trax-scene", "both.instances", "--flatten", "--splits=1", "-q", "-o", "same.trax")
+    check(pathlib.Path("flat.trax").read_bytes() == pathlib.Path("same.trax").read_bytes(), "instances at a moment")
+    refused("instances move without it", "trax-scene", "placed.instances", "--at", "5", "--refit-from", "0", "-o",
+            "x.trax")
+    animated("bends.gltf")
+    refused("mesh 1 bends", "trax-scene", "bends.gltf", "--at", "0.5", "--instances", "-o", "x.trax")
+
+
 def test_on_the_tps():
     for chip in ("1x32", "4x32"):
         command = [sys.executable, REFIT, "--bin", BIN, "wave-%02d.obj", "--at", "20", "--config", chip]
@@ -275,6 +291,7 @@ def main():
         write_waves()
         test_refit()
         test_lost_half()
+        test_instances()
         test_on_the_tps()
         test_refusals()
         test_animation()
