@@ -133,6 +133,14 @@ bool scene_reach(void *array, size_t record_size, uint32_t count, size_t *capaci
 /* Moves large texture coordinates near zero by whole repeats, and replaces those that are not finite by zeros. */
 void scene_mend_uvs(struct trax_mesh *mesh, struct trax_import_report *report);
 
+/* --- sequence.c --- */
+
+/* Finds %d or %0Nd, N from 1 to 9. Returns its place, or NULL. */
+const char *scene_find_number(const char *path, int *digits, size_t *length);
+/* The file of a name with a number at the moment of the options; others as they are. To be freed. */
+trax_status scene_name_at(char **name, const char *path, const struct trax_import_options *options,
+                          struct trax_import_report *report, trax_error *error);
+
 /* --- mesh.c --- */
 
 /* Reads and merges the files: what trax_mesh_import does before it places instances and overrides materials. */

@@ -58,39 +58,6 @@ static trax_status parse_generated(const char *path, const struct generator **ge
                           generated_prefix, generated_prefix);
 }
 
-/* --- sequences: a file a frame, its number in the name --- */
-
-/* Finds %d or %0Nd, N from 1 to 9. Returns its place, or NULL. */
-static const char *find_number(const char *path, int *digits, size_t *length) {
-  for (const char *at = strchr(path, '%'); at; at = strchr(at + 1, '%')) {
-    *digits = at[1] == '0' && at[2] >= '1' && at[2] <= '9' ? at[2] - '0' : 0;
-    *length = *digits ? 4 : 2;
-    if (at[*length - 1] == 'd')
-      return at;
-  }
-  return NULL;
-}
-
-/* The file of a name with a number at a moment; others as they are. To be freed. */
-static trax_status name_at(char **name, const char *path, const struct trax_import_options *options,
-                           struct trax_import_report *report, trax_error *error) {
-  enum { MOST = 1000000000 };
-  int digits;
-  size_t length;
-  const char *place = options->moves ? find_number(path, &digits, &length) : NULL;
-  if (place && !(options->at >= 0 && options->at < MOST && options->at == floor(options->at)))
-    return trax_fail(error, "%s: there is no frame %g; a frame is a whole number", path, options->at);
-  report->moved = place != NULL;
-  *name = malloc(strlen(path) + 16);
-  if (!*name)
-    return scene_out_of_memory(error, path);
-  if (place)
-    sprintf(*name, "%.*s%0*u%s", (int)(place - path), path, digits, (unsigned)options->at, place + length);
-  else
-    strcpy(*name, path);
-  return place ? trax_files_check_input(options->files, *name, error) : TRAX_OK;
-}
-
 trax_status trax_mesh_check(const char *path, trax_error *error) {
   const struct generator *generator;
   uint64_t seed;
@@ -98,7 +65,7 @@ trax_status trax_mesh_check(const char *path, trax_error *error) {
   size_t length;
   if (trax_mesh_is_generated(path))
     return parse_generated(path, &generator, &seed, error);
-  return strcmp(path, "-") == 0 || find_number(path, &digits, &length) || access(path, R_OK) == 0
+  return strcmp(path, "-") == 0 || scene_find_number(path, &digits, &length) || access(path, R_OK) == 0
              ? TRAX_OK
              : trax_fail(error, "%s: cannot be read: %s", path, strerror(errno));
 }
@@ -383,7 +350,7 @@ trax_status scene_import_meshes(struct trax_mesh *mesh, const char *const *paths
     struct trax_mesh part = {0};
     struct trax_import_report part_report = {0};
     char *path = NULL;
-    result = name_at(&path, paths[i], options, &part_report, error);
+    result = scene_name_at(&path, paths[i], options, &part_report, error);
     if (result == TRAX_OK)
       result = read_mesh(&part, path, options, &part_report, error);
     if (result == TRAX_OK)

@@ -8,7 +8,7 @@ import math
 from .results import mean, ratio
 from .sweeps import geometric_mean
 
-SWEEPS = ("simd", "simd-coherent", "simd-units", "simd-large", "simd-large-coherent")
+SWEEPS = ("simd", "simd-coherent", "simd-units", "simd-large", "simd-large-coherent", "simd-large-units")
 PAPERS_ICACHE = 4096  # bytes
 COHERENT = ("primary-shadow", "near")  # workloads without secondary rays
 RULE = ("with every workload of secondary rays, warps of 8 to 32 lanes have fewer rays per mm\u00b2 than MIMD, by the "
