@@ -28,7 +28,7 @@ void trax_ref_grant_data_banks(struct trax_ref_tm *tm, uint64_t t) {
 
 static void wait_for_line(struct trax_ref_tp *tp, uint32_t line) {
   trax_ref_result(tp, UNKNOWN, TRAX_CAUSE_DATA_MISS);
-  tp->scoreboard[tp->inst.rd].awaits_line = tp->inst.rd != 0;
+  tp->awaits_data |= 1u << tp->inst.rd & ~1u; /* r0 waits for nothing */
   tp->scoreboard[tp->inst.rd].line = line;
 }
 
@@ -79,12 +79,14 @@ void trax_ref_data_arrives(struct trax_ref_tm *tm, const struct trax_ref_request
     trax_ref_lines_install(&tm->dcache, request->line);
     fill(tm, request->line, t);
   }
-  for (uint32_t i = 0; i < tm->tps; i++)
-    for (unsigned rd = 1; rd < TRAX_NUM_REGISTERS; rd++) {
-      struct trax_ref_register *reg = &tm->tp[i].scoreboard[rd];
-      if (reg->awaits_line && reg->line == request->line) {
-        reg->awaits_line = false;
+  for (uint32_t i = 0; i < tm->tps; i++) {
+    struct trax_ref_tp *tp = &tm->tp[i];
+    for (uint32_t set = tp->awaits_data; set; set &= set - 1) {
+      struct trax_ref_register *reg = &tp->scoreboard[__builtin_ctz(set)];
+      if (reg->line == request->line) {
+        tp->awaits_data &= ~(set & -set);
         reg->usable = t;
       }
     }
+  }
 }

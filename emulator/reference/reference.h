@@ -70,14 +70,14 @@ struct trax_ref_request {
 struct trax_ref_register {
   uint64_t usable;  /* the cycle from which it is usable; UNKNOWN until the arrival */
   trax_cause cause; /* of a wait for it */
-  bool awaits_line; /* it waits for `line` of the data cache */
-  uint32_t line;
+  uint32_t line;    /* of the data cache, if it waits for one (awaits_data) */
 };
 
 struct trax_ref_tp {
   uint32_t number;
   uint32_t pc, reg[TRAX_NUM_REGISTERS];
   struct trax_ref_register scoreboard[TRAX_NUM_REGISTERS];
+  uint32_t awaits_data; /* registers that wait for lines of the data cache, as a set */
   uint8_t local[TRAX_LOCAL_SIZE];
   uint32_t run_begin, run_end; /* the run in the write-combining buffer; equal: empty */
 
@@ -104,6 +104,7 @@ struct trax_ref_tm {
   const struct trax_config *config;
   struct trax_machine *machine;
   FILE *output; /* the guest's, or NULL */
+  struct trax_timing timing[TRAX_OP_COUNT]; /* as of trax_timing_of */
   struct trax_ref_tp tp[MOST];
   struct trax_ref_icache icache[MOST];
   struct trax_ref_group group[TRAX_SHARED_COUNT][MOST];
@@ -227,7 +228,7 @@ void trax_ref_result(struct trax_ref_tp *tp, uint64_t cycle, trax_cause cause);
 /* --- Units: units.c --- */
 void trax_ref_grant_units(struct trax_ref_tm *tm, uint64_t t);
 /* The unit and the latency of the TP's instruction, which must not access memory. */
-struct trax_timing trax_ref_timing(const struct trax_ref_tp *tp, const struct trax_config *config);
+struct trax_timing trax_ref_timing(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp);
 
 /* --- Data cache: data_cache.c --- */
 void trax_ref_grant_data_banks(struct trax_ref_tm *tm, uint64_t t);

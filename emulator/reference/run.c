@@ -11,6 +11,8 @@ static bool create_tm(struct trax_ref_tm *tm, uint32_t number, struct trax_machi
   tm->number = number;
   tm->tps = config->chip.tps_per_tm;
   tm->config = config;
+  for (trax_op op = 0; op < TRAX_OP_COUNT; op++)
+    tm->timing[op] = trax_timing_of(op, config);
   tm->machine = machine;
   tm->output = output;
   tm->stats = &machine->tm_stats[number];

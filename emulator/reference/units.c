@@ -1,8 +1,8 @@
 /* docs/timing.md, "Units": step 3, except for the data cache's banks. */
 #include "reference/reference.h"
 
-struct trax_timing trax_ref_timing(const struct trax_ref_tp *tp, const struct trax_config *config) {
-  return trax_timing_of(tp->inst.op, config);
+struct trax_timing trax_ref_timing(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp) {
+  return tm->timing[tp->inst.op];
 }
 
 static void charge_losers(struct trax_ref_tm *tm, const bool *asks, uint64_t t, trax_cause cause) {
@@ -31,7 +31,7 @@ void trax_ref_grant_units(struct trax_ref_tm *tm, uint64_t t) {
   bool asks[TRAX_SHARED_COUNT + 1][MOST] = {{false}};
   for (uint32_t i = 0; i < tm->tps; i++)
     if (trax_ref_active(&tm->tp[i]))
-      asks[trax_ref_timing(&tm->tp[i], tm->config).unit][i] = true;
+      asks[trax_ref_timing(tm, &tm->tp[i]).unit][i] = true;
   for (trax_shared unit = 0; unit < TRAX_SHARED_COUNT; unit++) {
     const struct trax_shared_kind kind = trax_shared_kind(unit, tm->config);
     for (uint32_t i = 0; i < kind.groups; i++)

@@ -65,7 +65,7 @@ MUTANTS = [
      "  if (0) {\n    tm->stats->dcache_merged++;"),
     ("reference/data_cache.c", "trax_ref_lines_on_their_way(tm, DATA_LINE) == tm->config->dcache.mshrs",
      "trax_ref_lines_on_their_way(tm, DATA_LINE) > tm->config->dcache.mshrs"),
-    ("reference/data_cache.c", "if (reg->awaits_line && reg->line == request->line) {", "if (reg->awaits_line) {"),
+    ("reference/data_cache.c", "if (reg->line == request->line) {", "if (true) {"),
     ("reference/data_cache.c", "trax_ref_result(tp, UNKNOWN, TRAX_CAUSE_DATA_MISS);",
      "trax_ref_result(tp, UNKNOWN, TRAX_CAUSE_DATA_HIT);"),
     # --- Stores and write combining ---
