@@ -126,6 +126,22 @@ struct double3 embree_pick_environment(const struct embree *embree, uint32_t pic
   return embree_unit((struct double3){u, up, v});
 }
 
+/* Linear; pixels have gamma 2. */
+static struct double3 background_of(const struct trax_render_params *params) {
+  const double r = (params->background & 255) / 255.0, g = (params->background >> 8 & 255) / 255.0,
+               b = (params->background >> 16 & 255) / 255.0;
+  return (struct double3){r * r, g * g, b * b};
+}
+
+struct double3 embree_far_light(const struct embree *embree, struct double3 direction, double density) {
+  double chosen;
+  if (!embree_needs(embree, TRAX_FEATURE_ENVIRONMENT))
+    return background_of(embree->frame->params);
+  const struct double3 light = embree_environment(embree, direction, &chosen);
+  const double share = density > 0 ? density / (density + chosen) : 1;
+  return (struct double3){share * light.x, share * light.y, share * light.z};
+}
+
 bool embree_prepare_lights(struct embree *embree) {
   const struct trax_scene *scene = embree->frame->scene;
   const struct trax_view *view = &embree->frame->view;

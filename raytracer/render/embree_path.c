@@ -372,22 +372,6 @@ static double share_of_emission(const struct sample *sample, const struct surfac
   return own > 0 ? share * own / (own + chosen) : 0;
 }
 
-/* Linear; pixels have gamma 2. */
-static struct double3 background_of(const struct trax_render_params *params) {
-  const double r = (params->background & 255) / 255.0, g = (params->background >> 8 & 255) / 255.0,
-               b = (params->background >> 16 & 255) / 255.0;
-  return (struct double3){r * r, g * g, b * b};
-}
-
-/* density: with which the surface before chose the direction; 0: there was no choice. */
-static struct double3 far_light(const struct embree *embree, struct double3 direction, double density) {
-  double chosen;
-  if (!embree_needs(embree, TRAX_FEATURE_ENVIRONMENT))
-    return background_of(embree->frame->params);
-  const struct double3 light = embree_environment(embree, direction, &chosen);
-  return density > 0 ? scaled(density / (density + chosen), light) : light;
-}
-
 struct double3 embree_path(const struct embree *embree, struct pixel pixel, uint32_t number, struct trax_layers *seen,
                            uint64_t *rays) {
   const struct trax_render_params *params = embree->frame->params;
@@ -411,7 +395,7 @@ struct double3 embree_path(const struct embree *embree, struct pixel pixel, uint
     struct surface surface;
     double distance;
     if (!find_surface(&surface, &sample, origin, direction, &distance))
-      return plus_scaled(light, 1, times(throughput, far_light(embree, direction, density)));
+      return plus_scaled(light, 1, times(throughput, embree_far_light(embree, direction, density)));
     if (sample.depth == 0)
       seen->triangle = surface.hit.triangle;
 

@@ -83,26 +83,6 @@ static trax_status add_target(struct reader *reader, char *name, struct target *
 
 /* --- statements --- */
 
-static void add_report(struct trax_import_report *total, const struct trax_import_report *part) {
-  const struct trax_import_report before = *total;
-  *total = *part;
-  total->source_triangles += before.source_triangles;
-  total->degenerate += before.degenerate;
-  total->nonfinite += before.nonfinite;
-  total->other_primitives += before.other_primitives;
-  total->turned_normals += before.turned_normals;
-  total->mended_normals += before.mended_normals;
-  total->mended_uvs += before.mended_uvs;
-  total->missing_files += before.missing_files;
-  total->bad_images += before.bad_images;
-  total->moved |= before.moved;
-  total->unread |= before.unread;
-  if (before.missing_files)
-    memcpy(total->first_missing_file, before.first_missing_file, sizeof total->first_missing_file);
-  if (before.bad_images)
-    memcpy(total->first_bad_image, before.first_bad_image, sizeof total->first_bad_image);
-}
-
 static trax_status import_mesh(struct reader *reader, const char *at, const char *path) {
   struct trax_import_options options = *reader->options;
   struct trax_import_report report = {0};
@@ -129,7 +109,7 @@ static trax_status import_mesh(struct reader *reader, const char *at, const char
                   : scene_out_of_memory(reader->error, path);
   }
   trax_mesh_release(&mesh);
-  add_report(reader->report, &report);
+  scene_add_report(reader->report, &report);
   return result;
 }
 

@@ -143,6 +143,8 @@ trax_status scene_name_at(char **name, const char *path, const struct trax_impor
 
 /* --- mesh.c --- */
 
+/* Adds the report of a file to that of those before it. */
+void scene_add_report(struct trax_import_report *total, const struct trax_import_report *part);
 /* Reads and merges the files: what trax_mesh_import does before it places instances and overrides materials. */
 trax_status scene_import_meshes(struct trax_mesh *mesh, const char *const *paths, size_t path_count,
                                 const struct trax_import_options *options, struct trax_import_report *report,

@@ -306,7 +306,7 @@ static trax_status filter(struct trax_mesh *mesh, const struct trax_import_optio
   return TRAX_OK;
 }
 
-static void add_report(struct trax_import_report *total, const struct trax_import_report *part) {
+void scene_add_report(struct trax_import_report *total, const struct trax_import_report *part) {
   total->source_triangles += part->source_triangles;
   total->degenerate += part->degenerate;
   total->nonfinite += part->nonfinite;
@@ -370,7 +370,7 @@ trax_status scene_import_meshes(struct trax_mesh *mesh, const char *const *paths
     trax_mesh_release(&part);
     if (result != TRAX_OK)
       break;
-    add_report(total, &part_report);
+    scene_add_report(total, &part_report);
   }
   if (result != TRAX_OK)
     trax_mesh_release(mesh);
