@@ -228,6 +228,10 @@ class Stories(Scratch):
                                  (part, story["place"]))
             self.assertEqual([story["cycles"], story["begin"]], [sum(expected), columns[".begin"][story["place"]]])
             self.assertLess(len(story["time"]), 97)
+            begin = story["begin"]
+            for ray in story["rays"]:  # one begins where the one before ended
+                self.assertEqual(ray[1], begin, ("begin", story["place"]))
+                begin += sum(ray[2:])
             rays = data["rays"][story["place"]]
             self.assertEqual([(ray[0], sum(ray[2:]), ray[2]) for ray in story["rays"][1:]],
                              [(ray["kind"], ray["cycles"], ray["instructions"]) for ray in rays])
