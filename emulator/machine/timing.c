@@ -18,23 +18,11 @@ struct trax_timing trax_timing_of(trax_op op, const struct trax_config *C) {
   switch (trax_class_of(op)) {
 #define CLASS(ID, UNIT, FLAG, ASKS, WORDS, LATENCY, INTERVAL, CAUSE, ...)                                              \
   case TRAX_CLASS_##ID:                                                                                                \
-    return (struct trax_timing){ASKS, LATENCY, TRAX_CAUSE_##CAUSE};
+    return (struct trax_timing){ASKS, LATENCY, INTERVAL, TRAX_CAUSE_##CAUSE};
     TRAX_CLASSES(CLASS)
 #undef CLASS
   default:
-    return (struct trax_timing){TRAX_SHARED_NONE, C->tp.int_latency_cycles, TRAX_CAUSE_DATA_OTHER};
-  }
-}
-
-uint32_t trax_occupies(trax_op op, const struct trax_config *C) {
-  switch (trax_class_of(op)) {
-#define CLASS(ID, UNIT, FLAG, ASKS, WORDS, LATENCY, INTERVAL, ...)                                                     \
-  case TRAX_CLASS_##ID:                                                                                                \
-    return INTERVAL;
-    TRAX_CLASSES(CLASS)
-#undef CLASS
-  default:
-    return 1;
+    return (struct trax_timing){TRAX_SHARED_NONE, C->tp.int_latency_cycles, 1, TRAX_CAUSE_DATA_OTHER};
   }
 }
 
@@ -44,9 +32,11 @@ bool trax_lacks_unit(trax_op op, const struct trax_config *config) {
 }
 
 bool trax_always_free(trax_shared unit, const struct trax_config *config) {
-  for (trax_op op = 0; op < TRAX_OP_COUNT; op++)
-    if (trax_timing_of(op, config).unit == unit && trax_occupies(op, config) > 1)
+  for (trax_op op = 0; op < TRAX_OP_COUNT; op++) {
+    const struct trax_timing timing = trax_timing_of(op, config);
+    if (timing.unit == unit && timing.interval > 1)
       return false;
+  }
   return true;
 }
 
@@ -88,9 +78,11 @@ double trax_shared_cycles(trax_shared unit, const struct trax_config *config, co
   if (trax_always_free(unit, config))
     return (double)operations;
   double cycles = 0;
-  for (trax_op op = 0; op < TRAX_OP_COUNT; op++)
-    if (trax_timing_of(op, config).unit == unit)
-      cycles += (double)stats->instructions[op] * trax_occupies(op, config);
+  for (trax_op op = 0; op < TRAX_OP_COUNT; op++) {
+    const struct trax_timing timing = trax_timing_of(op, config);
+    if (timing.unit == unit)
+      cycles += (double)stats->instructions[op] * timing.interval;
+  }
   return cycles;
 }
 

@@ -11,14 +11,13 @@ trax_class trax_class_of(trax_op op);
 
 /* The timing of an instruction that does not access memory. */
 struct trax_timing {
-  trax_shared unit; /* the shared unit that it needs, or TRAX_SHARED_NONE */
-  uint32_t latency; /* cycles */
-  trax_cause cause; /* of a wait for the result */
+  trax_shared unit;  /* the shared unit that it needs, or TRAX_SHARED_NONE */
+  uint32_t latency;  /* cycles */
+  uint32_t interval; /* the number of cycles for which it takes that unit */
+  trax_cause cause;  /* of a wait for the result */
 };
 
 struct trax_timing trax_timing_of(trax_op op, const struct trax_config *config);
-/* Returns the number of cycles for which an instruction takes the shared unit that it needs. */
-uint32_t trax_occupies(trax_op op, const struct trax_config *config);
 /* Whether an instruction needs a shared unit of which the machine has none: it is illegal there. */
 bool trax_lacks_unit(trax_op op, const struct trax_config *config);
 

@@ -76,8 +76,8 @@ static void note_result(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t
   if (trax_ref_accesses_local(tp))
     trax_ref_result(tp, t + tm->config->tp.local_latency_cycles, TRAX_CAUSE_DATA_LOCAL);
   else if (!trax_ref_accesses_memory(tp)) {
-    const struct trax_timing timing = trax_ref_timing(tm, tp);
-    trax_ref_result(tp, t + timing.latency, timing.cause);
+    const struct trax_timing *timing = trax_ref_timing(tm, tp);
+    trax_ref_result(tp, t + timing->latency, timing->cause);
   }
 }
 

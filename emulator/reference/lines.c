@@ -17,8 +17,13 @@ void trax_ref_lines_destroy(struct trax_ref_lines *lines) {
   free(lines->pointer);
 }
 
+/* There is a power of two of sets. */
+static uint32_t set_of(const struct trax_ref_lines *lines, uint32_t line) {
+  return line & (lines->sets - 1);
+}
+
 static struct trax_ref_line *find(const struct trax_ref_lines *lines, uint32_t line) {
-  struct trax_ref_line *set = &lines->line[(size_t)(line % lines->sets) * lines->ways];
+  struct trax_ref_line *set = &lines->line[(size_t)set_of(lines, line) * lines->ways];
   for (uint32_t way = 0; way < lines->ways; way++)
     if (set[way].present && set[way].number == line)
       return &set[way];
@@ -75,6 +80,6 @@ uint32_t trax_ref_lines_drop(struct trax_ref_lines *lines) {
 }
 
 void trax_ref_lines_install(struct trax_ref_lines *lines, uint32_t line) {
-  const uint32_t set = line % lines->sets, way = choose(lines, set);
+  const uint32_t set = set_of(lines, line), way = choose(lines, set);
   lines->line[(size_t)set * lines->ways + way] = (struct trax_ref_line){true, line, ++lines->uses};
 }

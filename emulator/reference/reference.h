@@ -105,6 +105,7 @@ struct trax_ref_tm {
   struct trax_machine *machine;
   FILE *output; /* the guest's, or NULL */
   struct trax_timing timing[TRAX_OP_COUNT]; /* as of trax_timing_of */
+  struct trax_shared_kind kind[TRAX_SHARED_COUNT];
   struct trax_ref_tp tp[MOST];
   struct trax_ref_icache icache[MOST];
   struct trax_ref_group group[TRAX_SHARED_COUNT][MOST];
@@ -181,6 +182,11 @@ static inline bool trax_ref_accesses_local(const struct trax_ref_tp *tp) {
   return trax_ref_accesses_memory(tp) && tp->address >= TRAX_LOCAL_BASE && !trax_ref_is(tp, TRAX_IS_ATOMIC);
 }
 
+/* Of an instruction that does not access memory. */
+static inline const struct trax_timing *trax_ref_timing(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp) {
+  return &tm->timing[tp->inst.op];
+}
+
 /* halt and the exit trap. */
 static inline bool trax_ref_ends_thread(const struct trax_ref_tp *tp) {
   return tp->inst.op == TRAX_OP_HALT || (tp->inst.op == TRAX_OP_TRAP && tp->inst.imm == TRAX_TRAP_EXIT);
@@ -227,8 +233,6 @@ void trax_ref_result(struct trax_ref_tp *tp, uint64_t cycle, trax_cause cause);
 
 /* --- Units: units.c --- */
 void trax_ref_grant_units(struct trax_ref_tm *tm, uint64_t t);
-/* The unit and the latency of the TP's instruction, which must not access memory. */
-struct trax_timing trax_ref_timing(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp);
 
 /* --- Data cache: data_cache.c --- */
 void trax_ref_grant_data_banks(struct trax_ref_tm *tm, uint64_t t);

@@ -13,6 +13,8 @@ static bool create_tm(struct trax_ref_tm *tm, uint32_t number, struct trax_machi
   tm->config = config;
   for (trax_op op = 0; op < TRAX_OP_COUNT; op++)
     tm->timing[op] = trax_timing_of(op, config);
+  for (trax_shared unit = 0; unit < TRAX_SHARED_COUNT; unit++)
+    tm->kind[unit] = trax_shared_kind(unit, config);
   tm->machine = machine;
   tm->output = output;
   tm->stats = &machine->tm_stats[number];

@@ -1,10 +1,6 @@
 /* docs/timing.md, "Units": step 3, except for the data cache's banks. */
 #include "reference/reference.h"
 
-struct trax_timing trax_ref_timing(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp) {
-  return tm->timing[tp->inst.op];
-}
-
 static void charge_losers(struct trax_ref_tm *tm, const bool *asks, uint64_t t, trax_cause cause) {
   for (uint32_t i = 0; i < tm->tps; i++)
     if (asks[i])
@@ -23,7 +19,7 @@ static void grant_group(struct trax_ref_tm *tm, const struct trax_shared_kind *k
       break;
     const struct trax_ref_tp *tp = &tm->tp[first + (uint32_t)winner];
     asks[tp->number] = false;
-    group->free_from[unit] = t + trax_occupies(tp->inst.op, tm->config);
+    group->free_from[unit] = t + trax_ref_timing(tm, tp)->interval;
   }
 }
 
@@ -31,11 +27,11 @@ void trax_ref_grant_units(struct trax_ref_tm *tm, uint64_t t) {
   bool asks[TRAX_SHARED_COUNT + 1][MOST] = {{false}};
   for (uint32_t i = 0; i < tm->tps; i++)
     if (trax_ref_active(&tm->tp[i]))
-      asks[trax_ref_timing(tm, &tm->tp[i]).unit][i] = true;
+      asks[trax_ref_timing(tm, &tm->tp[i])->unit][i] = true;
   for (trax_shared unit = 0; unit < TRAX_SHARED_COUNT; unit++) {
-    const struct trax_shared_kind kind = trax_shared_kind(unit, tm->config);
-    for (uint32_t i = 0; i < kind.groups; i++)
-      grant_group(tm, &kind, &tm->group[unit][i], i * kind.group_size, asks[unit], t);
-    charge_losers(tm, asks[unit], t, kind.refused);
+    const struct trax_shared_kind *kind = &tm->kind[unit];
+    for (uint32_t i = 0; i < kind->groups; i++)
+      grant_group(tm, kind, &tm->group[unit][i], i * kind->group_size, asks[unit], t);
+    charge_losers(tm, asks[unit], t, kind->refused);
   }
 }

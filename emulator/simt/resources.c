@@ -24,7 +24,7 @@ static uint64_t grant_group(struct trax_simt_tm *tm, trax_shared unit, const str
     if (group->free_from[i] > t)
       continue;
     const uint64_t winner = trax_simt_arbitrate(&group->pointer, asks & ~won, first, n);
-    group->free_from[i] = t + trax_occupies(trax_simt_speaker(tm, winner)->inst.op, ref->config);
+    group->free_from[i] = t + trax_ref_timing(ref, trax_simt_speaker(tm, winner))->interval;
     won |= winner;
   }
   return won;
@@ -41,15 +41,15 @@ void trax_simt_grant_units(struct trax_simt_tm *tm, uint64_t t) {
   for (trax_shared unit = 0; unit < TRAX_SHARED_COUNT; unit++) {
     if (!asks[unit])
       continue;
-    const struct trax_shared_kind kind = trax_shared_kind(unit, tm->ref->config);
+    const struct trax_shared_kind *kind = &tm->ref->kind[unit];
     uint64_t lost = 0;
     for (uint64_t left = asks[unit]; left;) {
-      const uint32_t number = trax_simt_first(left) / kind.group_size;
-      const uint64_t asking = left & trax_simt_lanes(number * kind.group_size, kind.group_size);
-      lost |= asking & ~grant_group(tm, unit, &kind, number, asking, t);
+      const uint32_t number = trax_simt_first(left) / kind->group_size;
+      const uint64_t asking = left & trax_simt_lanes(number * kind->group_size, kind->group_size);
+      lost |= asking & ~grant_group(tm, unit, kind, number, asking, t);
       left &= ~asking;
     }
-    charge_active(tm, lost, t, kind.refused);
+    charge_active(tm, lost, t, kind->refused);
   }
 }
 

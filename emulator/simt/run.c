@@ -19,8 +19,8 @@ static void create_tm(struct trax_simt_tm *tm, struct trax_ref_tm *ref, const st
   }
   tm->wakes = TRAX_NEVER;
   for (trax_shared unit = 0; unit < TRAX_SHARED_COUNT; unit++) {
-    const struct trax_shared_kind kind = trax_shared_kind(unit, ref->config);
-    tm->refuses[unit] = kind.per_group < kind.group_size || !trax_always_free(unit, ref->config);
+    const struct trax_shared_kind *kind = &ref->kind[unit];
+    tm->refuses[unit] = kind->per_group < kind->group_size || !trax_always_free(unit, ref->config);
   }
 }
 

@@ -35,7 +35,7 @@ MUTANTS = [
     # --- Units ---
     ("reference/operands.c", " || trax_lacks_unit(tp->inst.op, tm->config);", ";"),
     ("reference/units.c", "if (group->free_from[unit] > t)", "if (group->free_from[unit] > t + 1)"),
-    ("reference/units.c", "t + trax_occupies(", "t + 1 + trax_occupies("),
+    ("reference/units.c", "t + trax_ref_timing(tm, tp)->interval", "t + 1 + trax_ref_timing(tm, tp)->interval"),
     ("reference/units.c", "unit < kind->per_group; unit++", "unit < kind->per_group && unit < 1; unit++"),
     # The table, which both engines read: tests with numbers of their own notice.
     ("machine/units.h", "X(FP_COMPARE, FP_ADD, TRAX_IS_COMPARE, C->fpu.compare_units ?",

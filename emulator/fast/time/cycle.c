@@ -302,8 +302,8 @@ static uint64_t grant_any(struct trax_tm *tm, struct trax_shared_unit *unit, uin
     for (uint32_t i = 0; i < kind->per_group && all & ~winners; i++)
       if (free_from[i] <= t) {
         const uint64_t winner = trax_arbiter_grant(&unit->arbiter[group], all & ~winners, 1);
-        free_from[i] =
-            t + trax_occupies((trax_op)trax_fast_head_timing(tm, trax_first(winner))->decoded->op, tm->config);
+        const trax_op op = (trax_op)trax_fast_head_timing(tm, trax_first(winner))->decoded->op;
+        free_from[i] = t + trax_timing_of(op, tm->config).interval;
         winners |= winner;
       }
   }
