@@ -201,7 +201,7 @@ __TRAX_INLINE int pthread_create(pthread_t *thread, const pthread_attr_t *attrib
 __TRAX_INLINE int pthread_join(pthread_t thread, void **value) {
   int result;
   const int status = __trax_thread_error(thrd_join(thread, &result));
-  if (value)
+  if (value && !status)
     *value = (void *)(long)result;
   return status;
 }
