@@ -1,14 +1,14 @@
 """The machines of a comparison of MIMD with SIMD: the sweeps whose names are below. Of each machine the best of the
 programs that were tried counts, for each workload the one with the most rays, mean of the scenes. Their chips are one
 TM, with a share of the bandwidth as its area has a share of a chip's: so rays for each mm2 are those of chips of one
-area and one bandwidth. Pictures of different sizes are not compared with each other."""
+area and one bandwidth. Of each workload the largest pictures count that both kinds of machines have rendered."""
 
 import math
 
 from .results import mean, ratio
 from .sweeps import geometric_mean
 
-SWEEPS = ("simd", "simd-coherent", "simd-units", "simd-large", "simd-large-coherent", "simd-large-units")
+SWEEPS = ("simd", "simd-coherent", "simd-units")
 PAPERS_ICACHE = 4096  # bytes
 COHERENT = ("primary-shadow", "near")  # workloads without secondary rays
 RULE = ("with every workload of secondary rays, warps of 8 to 32 lanes have fewer rays per mm\u00b2 than MIMD, by the "
@@ -71,7 +71,7 @@ class Machine:
         return dict.fromkeys(kind for run in self.runs.get(self.program, []) for kind in run.kinds())
 
 
-def machines(results):
+def _by_size(results):
     """By workload and size, large pictures first, the machines of the sweeps; a machine without a program measured on
     all scenes is left out."""
     runs = {run.index: run for sweep in SWEEPS for run in results.of_sweep(sweep)}
@@ -92,10 +92,10 @@ def machines(results):
     return {place: groups[place] for place in sorted(known, key=lambda one: (order.index(one[0]), -one[1][0]))}
 
 
-def at_true_size(results):
-    """By workload, the machines with the largest pictures that both kinds of machines have rendered."""
+def machines(results):
+    """The machines by workload."""
     found = {}
-    for (workload, _), some in machines(results).items():
+    for (workload, _), some in _by_size(results).items():
         if papers(some) and any(machine.lanes > 1 for machine in some):
             found.setdefault(workload, some)
     return found
@@ -127,13 +127,13 @@ def mean_times(machine, base, name, per):
 
 def tried(results, program):
     """Whether the paper's machine ran the program."""
-    return any(program in papers(some).runs for some in at_true_size(results).values())
+    return any(program in papers(some).runs for some in machines(results).values())
 
 
 def lanes_in_use(results):
     """(share of 32 lanes in use by primary and shadow rays, the program with the most); (None, "") if it is not known.
     With units that lanes do not share, so that nothing but divergence leaves lanes unused."""
-    wide = [machine for machine in at_true_size(results).get(COHERENT[0], [])
+    wide = [machine for machine in machines(results).get(COHERENT[0], [])
             if machine.lanes == 32 and machine.own_units and machine.icache == PAPERS_ICACHE]
     shares = [(share, name) for machine in wide for name in machine.runs
               if (share := mean(machine.of(name, "simt.efficiency").values())) is not None]
@@ -143,7 +143,7 @@ def lanes_in_use(results):
 def judged(results):
     """The paper's claim: (holds, finding); holds is None if it is not known."""
     secondary, coherent = [], []
-    for workload, some in at_true_size(results).items():
+    for workload, some in machines(results).items():
         base = papers(some)
         for machine in some:
             if machine.lanes >= 8 and machine.icache == PAPERS_ICACHE:

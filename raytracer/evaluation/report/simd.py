@@ -1,7 +1,6 @@
 """The tables and figures of MIMD against SIMD."""
 
-from .machines import (PAPERS_ICACHE, PER_AREA, PER_WATT, at_true_size, half_of_times, machines, mean_times, papers,
-                       times)
+from .machines import PAPERS_ICACHE, PER_AREA, PER_WATT, half_of_times, machines, mean_times, papers, times
 from .plots import Lines, Series
 from .sweeps import geometric_mean
 from .table import Cell, Table, duration, figure, number, share, words
@@ -25,21 +24,16 @@ def _interval(machine, base, name, per):
     return figure(geometric_mean(found), below=below)
 
 
-def _size(size):
-    return words("{}x{}".format(*size))
-
-
 def best_table(results):
-    columns = [("workload", "t"), ("size", "t"), ("machine", "t"), ("program", "t"), ("MRPS", "n"), ("mm\u00b2", "n"),
+    columns = [("workload", "t"), ("machine", "t"), ("program", "t"), ("MRPS", "n"), ("mm\u00b2", "n"),
                ("MRPS/mm\u00b2", "n"), ("W", "n"), ("MRPS/W", "n"), ("lanes in use", "n"),
                ("MRPS/mm\u00b2 over MIMD's", "n"), ("MRPS/W over MIMD's", "n"), ("processor time", "n")]
     rows = []
-    for (workload, size), some in machines(results).items():
+    for workload, some in machines(results).items():
         base = papers(some)
         for machine in some:
             rows.append([
                 words(workload),
-                _size(size),
                 words(machine.name),
                 words(machine.program),
                 figure(machine.mean("mrps")),
@@ -64,16 +58,16 @@ def kinds_table(results):
     found = machines(results)
     names = list(dict.fromkeys(machine.name for some in found.values() for machine in some if not machine.is_papers))
     rows = []
-    for (workload, size), some in found.items():
+    for workload, some in found.items():
         base = papers(some)
         for kind in base.kinds() if base else ():
             name = f"values.rays.{kind}.mrps"
             own = {machine.name: machine for machine in some}
-            rows.append([words(workload), _size(size), words(kind), figure(base.mean(name, "values.area_units"))] + [
+            rows.append([words(workload), words(kind), figure(base.mean(name, "values.area_units"))] + [
                 _interval(own[other], base, name, "values.area_units") if other in own else Cell(None)
                 for other in names
             ])
-    columns = [("workload", "t"), ("size", "t"), ("kind", "t"), ("MIMD: MRPS/mm\u00b2", "n"),
+    columns = [("workload", "t"), ("kind", "t"), ("MIMD: MRPS/mm\u00b2", "n"),
                *((name, "n") for name in names)]
     return Table(
         "simd-kinds", "Rays of a kind for each mm\u00b2, over MIMD's", columns, rows,
@@ -84,7 +78,7 @@ def kinds_table(results):
 def _curves(results, identity, title, figure_of):
     series = []
     ticks = [(lanes, str(lanes)) for lanes in (1, 4, 8, 16, 32)]
-    for index, (workload, some) in enumerate(at_true_size(results).items()):
+    for index, (workload, some) in enumerate(machines(results).items()):
         base = papers(some)
         points = [(1, 1.0, f"{workload}, MIMD: 1")]
         for machine in some:
