@@ -251,6 +251,8 @@ int main(void) {
   make_treelets(&state);
   for (unsigned first = 0; first < state.frame->slot_count; first += WAVE) {
     unsigned left = state.frame->slot_count - first, count;
+    if (first > 0)
+      barrier(&state.stage); /* all have seen that no ray of the last wave is queued */
     start_rays(&state, first, left < WAVE ? left : WAVE);
     while ((count = queued[state.round % 3]) > 0) {
       sort(&state);

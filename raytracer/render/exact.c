@@ -2,10 +2,8 @@
 
 #include "double2.h"
 #include "placed.h"
-#include "rtc_query.h"
 
 #include <gmp.h>
-#include <string.h>
 
 /* --- with bounds on the errors --- */
 
@@ -36,8 +34,7 @@ static struct bounded long_volume(const struct double2_3 *a, const struct double
 }
 
 static struct bounded sum_of(const struct bounded edge[3]) {
-  return (struct bounded){edge[0].value + edge[1].value + edge[2].value,
-                          edge[0].error + edge[1].error + edge[2].error};
+  return (struct bounded){edge[0].value + edge[1].value + edge[2].value, edge[0].error + edge[1].error + edge[2].error};
 }
 
 /* Whether the sign is known. A value within its error may have either sign. */
@@ -45,11 +42,8 @@ static bool is_certain(struct bounded value) {
   return fabs(value.value) > value.error;
 }
 
-/* Distance and weights are within this of their values, as quotients. */
-#define DISTANCE_ERROR 0x1p-32
-
 static bool is_precise(struct bounded value) {
-  return value.error <= 0.25 * DISTANCE_ERROR * fabs(value.value);
+  return value.error <= 0.25 * EXACT_DISTANCE_ERROR * fabs(value.value);
 }
 
 enum answer { MISSED, HIT, UNCERTAIN };
@@ -81,7 +75,7 @@ struct rational3 {
   mpq_t x, y, z;
 };
 
-/* The distance is that of the plane; false: the ray runs along it. */
+/* A ray and a triangle, relative to the ray's origin. */
 struct rational_triangle {
   struct rational3 direction, vertex[3], scratch;
   mpq_t volume[3], determinant, scaled, product;
@@ -120,7 +114,7 @@ static void rational_volume(struct rational_triangle *r, mpq_t sum, struct ratio
     }
 }
 
-/* place += the instance's image of a corner, without the corner itself */
+/* place = the coordinate of the instance's image of a corner */
 static void rational_place(struct rational_triangle *r, mpq_t place, const struct trax_instance *instance,
                            const float *corner, int axis) {
   mpq_set_d(place, (double)instance->origin[axis]);
@@ -139,10 +133,12 @@ static void rational_set(struct rational_triangle *r, const struct trax_triangle
     mpq_set_d(r->product, from[axis]);
     mpq_set_d(*component(&r->direction, axis), towards[axis]);
     for (int i = 0; i < 3; i++) {
-      mpq_set_d(*component(&r->vertex[i], axis), (double)corner[i][axis]);
+      mpq_t *place = component(&r->vertex[i], axis);
       if (instance)
-        rational_place(r, *component(&r->vertex[i], axis), instance, corner[i], axis);
-      mpq_sub(*component(&r->vertex[i], axis), *component(&r->vertex[i], axis), r->product);
+        rational_place(r, *place, instance, corner[i], axis);
+      else
+        mpq_set_d(*place, (double)corner[i][axis]);
+      mpq_sub(*place, *place, r->product);
     }
   }
   mpq_set_ui(r->determinant, 0, 1);
@@ -153,7 +149,7 @@ static void rational_set(struct rational_triangle *r, const struct trax_triangle
   rational_volume(r, r->scaled, &r->vertex[0], &r->vertex[2], &r->vertex[1]);
 }
 
-/* The same as exact_triangle. */
+/* Whether the ray hits the triangle; if so, *distance receives the distance. */
 static bool rational_triangle(const struct trax_triangle *triangle, const struct trax_instance *instance,
                               struct double3 origin, struct double3 direction, struct exact_hit *hit, mpq_t distance) {
   struct rational_triangle r;
@@ -312,158 +308,23 @@ bool exact_placed(const struct trax_scene *scene, uint32_t number, struct double
   return found;
 }
 
-/* --- Embree's callbacks --- */
-
-struct query {
-  rtc_context context; /* first: Embree hands its address back */
-  struct double3 origin, direction;
-  double limit;
-  struct exact_hit hit;
-  bool found;
-};
-
-static void bounds(const struct RTCBoundsFunctionArguments *arguments) {
-  const struct exact_part *part = arguments->geometryUserPtr;
-  const struct trax_scene *source = part->source;
-  const struct trax_triangle *t = &source->triangles[part->first + arguments->primID];
-  struct RTCBounds *box = arguments->bounds_o;
-  float *low = &box->lower_x, *high = &box->upper_x;
-  for (int i = 0; i < 3; i++) {
-    /* Room for the rounding of a ray's origin to floats. */
-    const float size = fmaxf(fabsf(source->header->bounds_min[i]), fabsf(source->header->bounds_max[i]));
-    const float own = 0x1p-20f * fmaxf(size, source->header->bounds_max[i] - source->header->bounds_min[i]);
-    const float room = source->instances ? part->room : own;
-    low[i] = fminf(fminf(t->v0[i], t->v1[i]), t->v2[i]) - room;
-    high[i] = fmaxf(fmaxf(t->v0[i], t->v1[i]), t->v2[i]) + room;
+int exact_order(const struct trax_scene *scene, uint32_t number, uint32_t other, struct double3 origin,
+                struct double3 direction) {
+  struct placed_triangle placed[2];
+  const struct trax_triangle *triangles[2];
+  struct exact_hit ignored;
+  mpq_t distances[2];
+  for (int i = 0; i < 2; i++) {
+    trax_place(&placed[i], scene, i ? other : number);
+    triangles[i] = &scene->triangles[placed[i].stored];
   }
-}
-
-/* The same order as in device/triangle.h. */
-static int compare_corners(const struct trax_triangle *triangle, const struct trax_triangle *other) {
-  uint32_t words[9], other_words[9];
-  memcpy(words, triangle, sizeof words);
-  memcpy(other_words, other, sizeof other_words);
-  for (int i = 0; i < 9; i++)
-    if (words[i] != other_words[i])
-      return words[i] < other_words[i] ? -1 : 1;
-  return 0;
-}
-
-static bool comes_first(const struct trax_triangle *triangle, const struct trax_triangle *other) {
-  const int order = compare_corners(triangle, other);
-  return order ? order < 0 : triangle < other;
-}
-
-/* The number of the triangle that Embree's ray meets. */
-static uint32_t number_of(const struct exact_part *part, const struct query *query, uint32_t primitive) {
-  return part->source->instances ? part->source->instances[query->context.instID[0]].first_number + primitive
-                                 : primitive;
-}
-
-/* Of equal distances, the first by the bits of the vertices in the scene, as on the device. */
-static bool placed_is_nearer(const struct query *query, const struct trax_scene *source, const struct exact_hit *hit,
-                             const struct exact_hit *other) {
-  struct placed_triangle placed, rival;
-  struct exact_hit ignored;
-  mpq_t distance, other_distance;
-  trax_place(&placed, source, hit->triangle);
-  trax_place(&rival, source, other->triangle);
-  mpq_inits(distance, other_distance, NULL);
-  rational_triangle(&source->triangles[placed.stored], placed.instance, query->origin, query->direction, &ignored,
-                    distance);
-  rational_triangle(&source->triangles[rival.stored], rival.instance, query->origin, query->direction, &ignored,
-                    other_distance);
-  const int order = mpq_cmp(distance, other_distance),
-            bits = order ? order : compare_corners(&placed.triangle, &rival.triangle);
-  mpq_clears(distance, other_distance, NULL);
-  if (bits)
-    return bits < 0;
-  return placed.instance == rival.instance ? placed.stored < rival.stored
-                                           : placed.instance->first_source < rival.instance->first_source;
-}
-
-/* Whether the first of two triangles that are hit is nearer. Of equal distances, the one that comes first is. */
-static bool is_nearer(const struct query *query, const struct trax_scene *source, const struct exact_hit *hit,
-                      const struct exact_hit *other) {
-  if (fabs(hit->distance - other->distance) > 2 * DISTANCE_ERROR * (hit->distance + other->distance))
-    return hit->distance < other->distance;
-  if (source->instances)
-    return placed_is_nearer(query, source, hit, other);
-  const struct trax_triangle *triangle = &source->triangles[hit->triangle],
-                             *rival = &source->triangles[other->triangle];
-  for (int axis = 0; axis < 3; axis++)
-    if (lies_at(triangle, axis, triangle->v0[axis]) && lies_at(rival, axis, triangle->v0[axis]))
-      return comes_first(triangle, rival);
-  struct exact_hit ignored;
-  mpq_t distance, other_distance;
-  mpq_inits(distance, other_distance, NULL);
-  rational_triangle(triangle, NULL, query->origin, query->direction, &ignored, distance);
-  rational_triangle(rival, NULL, query->origin, query->direction, &ignored, other_distance);
-  const int order = mpq_cmp(distance, other_distance);
-  mpq_clears(distance, other_distance, NULL);
-  return order < 0 || (order == 0 && comes_first(triangle, rival));
-}
-
-/* Embree's own ray, in floats, only rules out what is too far. Its end is set behind the hit. */
-static void nearest(const struct RTCIntersectFunctionNArguments *arguments) {
-  struct query *query = (struct query *)arguments->context;
-  const struct exact_part *part = arguments->geometryUserPtr;
-  const struct trax_scene *source = part->source;
-  struct exact_hit hit = {.triangle = number_of(part, query, arguments->primID)};
-  if (!arguments->valid[0] || !exact_placed(source, hit.triangle, query->origin, query->direction, &hit) ||
-      (query->found && !is_nearer(query, source, &hit, &query->hit)))
-    return;
-  query->found = true;
-  query->hit = hit;
-  query->limit = hit.distance;
-  struct RTCRayHit *ray = (struct RTCRayHit *)(void *)arguments->rayhit;
-  ray->ray.tfar = (float)(hit.distance * (1 + 0x1p-20));
-  ray->hit.geomID = arguments->geomID;
-  ray->hit.primID = arguments->primID;
-}
-
-static void any(const struct RTCOccludedFunctionNArguments *arguments) {
-  struct query *query = (struct query *)arguments->context;
-  const struct exact_part *part = arguments->geometryUserPtr;
-  const struct trax_scene *source = part->source;
-  struct exact_hit hit = {.triangle = number_of(part, query, arguments->primID)};
-  if (!arguments->valid[0] || !exact_placed(source, hit.triangle, query->origin, query->direction, &hit) ||
-      hit.distance >= query->limit)
-    return;
-  query->found = true;
-  ((struct RTCRay *)(void *)arguments->ray)->tfar = -INFINITY;
-}
-
-bool exact_attach(RTCDevice device, RTCScene scene, const struct exact_part *part) {
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-  if (!geometry)
-    return false;
-  rtcSetGeometryUserPrimitiveCount(geometry, part->count);
-  rtcSetGeometryUserData(geometry, (void *)part);
-  rtcSetGeometryBoundsFunction(geometry, bounds, NULL);
-  rtcSetGeometryIntersectFunction(geometry, nearest);
-  rtcSetGeometryOccludedFunction(geometry, any);
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene, geometry);
-  rtcReleaseGeometry(geometry);
-  return true;
-}
-
-static struct RTCRay ray_of(const struct query *query) {
-  return rtc_ray(query->origin, query->direction, (float)(query->limit * (1 + 0x1p-20)));
-}
-
-bool exact_nearest(RTCScene scene, struct double3 origin, struct double3 direction, struct exact_hit *hit) {
-  struct query query = {.origin = origin, .direction = direction, .limit = INFINITY};
-  struct RTCRayHit ray = {.ray = ray_of(&query), .hit = {.geomID = RTC_INVALID_GEOMETRY_ID}};
-  rtc_intersect(scene, &query.context, &ray);
-  *hit = query.hit;
-  return query.found;
-}
-
-bool exact_any(RTCScene scene, struct double3 origin, struct double3 direction, double limit) {
-  struct query query = {.origin = origin, .direction = direction, .limit = limit};
-  struct RTCRay ray = ray_of(&query);
-  rtc_occluded(scene, &query.context, &ray);
-  return query.found;
+  for (int axis = 0; axis < 3 && !scene->instances; axis++)
+    if (lies_at(triangles[0], axis, triangles[0]->v0[axis]) && lies_at(triangles[1], axis, triangles[0]->v0[axis]))
+      return 0;
+  mpq_inits(distances[0], distances[1], NULL);
+  for (int i = 0; i < 2; i++)
+    rational_triangle(triangles[i], placed[i].instance, origin, direction, &ignored, distances[i]);
+  const int order = mpq_cmp(distances[0], distances[1]);
+  mpq_clears(distances[0], distances[1], NULL);
+  return order;
 }

@@ -11,6 +11,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+/* Distance and weights are within this of their values, as quotients. */
+#define EXACT_DISTANCE_ERROR 0x1p-32
+
 struct exact_hit {
   uint32_t triangle; /* its number */
   double distance;   /* in units of the direction */
@@ -24,6 +27,8 @@ struct exact_part {
   float room; /* with instances: boxes are widened by it, for the rounding of the ray that Embree transforms */
 };
 
+/* exact_scene.c */
+
 /* Attaches the part's triangles. It must outlive the scene. False: out of memory. */
 bool exact_attach(RTCDevice device, RTCScene scene, const struct exact_part *part);
 
@@ -35,6 +40,8 @@ bool exact_nearest(RTCScene scene, struct double3 origin, struct double3 directi
 /* Whether there is any triangle at a distance above 0 and below `limit`. */
 bool exact_any(RTCScene scene, struct double3 origin, struct double3 direction, double limit);
 
+/* exact.c */
+
 /* Tests the triangle of a number (placed.h), which *hit has already. An instance's vertices are the products of its
    matrix and its mesh's vertices, without rounding. */
 bool exact_placed(const struct trax_scene *scene, uint32_t number, struct double3 origin, struct double3 direction,
@@ -43,5 +50,10 @@ bool exact_placed(const struct trax_scene *scene, uint32_t number, struct double
 /* Tests one triangle, whose number *hit has already. */
 bool exact_triangle(const struct trax_triangle *triangle, struct double3 origin, struct double3 direction,
                     struct exact_hit *hit);
+
+/* Below 0 if the ray meets the triangle `number`, which it hits, before `other`, which it hits, too; above 0: behind.
+ */
+int exact_order(const struct trax_scene *scene, uint32_t number, uint32_t other, struct double3 origin,
+                struct double3 direction);
 
 #endif

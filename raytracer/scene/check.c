@@ -258,6 +258,8 @@ trax_status trax_scene_check(struct trax_scene *scene, const void *bytes, size_t
                           .mesh_count = section_of(header, TRAX_SCENE_SECTIONS + TRAX_SCENE_MESHES).count};
   if (header->version == TRAX_SCENE_VERSION_INSTANCES && !(checker.view.instances && checker.view.meshes))
     return trax_fail(error, "%s: a file with instances has none", name);
+  if (checker.view.instances && checker.view.triangle_count == 0)
+    return trax_fail(error, "%s: instances without triangles", name);
   result = check_triangles(&checker);
   if (result == TRAX_OK)
     result = check_materials(&checker);

@@ -324,10 +324,12 @@ void scene_add_report(struct trax_import_report *total, const struct trax_import
   total->unread |= part->unread;
 }
 
-/* Leaves out instances of nothing, and gives all others triangles of their own if that is asked for. */
+/* Leaves out instances of nothing, and what no instance places. Gives all others triangles of their own if that is
+   asked for. */
 static trax_status place_instances(struct trax_mesh *mesh, const struct trax_import_options *options,
                                    struct trax_import_report *report, trax_error *error) {
-  scene_drop_empty_parts(mesh);
+  if (scene_drop_parts(mesh, error) != TRAX_OK)
+    return TRAX_ERROR;
   if (mesh->instance_count == 0 || !options->flatten)
     return TRAX_OK;
   trax_status result = scene_flatten_mesh(mesh, error);

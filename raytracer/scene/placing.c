@@ -168,29 +168,52 @@ trax_status scene_check_lamps(const struct trax_scene *scene, const char *name, 
       result = trax_fail(error, "%s: an instance emits light: lamps are placed once, where they are (--flatten)", name);
     lamps[instance->mesh] = lamps[instance->mesh] ? 2 : 0;
   }
+  for (uint32_t m = 0; m < scene->mesh_count && result == TRAX_OK; m++)
+    if (lamps[m] == 1)
+      result = trax_fail(error, "%s: mesh %u emits light and is placed nowhere", name, m);
   free(lamps);
   return result;
 }
 
 /* --- parts --- */
 
-void scene_drop_empty_parts(struct trax_mesh *mesh) {
-  uint32_t kept = 0, parts = 0;
+/* Moves the triangles of a part to the place of number `to`. */
+static void move_part(struct trax_mesh *mesh, const struct trax_mesh_part *part, uint32_t to) {
+  const size_t from = part->first_triangle, count = part->triangle_count;
+  memmove(mesh->triangles + to, mesh->triangles + from, count * sizeof *mesh->triangles);
+  if (mesh->normals)
+    memmove(mesh->normals + to, mesh->normals + from, count * sizeof *mesh->normals);
+  if (mesh->uvs)
+    memmove(mesh->uvs + to, mesh->uvs + from, count * sizeof *mesh->uvs);
+}
+
+trax_status scene_drop_parts(struct trax_mesh *mesh, trax_error *error) {
+  uint32_t kept = 0, parts = 0, triangles = 0;
+  uint32_t *numbers = calloc(mesh->part_count + (size_t)1, sizeof *numbers); /* 1: it is placed; then what it becomes */
+  if (!numbers)
+    return scene_out_of_memory(error, "instances");
   for (uint32_t i = 0; i < mesh->instance_count; i++)
-    if (mesh->parts[mesh->instances[i].part].triangle_count)
+    if (mesh->parts[mesh->instances[i].part].triangle_count) {
       mesh->instances[kept++] = mesh->instances[i];
+      numbers[mesh->instances[i].part] = 1;
+    }
   mesh->instance_count = kept;
-  uint32_t *numbers = malloc((mesh->part_count + (size_t)1) * sizeof *numbers);
-  for (uint32_t i = 0; i < mesh->part_count && numbers; i++) {
+  for (uint32_t i = 0; i < mesh->part_count; i++) {
+    if (!numbers[i])
+      continue;
+    move_part(mesh, &mesh->parts[i], triangles);
     numbers[i] = parts;
-    if (mesh->parts[i].triangle_count)
-      mesh->parts[parts++] = mesh->parts[i];
+    mesh->parts[parts] = mesh->parts[i];
+    mesh->parts[parts].first_triangle = triangles;
+    triangles += mesh->parts[parts++].triangle_count;
   }
-  for (uint32_t i = 0; i < kept && numbers; i++)
+  for (uint32_t i = 0; i < kept; i++)
     mesh->instances[i].part = numbers[mesh->instances[i].part];
-  if (numbers)
-    mesh->part_count = parts;
+  if (mesh->part_count)
+    mesh->triangle_count = triangles;
+  mesh->part_count = parts;
   free(numbers);
+  return TRAX_OK;
 }
 
 /* --- flattening --- */

@@ -14,7 +14,8 @@ float scene_stretch_of(const struct trax_instance *instance, const struct scene_
    its root. */
 struct scene_box scene_instance_box(const struct trax_scene *scene, const struct trax_instance *instance);
 
-/* Refuses lamps at more than one place, and lamps that are moved: shadow rays go to the triangles as they are stored.
+/* Refuses lamps at more than one place or at none, and lamps that are moved: shadow rays go to the triangles as they
+ * are stored.
  */
 trax_status scene_check_lamps(const struct trax_scene *scene, const char *name, trax_error *error);
 
@@ -35,8 +36,8 @@ trax_status scene_build_two_levels(struct trax_scene *scene, const struct trax_m
 trax_status scene_append_mesh(struct trax_mesh *mesh, struct trax_mesh *part, uint32_t first_source_id,
                               uint32_t part_sources, const char *path, trax_error *error);
 
-/* Removes instances of parts without triangles, and the parts. */
-void scene_drop_empty_parts(struct trax_mesh *mesh);
+/* Removes instances of parts without triangles, these parts, and those that no instance places. */
+trax_status scene_drop_parts(struct trax_mesh *mesh, trax_error *error);
 
 /* material.c: sets a material by what --material or --diffuse takes, without a name; false: it is neither. */
 bool scene_set_material(struct trax_material *surface, const char *what);

@@ -222,6 +222,27 @@ static void test_ties(void **state) {
   check("ties", &mesh, view_from(0.1f, 0.2f, 3, 0, 0, -1, 45, 2, 2, 2), PIXELS, false);
 }
 
+/* A lamp that is placed nowhere would light the scene unseen. */
+static void test_lamp_nowhere(void **state) {
+  (void)state;
+  struct trax_mesh mesh = {0};
+  struct trax_scene scene = {0};
+  trax_error error = {.message = ""};
+  mesh_sphere(&mesh, 1, 1, 0);
+  end_part(&mesh);
+  const uint32_t lamp = mesh_material(&mesh, 0, 0, 0);
+  mesh.materials[lamp].surface.emission[0] = 1;
+  mesh_box(&mesh, (float[]){-1, 2, -1}, (float[]){1, 3, 1}, lamp);
+  end_part(&mesh);
+  place(&mesh, 0, scaled(1, 1, 1));
+  assert_int_equal(trax_scene_build(&scene, &mesh, &(struct trax_build_options){.max_leaf = 2}, &error), TRAX_ERROR);
+  assert_non_null(strstr(error.message, "mesh 1 emits light and is placed nowhere"));
+  place(&mesh, 1, scaled(1, 1, 1));
+  build(&scene, &mesh, NULL);
+  trax_scene_release(&scene);
+  trax_mesh_release(&mesh);
+}
+
 /* Every word of a file, changed in several ways and sealed: it is refused with a reason, or renders. */
 static void test_sealed_changes(void **state) {
   (void)state;
@@ -271,8 +292,8 @@ static void test_sealed_changes(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_families), cmocka_unit_test(test_inside),         cmocka_unit_test(test_far_mesh),
-      cmocka_unit_test(test_ties),     cmocka_unit_test(test_sealed_changes),
+      cmocka_unit_test(test_families), cmocka_unit_test(test_inside),       cmocka_unit_test(test_far_mesh),
+      cmocka_unit_test(test_ties),     cmocka_unit_test(test_lamp_nowhere), cmocka_unit_test(test_sealed_changes),
   };
   return cmocka_run_group_tests_name("instances", tests, NULL, NULL);
 }

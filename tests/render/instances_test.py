@@ -10,6 +10,7 @@ import sys
 import struct
 import tempfile
 import time
+import zlib
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 import checking  # noqa: E402
@@ -212,6 +213,27 @@ def check_bad():
     check("several places" in done.stderr and not os.path.exists("x.npy"), done.stderr)
 
 
+def check_unplaced():
+    """What is placed nowhere leaves nothing in the file, not even light."""
+    write("lamp.mtl", "newmtl lamp\nKe 5 5 5\n")
+    write("lamp.obj", "mtllib lamp.mtl\nusemtl lamp\n", FLOOR)
+    for name, more in ("with", "mesh lamp lamp.obj\n"), ("without", ""):
+        write(f"{name}.instances", "mesh solid solid.obj\n", more, "place solid\n")
+        call("trax-scene", f"{name}.instances", "-q", "-o", f"{name}.trax")
+    check(pathlib.Path("with.trax").read_bytes() == pathlib.Path("without.trax").read_bytes(), "an unplaced lamp")
+
+
+def check_empty():
+    """A file with an instance of a mesh that is not there, and no triangle."""
+    sections = struct.pack("<4I", 256, 128, 1, 128) + struct.pack("<4I", 384, 64, 1, 64) + bytes(32)
+    instance = struct.pack("<32I", *[0] * 27, 0xFFFFFF, 0, 0, 0, 0)
+    data = struct.pack("<4I", 0x53585254, 3, 448, 0) + bytes(176) + sections + instance + bytes(64)
+    pathlib.Path("empty.trax").write_bytes(data[:12] + struct.pack("<I", zlib.crc32(data)) + data[16:])
+    for engine in "native", "embree":
+        done = call("trax-render", "empty.trax", "--engine", engine, "-q", "-o", "x.png", status=1)
+        check("empty.trax: instances without triangles" in done.stderr, done.stderr)
+
+
 def main():
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
@@ -224,6 +246,8 @@ def main():
         check_groups()
         check_gltf()
         check_bad()
+        check_unplaced()
+        check_empty()
         os.chdir("/")
     sys.exit(checking.failures > 0)
 

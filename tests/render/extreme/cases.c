@@ -540,8 +540,10 @@ const struct extreme_case *extreme_case(unsigned number) {
   const struct {
     const struct extreme_case *cases;
     unsigned count;
-  } lists[] = {
-      {cases, sizeof cases / sizeof *cases}, {range_cases, range_case_count}, {picture_cases, picture_case_count}};
+  } lists[] = {{cases, sizeof cases / sizeof *cases},
+               {range_cases, range_case_count},
+               {instance_cases, instance_case_count},
+               {picture_cases, picture_case_count}};
   for (unsigned i = 0; i < sizeof lists / sizeof *lists; number -= lists[i++].count)
     if (number < lists[i].count)
       return &lists[i].cases[number];

@@ -25,6 +25,10 @@ struct extreme_case {
 /* From 0; NULL behind the last one. */
 const struct extreme_case *extreme_case(unsigned number);
 
+/* instance_cases.c */
+extern const struct extreme_case instance_cases[];
+extern const unsigned instance_case_count;
+
 /* picture_cases.c */
 extern const struct extreme_case picture_cases[];
 extern const unsigned picture_case_count;

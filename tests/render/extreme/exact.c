@@ -19,28 +19,56 @@ struct bounds {
   double distance, distance_error; /* of the plane, as long as the answer is a mean of the vertices' distances */
 };
 
+/* The ray where a triangle's vertices are. In an instance's mesh each component is a sum of three products, of an
+   inverse that was rounded, and of a difference from the instance's origin: docs/instances.md has the bounds. */
+struct ray_at {
+  triple origin, direction;
+  double origin_error, direction_error;
+};
+
+static void ray_of(struct ray_at *out, const struct exact_scene *scene, const struct query_ray *ray,
+                   int direction_exponent, const struct exact_place *place) {
+  triple origin, direction;
+  for (int axis = 0; axis < 3; axis++) {
+    origin[axis] = ldexp((double)ray->origin[axis] - (place ? (double)place->matrix[axis][3] : 0), scene->exponent);
+    direction[axis] = ldexp((double)ray->direction[axis], direction_exponent);
+  }
+  *out = (struct ray_at){.origin_error = 0};
+  for (int axis = 0; axis < 3; axis++) {
+    double origin_size = 0, direction_size = 0;
+    for (int i = 0; i < 3; i++) {
+      const double factor = place ? place->inverse[axis][i] : axis == i;
+      out->origin[axis] += factor * origin[i], origin_size += fabs(factor * origin[i]);
+      out->direction[axis] += factor * direction[i], direction_size += fabs(factor * direction[i]);
+    }
+    out->origin_error = fmax(out->origin_error, place ? 5 * UNIT * origin_size : 0);
+    out->direction_error = fmax(out->direction_error, place ? 4 * UNIT * direction_size : 0);
+  }
+}
+
 static void bound(struct bounds *bounds, const struct exact_scene *scene, const struct query_ray *ray,
                   int direction_exponent, const struct exact_triangle *triangle, double hit) {
-  triple vertex[3], direction;
+  triple vertex[3];
   double error[3], size = 0;
   int w = 0;
-  for (int axis = 0; axis < 3; axis++) {
-    direction[axis] = ldexp((double)ray->direction[axis], direction_exponent);
+  struct ray_at at;
+  ray_of(&at, scene, ray, direction_exponent, triangle->place);
+  const double *direction = at.direction;
+  for (int axis = 0; axis < 3; axis++)
     if (fabs(direction[axis]) > fabs(direction[w]))
       w = axis;
-  }
   int u = (w + 1) % 3, v = (w + 2) % 3;
   for (int i = 0; i < 3; i++) {
     double farthest = 0;
     for (int axis = 0; axis < 3; axis++) {
-      double place = (double)triangle->vertex[i][axis] - (double)ray->origin[axis];
-      vertex[i][axis] = ldexp(place, scene->exponent);
+      vertex[i][axis] = ldexp((double)triangle->vertex[i][axis], scene->exponent) - at.origin[axis];
       farthest = fmax(farthest, fabs(vertex[i][axis]));
     }
     vertex[i][u] -= direction[u] / direction[w] * vertex[i][w];
     vertex[i][v] -= direction[v] / direction[w] * vertex[i][w];
     farthest = fmin(farthest, TRAX_REACH * hit * fabs(direction[w]));
-    error[i] = 14 * UNIT * farthest + 0x1p-147;
+    error[i] = 14 * UNIT * farthest + 0x1p-147 + 2 * at.origin_error +
+               2 * fabs(vertex[i][w]) * at.direction_error / fabs(direction[w]);
     size = fmax(size, farthest);
   }
   bounds->determinant = bounds->determinant_error = 0;
@@ -62,7 +90,9 @@ static void bound(struct bounds *bounds, const struct exact_scene *scene, const 
   }
   double amplified = certain > 0 ? spread / certain : INFINITY;
   bounds->distance = mean / direction[w];
-  bounds->distance_error = (fmin(amplified, widest) + 16 * UNIT * size) / fabs(direction[w]);
+  bounds->distance_error = (fmin(amplified, widest) + 16 * UNIT * size + 2 * at.origin_error +
+                            2 * fabs(mean) * at.direction_error / fabs(direction[w])) /
+                           fabs(direction[w]);
   if (certain > 0) /* the sum of products may be subnormal */
     bounds->distance_error += 0x1p-146 / certain;
 }

@@ -4,13 +4,31 @@
 #define TRAX_EXTREME_EXACT_H
 
 #include "query.h"
+#include "trax/scene.h"
 
 #include <stdbool.h>
 #include <stddef.h>
 
+/* Where an instance has its mesh: the point p is at matrix (p, 1). */
+struct exact_place {
+  float matrix[3][4];
+  double inverse[3][3]; /* rounded, of the first three columns */
+  double spread;        /* the further bound on where shadow rays start, by the distance (docs/instances.md) */
+};
+
 struct exact_triangle {
   float vertex[3][3];
+  const struct exact_place *place; /* NULL: the vertices are in the scene */
 };
+
+/* Sets both arrays, which the caller frees. Returns how many triangles there are: with instances those of each, in the
+   order of the file. */
+uint32_t exact_triangles(struct exact_triangle **triangles, struct exact_place **places,
+                         const struct trax_scene *scene);
+
+/* The number of the triangle that was hit among these, and that in the meshes as they were imported; -1: none. */
+int64_t exact_number(const struct trax_scene *scene, const struct query_answer *answer);
+int64_t exact_source(const struct trax_scene *scene, const struct query_answer *answer);
 
 /* Everything in the scene's own unit of length; the program worked on it scaled by 2^exponent (trax_normalise). */
 struct exact_scene {

@@ -67,7 +67,7 @@ static bool hides_nearby(struct exact_pair *pair, vector inward) {
 
 bool exact_sees_light(struct exact_pair *pair, const struct exact_scene *scene, const struct query_ray *ray,
                       uint32_t own, const mpq_t distance) {
-  /* All in units of 2^-149 / the distance's denominator, so that the point is whole. */
+  /* All in units of 2^-EXACT_BITS / the distance's denominator, so that the point is whole. */
   const mpz_srcptr unit = mpq_denref(distance), steps = mpq_numref(distance);
   mpz_t point[3], way[3], origin[3];
   triple point_about, way_about;
@@ -89,7 +89,7 @@ bool exact_sees_light(struct exact_pair *pair, const struct exact_scene *scene, 
       mpz_set(mpq_numref(value), which ? way[axis] : point[axis]);
       mpz_set(mpq_denref(value), unit);
       mpq_canonicalize(value);
-      mpq_div_2exp(value, value, 149);
+      mpq_div_2exp(value, value, EXACT_BITS);
       (which ? way_about : point_about)[axis] = mpq_get_d(value);
     }
     mpq_clear(value);
@@ -100,7 +100,7 @@ bool exact_sees_light(struct exact_pair *pair, const struct exact_scene *scene, 
   vector_init(inward);
   for (int axis = 0; axis < 3 && own != NO_TRIANGLE; axis++) { /* to the centre, three times as far */
     for (int corner = 0; corner < 3; corner++) {
-      exact_set_float(pair->sum, scene->triangles[own].vertex[corner][axis]);
+      exact_set_corner(pair, pair->sum, &scene->triangles[own], corner, axis);
       mpz_addmul(inward[axis], pair->sum, unit);
     }
     mpz_submul_ui(inward[axis], point[axis], 3);
@@ -113,7 +113,7 @@ bool exact_sees_light(struct exact_pair *pair, const struct exact_scene *scene, 
       continue;
     for (int axis = 0; axis < 3; axis++) {
       for (int corner = 0; corner < 3; corner++) {
-        exact_set_float(pair->vertex[corner][axis], triangle->vertex[corner][axis]);
+        exact_set_corner(pair, pair->vertex[corner][axis], triangle, corner, axis);
         mpz_mul(pair->vertex[corner][axis], pair->vertex[corner][axis], unit);
         mpz_sub(pair->vertex[corner][axis], pair->vertex[corner][axis], point[axis]);
       }
@@ -150,14 +150,19 @@ static double greatest(const triple a) {
 
 /* The device's own bound on the error of a point on a triangle (raytracer/device/shade.h). */
 static double offset_of(const struct exact_triangle *triangle, const triple eye, const triple way, bool exact) {
-  double place = 0, edge = 0;
+  double place = 0, edge = 0, away = 0;
+  triple corner[3];
+  for (int i = 0; i < 3; i++)
+    exact_corner(corner[i], triangle, i);
   for (int axis = 0; axis < 3; axis++) {
-    const double v0 = (double)triangle->vertex[0][axis];
+    const double v0 = corner[0][axis];
     place = fmax(place, fabs(v0));
-    for (int corner = 1; corner < 3; corner++)
-      edge = fmax(edge, fabs((double)triangle->vertex[corner][axis] - v0));
+    away = fmax(away, triangle->place ? fabs(v0 - (double)triangle->place->matrix[axis][3]) : 0);
+    for (int i = 1; i < 3; i++)
+      edge = fmax(edge, fabs(corner[i][axis] - v0));
   }
-  const double bound = place * 0x1p-22 + edge * 0x1p-17;
+  const double further = triangle->place ? triangle->place->spread * (away + edge) : 0;
+  const double bound = place * 0x1p-22 + edge * 0x1p-17 + further;
   return exact ? fmin(bound, greatest(eye) * 0x1p-22 + greatest(way) * 0x1p-19) : bound;
 }
 
@@ -169,7 +174,9 @@ bool exact_light_explained(struct exact_pair *pair, const struct exact_scene *sc
   const struct exact_triangle *own = &scene->triangles[answer->triangle];
   struct exact_scene there = *scene;
   struct query_ray shadow = {{0}, {0}};
-  triple eye, way, step, light, edge[2];
+  triple eye, way, step, light, edge[2], corner[3];
+  for (int i = 0; i < 3; i++)
+    exact_corner(corner[i], own, i);
   for (int axis = 0; axis < 3; axis++) {
     const float start = ldexpf(answer->origin[axis], -scene->exponent);
     if (ldexpf(start, scene->exponent) != answer->origin[axis])
@@ -180,7 +187,7 @@ bool exact_light_explained(struct exact_pair *pair, const struct exact_scene *sc
     step[axis] = (double)start - eye[axis] - way[axis];
     light[axis] = (double)scene->light[axis] - (double)start;
     for (int i = 0; i < 2; i++)
-      edge[i][axis] = (double)own->vertex[i + 1][axis] - (double)own->vertex[0][axis];
+      edge[i][axis] = corner[i + 1][axis] - corner[0][axis];
   }
   if (sqrt(dot(step, step)) > 3 * offset_of(own, eye, way, answer->exact) ||
       !exact_sees_light(pair, &there, ray, (uint32_t)answer->triangle, distance))

@@ -45,6 +45,7 @@ MUTANTS = [
     ("exact-point", "exact.h", "bound = way_bound, base = eye, inside = way", "bound = bound", "picture-both"),
     ("exact-way", "exact.h", "#define aim_at_light aim_at_light_exactly\n", "", "tiny-lit"),
     ("far-start", "exact.h", "OFFSET_PER_WAY 0x1p-19f", "OFFSET_PER_WAY 0x1p-12f", "both"),
+    ("instance-margin", "instance.h", "instance->stretch * world->margin", "0 * world->margin", "instances-1e3"),
     ("no-slack", "aim.h", "LIGHT_SLACK 64", "LIGHT_SLACK 0", "light-on-surface"),
 ]
 

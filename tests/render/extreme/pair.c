@@ -10,7 +10,7 @@ void exact_pair_init(struct exact_pair *pair) {
     mpz_init(pair->direction[i]);
     mpz_init(pair->volume[i]);
   }
-  mpz_inits(pair->determinant, pair->product, pair->sum, NULL);
+  mpz_inits(pair->determinant, pair->product, pair->sum, pair->factor, NULL);
   mpq_init(pair->distance);
 }
 
@@ -21,19 +21,58 @@ void exact_pair_clear(struct exact_pair *pair) {
     mpz_clear(pair->direction[i]);
     mpz_clear(pair->volume[i]);
   }
-  mpz_clears(pair->determinant, pair->product, pair->sum, NULL);
+  mpz_clears(pair->determinant, pair->product, pair->sum, pair->factor, NULL);
   mpq_clear(pair->distance);
 }
 
-void exact_set_float(mpz_t value, float number) {
+/* value = number * 2^bits, of a number whose last bit is not below 2^-bits. */
+static void set_number(mpz_t value, double number, int bits) {
   int exponent;
-  double fraction = frexp((double)number, &exponent);
-  mpz_set_d(value, ldexp(fraction, 24));
-  exponent += 149 - 24;
+  const double fraction = frexp(number, &exponent);
+  mpz_set_d(value, ldexp(fraction, 48));
+  exponent += bits - 48;
   if (exponent >= 0)
     mpz_mul_2exp(value, value, (mp_bitcnt_t)exponent);
   else
-    mpz_tdiv_q_2exp(value, value, (mp_bitcnt_t)-exponent); /* a subnormal: the bits that go are zero */
+    mpz_tdiv_q_2exp(value, value, (mp_bitcnt_t)-exponent); /* the bits that go are zero */
+}
+
+void exact_set_float(mpz_t value, float number) {
+  set_number(value, (double)number, EXACT_BITS);
+}
+
+void exact_set_corner(struct exact_pair *pair, mpz_t value, const struct exact_triangle *triangle, int corner,
+                      int axis) {
+  const float *v = triangle->vertex[corner];
+  if (!triangle->place) {
+    exact_set_float(value, v[axis]);
+    return;
+  }
+  const float *row = triangle->place->matrix[axis];
+  exact_set_float(value, row[3]);
+  for (int i = 0; i < 3; i++) {
+    set_number(pair->factor, (double)row[i] * (double)v[i], EXACT_BITS); /* a product of 48 bits */
+    mpz_add(value, value, pair->factor);
+  }
+}
+
+double exact_corner(triple out, const struct exact_triangle *triangle, int corner) {
+  const float *v = triangle->vertex[corner];
+  double greatest = 0;
+  for (int axis = 0; axis < 3; axis++) {
+    out[axis] = (double)v[axis];
+    if (!triangle->place)
+      continue;
+    const float *row = triangle->place->matrix[axis];
+    out[axis] = (double)row[3];
+    greatest = fmax(greatest, fabs(out[axis]));
+    for (int i = 0; i < 3; i++) {
+      const double product = (double)row[i] * (double)v[i];
+      out[axis] += product;
+      greatest = fmax(greatest, fabs(product));
+    }
+  }
+  return greatest;
 }
 
 static void add_product(struct exact_pair *pair, mpz_t sum, const mpz_t a, const mpz_t b, const mpz_t c, bool minus) {
@@ -84,7 +123,7 @@ enum side exact_evaluate_ray(struct exact_pair *pair, const struct query_ray *ra
   for (int axis = 0; axis < 3; axis++) {
     exact_set_float(pair->sum, ray->origin[axis]);
     for (int i = 0; i < 3; i++) {
-      exact_set_float(pair->vertex[i][axis], triangle->vertex[i][axis]);
+      exact_set_corner(pair, pair->vertex[i][axis], triangle, i, axis);
       mpz_sub(pair->vertex[i][axis], pair->vertex[i][axis], pair->sum);
     }
     exact_set_float(pair->direction[axis], ray->direction[axis]);
@@ -110,9 +149,11 @@ static double determinant(const triple a, const triple b, const triple c, double
 
 bool surely_outside(const triple origin, const triple direction, double off, const struct exact_triangle *triangle) {
   triple vertex[3];
-  for (int i = 0; i < 3; i++)
+  for (int i = 0; i < 3; i++) {
+    off += 0x1p-50 * exact_corner(vertex[i], triangle, i);
     for (int axis = 0; axis < 3; axis++)
-      vertex[i][axis] = (double)triangle->vertex[i][axis] - origin[axis];
+      vertex[i][axis] -= origin[axis];
+  }
   bool positive = false, negative = false;
   for (int i = 0; i < 3; i++) {
     double error, volume = determinant(direction, vertex[(i + 2) % 3], vertex[(i + 1) % 3], off, &error);

@@ -9,15 +9,19 @@
 /* Of a ray and a triangle, relative to the ray's origin: volume[i] is det(direction, next, previous vertex), which is
    the edge value opposite to vertex i times a common factor; their sum is the determinant. */
 struct exact_pair {
-  mpz_t vertex[3][3], direction[3], volume[3], determinant, product, sum;
+  mpz_t vertex[3][3], direction[3], volume[3], determinant, product, sum, factor;
   mpq_t distance; /* along the direction; set if the determinant is not zero */
 };
 
 void exact_pair_init(struct exact_pair *pair);
 void exact_pair_clear(struct exact_pair *pair);
 
-/* value = number * 2^149: exact for every finite binary32 number. */
+/* value = number * 2^EXACT_BITS: exact for every finite binary32 number, and for a product of two. */
+#define EXACT_BITS 298
 void exact_set_float(mpz_t value, float number);
+/* The same of a coordinate of a triangle's corner, in the scene. */
+void exact_set_corner(struct exact_pair *pair, mpz_t value, const struct exact_triangle *triangle, int corner,
+                      int axis);
 
 enum side { OUTSIDE, HIT, BEHIND_ORIGIN, NO_AREA };
 
@@ -27,6 +31,9 @@ enum side exact_evaluate_ray(struct exact_pair *pair, const struct query_ray *ra
                              const struct exact_triangle *triangle);
 
 typedef double triple[3];
+
+/* The corner in binary64, off by 2^-50 of the greatest summand at most, which is returned. */
+double exact_corner(triple out, const struct exact_triangle *triangle, int corner);
 
 /* A ray from origin, of which each coordinate is off by at most `off`, cannot hit the triangle. */
 bool surely_outside(const triple origin, const triple direction, double off, const struct exact_triangle *triangle);

@@ -29,6 +29,9 @@ static inline void answer_query(const char *scene, const struct query_params *pa
     if (!found)
       break;
     answer->triangle = (uint32_t)(hit.triangle - scene);
+#if TRAX_INSTANCES
+    answer->instance = (uint32_t)(hit.instance - scene);
+#endif
     answer->weight1 = hit.weight1, answer->weight2 = hit.weight2;
     if (!params->shadows)
       break;

@@ -25,6 +25,7 @@ enum query_light { QUERY_NOT_ASKED, QUERY_BEHIND, QUERY_SHADOWED, QUERY_LIT };
 
 struct query_answer {
   uint32_t triangle;      /* its offset in the scene file; 0: nothing was hit */
+  uint32_t instance;      /* that of its instance; 0: the scene has none */
   uint32_t distance_bits; /* of the parameter along the direction times direction_scale (ray.h) */
   float weight1, weight2;
   uint32_t light;  /* enum query_light */
@@ -34,6 +35,6 @@ struct query_answer {
 /* On the host: answers[first .. last - 1]. */
 typedef void query_function(const void *scene, const struct query_params *params, const struct query_ray *rays,
                             struct query_answer *answers, uint32_t first, uint32_t last);
-query_function query_exact, query_watertight, query_moller_trumbore;
+query_function query_exact, query_watertight, query_moller_trumbore, query_instances, query_instances_moller_trumbore;
 
 #endif

@@ -9,8 +9,8 @@
 #include "../../../raytracer/device/camera.h"
 #include "../../../raytracer/device/ray.h"
 #include "cases.h"
-#include "machine/machine.h"
 #include "exact.h"
+#include "machine/machine.h"
 #include "machines.h"
 #include "reach.h"
 
@@ -31,12 +31,15 @@ static const struct method {
   const char *name;
   query_function *trace;
   const char *program;
-  bool plain_boxes; /* not widened */
+  bool plain_boxes;       /* not widened */
+  query_function *placed; /* of scenes with instances */
+  const char *placed_program;
 } methods[METHODS] = {
-    {"watertight", query_watertight, "query-watertight", false},
-    {"Moeller-Trumbore", query_moller_trumbore, "query-moller-trumbore", false},
-    {"watertight, boxes as they are", query_watertight, "query-watertight", true},
-    {"watertight in binary32", query_watertight, "query-watertight", false},
+    {"watertight", query_watertight, "query-watertight", false, query_instances, "query-instances"},
+    {"Moeller-Trumbore", query_moller_trumbore, "query-moller-trumbore", false, query_instances_moller_trumbore,
+     "query-instances-moller-trumbore"},
+    {"watertight, boxes as they are", query_watertight, "query-watertight", true, query_instances, "query-instances"},
+    {"watertight in binary32", query_watertight, "query-watertight", false, query_instances, "query-instances"},
 };
 
 struct row {
@@ -57,6 +60,7 @@ struct prepared {
   struct query_ray *rays; /* in the scaled scene */
   struct exact_scene exact;
   struct exact_triangle *triangles;
+  struct exact_place *places;
 };
 
 static void die(const char *name, const trax_error *error) {
@@ -80,21 +84,12 @@ static struct method method_of(const struct prepared *prepared, int m) {
   struct method method = methods[m];
   if (hits_are_exact(prepared, m))
     method.trace = query_exact, method.program = "query-exact";
+  if (prepared->scene.instances)
+    method.trace = method.placed, method.program = method.placed_program;
   return method;
 }
 
 /* --- preparing a case --- */
-
-static void copy_triangles(struct prepared *prepared) {
-  const struct trax_scene *scene = &prepared->scene;
-  prepared->triangles = allocate(scene->triangle_count * sizeof *prepared->triangles);
-  for (uint32_t i = 0; i < scene->triangle_count; i++) {
-    const struct trax_triangle *triangle = &scene->triangles[i];
-    memcpy(prepared->triangles[i].vertex[0], triangle->v0, sizeof triangle->v0);
-    memcpy(prepared->triangles[i].vertex[1], triangle->v1, sizeof triangle->v1);
-    memcpy(prepared->triangles[i].vertex[2], triangle->v2, sizeof triangle->v2);
-  }
-}
 
 static void turn_children(const struct trax_scene *scene) {
   struct trax_bvh_node *nodes = (struct trax_bvh_node *)scene->nodes;
@@ -107,9 +102,9 @@ static void turn_children(const struct trax_scene *scene) {
   }
 }
 
-/* The same meshes with other layouts of nodes, with triangles split, and with trees improved, scaled
-   alike. A tree that was made
-   by hand has no other, nor has a large one in the short form. */
+/* The same meshes with other layouts of nodes, with triangles split, and with trees improved, scaled alike. Those of
+   instances have leaves of other sizes instead. A tree that was made by hand has no other, nor has a large one in the
+   short form. */
 static void make_variants(struct prepared *prepared, const struct trax_view *view, const char *name) {
   trax_error error;
   for (unsigned i = 1; i < 2 * TRAX_NODE_LAYOUTS; i++) {
@@ -122,6 +117,8 @@ static void make_variants(struct prepared *prepared, const struct trax_view *vie
     build.nodes = i / 2;
     build.splits = i % 2 ? 3 : 0;
     build.passes = i & 2;
+    if (prepared->scene.instances)
+      build.nodes = TRAX_NODES_BINARY, build.splits = 0, build.max_leaf = i;
     if (trax_scene_build(&prepared->variants[i], &prepared->setup.mesh, &build, &error) != TRAX_OK ||
         trax_scene_check(NULL, prepared->variants[i].bytes, prepared->variants[i].size, name, &error) != TRAX_OK)
       die(name, &error);
@@ -154,7 +151,7 @@ static void prepare(struct prepared *prepared, const struct extreme_case *extrem
   } else if (trax_scene_build(&prepared->scene, &setup->mesh, &setup->build, &error) != TRAX_OK) {
     die(extreme->name, &error);
   }
-  copy_triangles(prepared);
+  const uint32_t triangles = exact_triangles(&prepared->triangles, &prepared->places, &prepared->scene);
   if (setup->turned)
     turn_children(&prepared->scene);
 
@@ -172,7 +169,7 @@ static void prepare(struct prepared *prepared, const struct extreme_case *extrem
   }
   make_variants(prepared, &view, extreme->name);
   int exponent = normalise(&prepared->scene, &view);
-  prepared->exact = (struct exact_scene){prepared->triangles, prepared->scene.triangle_count, exponent, {0, 0, 0}};
+  prepared->exact = (struct exact_scene){prepared->triangles, triangles, exponent, {0, 0, 0}};
   memcpy(prepared->exact.light, setup->light, sizeof setup->light);
 
   prepared->params.shadows = picture || (extreme->flags & CASE_SHADOWS);
@@ -210,6 +207,10 @@ static void prepare(struct prepared *prepared, const struct extreme_case *extrem
       prepared->rays[i].origin[axis] = ldexpf(setup->rays[i].origin[axis], exponent);
   }
   prepared->exact_hits = needs_exact(prepared);
+  if (prepared->exact_hits && prepared->scene.instances) {
+    trax_fail(&error, "a ray needs exact hits, and those of instances are not");
+    die(extreme->name, &error);
+  }
 }
 
 static void release(struct prepared *prepared) {
@@ -219,6 +220,7 @@ static void release(struct prepared *prepared) {
     trax_scene_release(&prepared->variants[i]);
   free(prepared->rays);
   free(prepared->triangles);
+  free(prepared->places);
   setup_release(&prepared->setup);
 }
 
@@ -314,12 +316,6 @@ static bool finite_answer(const struct query_answer *answer) {
          isfinite(answer->origin[1]) && isfinite(answer->origin[2]);
 }
 
-static int64_t triangle_number(const struct trax_scene *scene, uint32_t offset) {
-  return offset
-             ? (int64_t)((offset - scene->header->sections[TRAX_SCENE_TRIANGLES].offset) / sizeof(struct trax_triangle))
-             : -1;
-}
-
 /* Is there a triangle at the same place with a lower number? */
 static bool has_lower_duplicate(const struct prepared *prepared, int64_t number) {
   const struct trax_scene *scene = &prepared->scene;
@@ -334,17 +330,11 @@ static void count_all(struct row *row, const struct prepared *prepared, const st
                       const struct query_answer *answers) {
   row->rays += prepared->params.count;
   for (uint32_t i = 0; i < prepared->params.count; i++) {
-    int64_t number = triangle_number(&prepared->scene, answers[i].triangle);
+    int64_t number = exact_number(&prepared->scene, &answers[i]);
     row->escapes += (extreme->flags & CASE_CLOSED) && number < 0;
     row->not_finite += !finite_answer(&answers[i]);
     row->wrong_winner += (extreme->flags & CASE_DUPLICATES) && number >= 0 && has_lower_duplicate(prepared, number);
   }
-}
-
-/* Which triangle of the mesh it is; -1: none. */
-static int64_t source_of(const struct trax_scene *scene, uint32_t offset) {
-  const int64_t number = triangle_number(scene, offset);
-  return number < 0 ? number : scene->source_ids[number];
 }
 
 /* Other nodes, the same answers but for where in the file the triangle stands. */
@@ -359,8 +349,8 @@ static void compare_variants(struct row *row, const struct prepared *prepared, c
     if (first && !emulation_is_long(prepared))
       emulate(row, NULL, prepared, scene, &emulated, directory, others);
     for (uint32_t i = 0; i < prepared->params.count; i++) {
-      row->variant_differs += source_of(scene, others[i].triangle) != source_of(&prepared->scene, answers[i].triangle);
-      others[i].triangle = answers[i].triangle;
+      row->variant_differs += exact_source(scene, &others[i]) != exact_source(&prepared->scene, &answers[i]);
+      others[i].triangle = answers[i].triangle, others[i].instance = answers[i].instance;
       row->variant_differs += memcmp(&others[i], &answers[i], sizeof others[i]) != 0;
     }
     free(others);
@@ -380,7 +370,7 @@ static void judge(struct row rows[METHODS], const struct prepared *prepared,
     int exponent = ilogbf(direction_scale(load_vector(ray->direction)));
     for (int m = 0; m < METHODS; m++) {
       const struct query_answer *given = &answers[m][i];
-      answer[m] = (struct exact_answer){.triangle = triangle_number(&prepared->scene, given->triangle),
+      answer[m] = (struct exact_answer){.triangle = exact_number(&prepared->scene, given),
                                         .distance = bits_float((int32_t)given->distance_bits),
                                         .direction_exponent = exponent,
                                         .light = (enum query_light)given->light,
