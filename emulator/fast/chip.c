@@ -152,7 +152,7 @@ static void settle(void *context, uint64_t t) {
 }
 
 static void export_state(void *context) {
-  trax_fast_export(context);
+  trax_fast_roll_back(context);
 }
 
 static void import_state(void *context, uint64_t t) {

@@ -62,13 +62,8 @@ void trax_fast_notify_refusals(const struct trax_tm *tm, const struct trax_fast_
    set. */
 bool trax_fast_run_alone(struct trax_tm *tm, uint64_t t, uint64_t end);
 
-/* Between cycles: rolls every TP back to what it has issued, so that the structures of tm.h and tp.h hold all that the
-   run depends on. The run can be continued. */
-void trax_fast_export(struct trax_chip *chip);
-/* Continues the run before cycle t with the state in those structures. */
+/* Continues the run before cycle t, after a roll back of all TPs (blocks.h), with the state in the structures. */
 void trax_fast_import(struct trax_chip *chip, uint64_t t);
-/* Sets the round-robin mask of a bank of an instruction cache. */
-void trax_fast_set_fetch_rr_mask(struct trax_tm *tm, uint32_t icache, uint32_t bank, uint64_t rr_mask);
 
 /* The engine with the best variant that the host can run, and the engines of single variants. */
 extern const struct trax_engine trax_fast_engine, trax_fast_any_engine;

@@ -17,6 +17,7 @@ FIELDS(trax_mshr, TRAX_MSHR_STATE);
 FIELDS(trax_dcache, TRAX_DCACHE_STATE);
 FIELDS(trax_request, TRAX_REQUEST_STATE);
 FIELDS(trax_queue, TRAX_QUEUE_STATE);
+FIELDS(trax_fast_units, TRAX_FAST_UNITS_STATE);
 FIELDS(trax_shared_unit, TRAX_SHARED_UNIT_STATE);
 FIELDS(trax_tp, TRAX_TP_STATE);
 FIELDS(trax_tm, TRAX_TM_STATE);
@@ -88,8 +89,8 @@ static void visit_tags(const struct visitor *visitor, struct trax_cache_tags *ta
 static void visit_queue(const struct visitor *visitor, struct trax_queue *queue) {
   VISIT_ALL(trax_queue, queue, 1);
   VISIT_ALL(trax_request, queue->requests, queue->depth);
-  VISIT_NUMBERS(uint16_t, queue->heap, queue->heap ? queue->depth : 0);
-  VISIT_NUMBERS(uint16_t, queue->places, queue->heap ? queue->depth : 0);
+  VISIT_DERIVED(queue->heap, queue->heap ? queue->depth : 0);
+  VISIT_DERIVED(queue->places, queue->heap ? queue->depth : 0);
 }
 
 static void visit_unit(const struct visitor *visitor, struct trax_shared_unit *unit) {
@@ -115,6 +116,9 @@ static void visit_tm(const struct visitor *visitor, struct trax_tm *tm) {
   VISIT_ALL(trax_tp, tm->tp, tm->tps);
   for (unsigned i = 0; i < TRAX_SHARED_COUNT; i++)
     visit_unit(visitor, &tm->unit[i]);
+  VISIT_ALL(trax_fast_units, &tm->fp, 1);
+  VISIT_ALL(trax_fast_units, &tm->int_mul, 1);
+  VISIT_NUMBERS(trax_fast_lanes, tm->fetch_rr_masks, (size_t)tm->icaches * tm->vectors);
   for (uint32_t i = 0; i < tm->icaches; i++)
     visit_icache(visitor, &tm->icache[i], tm->tps);
   visit_dcache(visitor, &tm->dcache, tm->tps);
@@ -128,14 +132,13 @@ static void visit_tm(const struct visitor *visitor, struct trax_tm *tm) {
   VISIT_DERIVED(tm->rays, tm->rays ? tm->tps : 0);
   VISIT_DERIVED(tm->resident, tm->icaches);
   VISIT_DERIVED(tm->resident_lines, tm->icaches);
-  VISIT_DERIVED(tm->fetch_rr_masks, (size_t)tm->icaches * tm->vectors);
 }
 
 static void visit_l2(const struct visitor *visitor, struct trax_l2 *l2) {
   VISIT_ALL(trax_l2, l2, 1);
   VISIT_ALL(trax_waiting, l2->bank, l2->banks);
   VISIT_ALL(trax_l2_mshr, l2->mshr, l2->mshr_limit);
-  VISIT_NUMBERS(uint32_t, l2->line, l2->mshr_limit);
+  VISIT_DERIVED(l2->line, l2->mshr_limit);
   VISIT_NUMBERS(uint16_t, l2->used, l2->mshr_limit);
   visit_tags(visitor, &l2->tags);
 }

@@ -4,13 +4,12 @@
 
 #include "fast/chip.h"
 
-/* Visits all that changes during a run, except global memory, in an order that depends on the configuration alone. The
-   sections of the fast engine's own form have no fields, since that form follows from the rest between cycles
-   (transfer.c). */
+/* Visits all that changes during a run, except global memory, in an order that depends on the configuration alone. What
+   follows from the rest between cycles (import.c) has no fields. */
 void trax_state_visit(void *chip, trax_section_visitor *visit, void *context);
 
-/* Checks that all indices and numbers of a state are within bounds and consistent, so that the run stays within its
-   structures and ends if its program does. Returns NULL, or the reason of the refusal, in `text`. */
+/* Checks that a state's indices are within bounds, so that the run stays within its structures. Returns NULL, or the
+   reason of the refusal, in `text`. */
 const char *trax_state_check(void *chip, uint64_t t, char text[128]);
 
 #endif

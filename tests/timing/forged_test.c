@@ -300,14 +300,33 @@ static void damage_layout(const struct trax_config *config, const uint32_t *prog
   }
 }
 
-/* What a program may have made, and what is only counted: any value will do. */
+/* What a program may have made, what is only compared or counted, and round-robin masks: with any value, the run stays
+   within its structures. */
 static const char *const free_names[] = {
-    "tags->lines.",          "trax_tp.reg",        "trax_tp.pc",           "trax_tp.address",
-    "trax_tp.local",         "trax_tp.run_begin",  "trax_tp.run_end",      "trax_request.value",
-    "trax_request.number",   "trax_request.line",  "trax_queue.peak",      "trax_queue.made",
-    "trax_queue.last_unsubmitted", "tm->exit_statuses.", "dcache->next_waiter.",
-    /* rows are only compared, and activations counted modulo 4 */
-    "trax_dram_request.row", "trax_dram_bank.row", "trax_dram_rank.activations",
+    "trax_tm.progressed",
+    "trax_tm.data_bank_rr_masks",
+    "trax_tm.fetch_rr_masks16",
+    "trax_fast_units.rr_masks",
+    "tm->fetch_rr_masks.",
+    "trax_tp.reg",
+    "trax_tp.address",
+    "trax_tp.writes",
+    "trax_tp.increments",
+    "trax_tp.local",
+    "trax_icache_pending.line",
+    "tags->lines.",
+    "trax_mshr.line",
+    "trax_mshr.passing",
+    "trax_dcache.all_fills_end",
+    "trax_queue.peak",
+    "trax_queue.made",
+    "trax_request.line",
+    "trax_request.value",
+    "trax_request.number",
+    "tm->exit_statuses.",
+    "trax_dram_request.row",
+    "trax_dram_bank.row",
+    "trax_dram_rank.activations",
 };
 
 static bool may_be_anything(const char *name) {

@@ -73,14 +73,30 @@ static void install(struct trax_memory *memory, struct trax_tm *tms, uint64_t t)
   struct trax_l2 *l2 = memory->l2;
   while (l2->next_arrival <= t) {
     const trax_request_id id = trax_memory_take_first(memory, tms, &l2->arriving[next_to_arrive(l2)]);
-    const uint32_t line = trax_line_of(&l2->tags, mshr_of(l2, id)->request.address);
-    const uint32_t index = find(l2, line), last = --l2->used_count;
-    trax_cache_tags_install(&l2->tags, line);
+    uint32_t index = 0, last = --l2->used_count;
+    while (l2->used[index] != id - TRAX_LINE_REQUEST)
+      index++;
+    trax_cache_tags_install(&l2->tags, l2->line[index]);
     l2->line[index] = l2->line[last];
     l2->used[index] = l2->used[last];
     l2->used[last] = (uint16_t)(id - TRAX_LINE_REQUEST);
     next_to_arrive(l2);
   }
+}
+
+void trax_l2_import(struct trax_memory *memory, struct trax_tm *tms) {
+  struct trax_l2 *l2 = memory->l2;
+  l2->waiting = 0;
+  for (uint32_t i = 0; i < l2->banks; i++)
+    l2->waiting += trax_waiting_import(memory, tms, &l2->bank[i]);
+  for (uint32_t i = 0; i < l2->used_count; i++) {
+    struct trax_l2_mshr *mshr = &l2->mshr[l2->used[i]];
+    l2->line[i] = trax_line_of(&l2->tags, mshr->request.address);
+    trax_memory_import_list(memory, tms, &mshr->waiters);
+  }
+  for (unsigned i = 0; i < TRAX_MAX_CHANNELS; i++)
+    trax_memory_import_list(memory, tms, &l2->arriving[i]);
+  next_to_arrive(l2);
 }
 
 void trax_l2_set_arrival(struct trax_memory *memory, struct trax_tm *tms, unsigned channel, trax_request_id id,

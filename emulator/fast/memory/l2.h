@@ -15,13 +15,12 @@ struct trax_l2_mshr {
 };
 
 #define TRAX_L2_STATE(X, S)                                                                                            \
-  X(S, uint32_t, waiting, )                                     /* number of requests that wait for banks */           \
   X(S, uint32_t, used_count, )                                  /* lines on their way */                               \
-  X(S, struct trax_request_list, arriving, [TRAX_MAX_CHANNELS]) /* lines whose arrival is known, in its order */       \
-  X(S, uint64_t, next_arrival, )                                /* TRAX_NEVER if none is */
-
+  X(S, struct trax_request_list, arriving, [TRAX_MAX_CHANNELS]) /* lines whose arrival is known, in its order */
 struct trax_l2 {
   TRAX_L2_STATE(TRAX_FIELD, )
+  uint32_t waiting;      /* number of requests that wait for banks */
+  uint64_t next_arrival; /* of a line; TRAX_NEVER if none is known */
   struct trax_cache_tags tags;
   uint32_t banks, latency;
   uint32_t line_cost; /* bytes of a line's transfer */
@@ -35,6 +34,8 @@ struct trax_l2 {
 trax_status trax_l2_create(struct trax_l2 **l2, const struct trax_config *config, trax_error *error);
 void trax_l2_destroy(struct trax_l2 *l2); /* l2 may be NULL */
 
+/* Makes what follows from the lists. */
+void trax_l2_import(struct trax_memory *memory, struct trax_tm *tms);
 /* The cache's part of step 3 of cycle t. */
 void trax_l2_cycle(struct trax_memory *memory, struct trax_tm *tms, uint64_t t);
 /* Sets the arrival of a line whose transfer has begun. */

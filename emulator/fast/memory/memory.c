@@ -106,6 +106,45 @@ trax_request_id trax_memory_take_first(const struct trax_memory *memory, struct 
   return id;
 }
 
+uint32_t trax_memory_import_list(const struct trax_memory *memory, struct trax_tm *tms,
+                                 struct trax_request_list *list) {
+  uint32_t count = 0;
+  list->last = list->first;
+  for (trax_request_id id = list->first; id != TRAX_NO_REQUEST; id = trax_memory_request(memory, tms, id)->next) {
+    list->last = id;
+    count++;
+  }
+  return count;
+}
+
+uint32_t trax_waiting_import(const struct trax_memory *memory, struct trax_tm *tms, struct trax_waiting *waiting) {
+  uint32_t count = 0;
+  waiting->tms = 0;
+  for (unsigned tm = 0; tm < TRAX_MAX_TMS; tm++) {
+    count += trax_memory_import_list(memory, tms, &waiting->list[tm]);
+    waiting->tms |= (uint64_t)(waiting->list[tm].first != TRAX_NO_REQUEST) << tm;
+  }
+  return count;
+}
+
+void trax_memory_import(struct trax_memory *memory, struct trax_tm *tms, unsigned count) {
+  memory->tms = memory->waiting = 0;
+  for (unsigned i = 0; i < count; i++) {
+    trax_queue_import(&tms[i].queue);
+    memory->tms |= (uint64_t)(memory->keeps_order && tms[i].queue.started < tms[i].queue.count) << i;
+  }
+  for (unsigned i = 0; i < memory->channels; i++) {
+    struct trax_channel *channel = &memory->channel[i];
+    memory->waiting += trax_memory_import_list(memory, tms, &channel->passed);
+    if (channel->waiting)
+      memory->waiting += trax_waiting_import(memory, tms, channel->waiting);
+    for (unsigned queue = 0; memory->dram && queue < TRAX_DRAM_QUEUES; queue++)
+      memory->waiting += memory->dram->channel[i].count[queue];
+  }
+  if (memory->l2)
+    trax_l2_import(memory, tms);
+}
+
 unsigned trax_waiting_arbitrate(struct trax_waiting *waiting) {
   const unsigned number = trax_arbiter_peek(waiting->arbiter, waiting->tms);
   trax_arbiter_to_back(&waiting->arbiter, number);

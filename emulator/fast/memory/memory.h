@@ -32,11 +32,11 @@ static const struct trax_request_list trax_empty_list = {.first = TRAX_NO_REQUES
 
 /* The requests that wait for a channel or for a bank of the second-level cache, with the arbiter over the TMs. */
 #define TRAX_WAITING_STATE(X, S)                                                                                       \
-  X(S, uint64_t, tms, ) /* mask of the TMs whose list is not empty */                                                  \
   X(S, trax_arbiter, arbiter, )                                                                                        \
   X(S, struct trax_request_list, list, [TRAX_MAX_TMS])
 struct trax_waiting {
   TRAX_WAITING_STATE(TRAX_FIELD, )
+  uint64_t tms; /* mask of the TMs whose list is not empty */
 };
 
 /* An instant: whole cycles, and units of the next cycle, fewer than units_per_cycle. A number of units alone would
@@ -58,14 +58,11 @@ struct trax_channel {
 };
 
 /* `keeps_order`: there is one channel and no second-level cache, so that the TMs' queues are rings. */
-#define TRAX_MEMORY_STATE(X, S)                                                                                        \
-  X(S, trax_arbiter, arbiter, ) /* of the channel, if keeps_order */                                                   \
-  X(S, uint64_t, tms, )         /* mask of the TMs whose requests wait for it, if keeps_order */                       \
-  X(S, uint32_t, waiting, ) /* number of requests that wait for channels or in the DRAM's queues, unless keeps_order   \
-                             */
-
+#define TRAX_MEMORY_STATE(X, S) X(S, trax_arbiter, arbiter, ) /* of the channel, if keeps_order */
 struct trax_memory {
   TRAX_MEMORY_STATE(TRAX_FIELD, )
+  uint64_t tms;     /* mask of the TMs whose requests wait for the channel, if keeps_order */
+  uint32_t waiting; /* else the number of requests that wait for channels or in the DRAM's queues */
   /* Bus time is counted in units: a cycle has units_per_cycle of them, and a byte takes units_per_byte. They are the
      numerator and the denominator of B = MB/s / MHz / channels bytes per cycle, in lowest terms. */
   uint64_t units_per_cycle, units_per_byte;
@@ -92,6 +89,9 @@ uint32_t trax_memory_least_latency(const struct trax_config *config);
 trax_status trax_memory_create(struct trax_memory *memory, const struct trax_config *config,
                                struct trax_memory_stats *stats, trax_error *error);
 void trax_memory_destroy(struct trax_memory *memory);
+
+/* Makes what follows from the lists and from the queues of the `count` TMs. */
+void trax_memory_import(struct trax_memory *memory, struct trax_tm *tm, unsigned count);
 
 /* Submits the TM's oldest unsubmitted request, which waits from now on. */
 void trax_memory_submit(struct trax_memory *memory, struct trax_tm *tm);
@@ -120,6 +120,10 @@ void trax_memory_append(const struct trax_memory *memory, struct trax_tm *tm, st
                         trax_request_id id);
 trax_request_id trax_memory_take_first(const struct trax_memory *memory, struct trax_tm *tm,
                                        struct trax_request_list *list);
+/* Makes what follows from the list's links, and returns the number of its requests. */
+uint32_t trax_memory_import_list(const struct trax_memory *memory, struct trax_tm *tm, struct trax_request_list *list);
+/* The same for all lists of the TMs. */
+uint32_t trax_waiting_import(const struct trax_memory *memory, struct trax_tm *tm, struct trax_waiting *waiting);
 /* Creates an array of `count` empty ones. NULL: out of memory. */
 struct trax_waiting *trax_waiting_create(uint32_t count);
 /* Returns the winner among the TMs with waiting requests, and moves the arbiter's pointer past it. */

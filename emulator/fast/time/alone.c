@@ -18,10 +18,17 @@ static void pass_unit(struct trax_fast_units *units, unsigned kind, unsigned num
   }
 }
 
+static void set_fetch_rr_mask(struct trax_tm *tm, uint32_t icache, uint32_t bank, uint64_t rr_mask) {
+  if (tm->simple_fetch)
+    *trax_fast_fetch_rr_mask(&tm->fetch_rr_masks16, tm->wide, icache, bank) = (uint16_t)(rr_mask >> 16 * icache);
+  else
+    ((uint64_t *)(tm->fetch_rr_masks + icache * tm->vectors))[bank] = rr_mask;
+}
+
 static void pass_arbiters(struct trax_tm *tm, unsigned number, const struct used *used) {
   const uint64_t behind = ~(uint64_t)1 << number;
   for (uint64_t rest = used->fetch_banks; rest; rest &= rest - 1)
-    trax_fast_set_fetch_rr_mask(tm, tm->icache_of[number], trax_first(rest), behind);
+    set_fetch_rr_mask(tm, tm->icache_of[number], trax_first(rest), behind);
   for (uint64_t rest = used->data_banks; rest; rest &= rest - 1)
     ((uint64_t *)tm->data_bank_rr_masks)[trax_first(rest)] = behind;
   if (used->kinds >> (TRAX_STEP_FP_ADD >> 1) & 1)

@@ -2,6 +2,7 @@
 #ifndef TRAX_FAST_MASKS_H
 #define TRAX_FAST_MASKS_H
 
+#include "machine/section.h"
 #include "machine/units.h"
 
 #include <stdbool.h>
@@ -119,11 +120,12 @@ static inline bool trax_fast_count(struct trax_fast_refusal_counts *counts, cons
    divides 64. Then all groups are arbitrated at once. */
 typedef uint64_t trax_fast_pair __attribute__((vector_size(16)));
 
+#define TRAX_FAST_UNITS_STATE(X, S) X(S, trax_fast_pair, rr_masks, ) /* of all groups */
 struct trax_fast_units {
   uint32_t group_size;
   bool even;
   uint64_t top, below_top; /* if `even`: the last bit of each group, and the other bits */
-  trax_fast_pair rr_masks; /* the round-robin masks of all groups */
+  TRAX_FAST_UNITS_STATE(TRAX_FIELD, )
   struct {
     uint32_t groups, per_group;
     uint64_t group[64];

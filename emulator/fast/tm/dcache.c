@@ -84,14 +84,20 @@ static void fill(struct trax_dcache *dcache, const struct trax_config *config, u
 
 void trax_dcache_arrival(struct trax_dcache *dcache, struct trax_tm *tm, uint32_t line, uint64_t t) {
   uint32_t i = 0;
-  while (dcache->mshr[i].line != line) /* found, since each requested line has a miss register */
+  while (i < dcache->mshr_count && dcache->mshr[i].line != line)
     i++;
+  if (i == dcache->mshr_count)
+    return; /* only if a checkpoint is wrong, as a cycle of waiters is: each requested line has a miss register */
   if (!dcache->mshr[i].passing) {
     trax_cache_tags_install(&dcache->tags, line);
     if (tm->config->dcache.fill_cycles)
       fill(dcache, tm->config, line, t);
   }
-  for (uint16_t waiter = dcache->mshr[i].first_waiter; waiter != NO_WAITER; waiter = dcache->next_waiter[waiter])
+  for (uint16_t waiter = dcache->mshr[i].first_waiter; waiter != NO_WAITER;) {
+    const uint16_t next = dcache->next_waiter[waiter];
+    dcache->next_waiter[waiter] = NO_WAITER;
     trax_tm_data_arrival(tm, waiter / TRAX_NUM_REGISTERS, waiter % TRAX_NUM_REGISTERS, t);
+    waiter = next;
+  }
   dcache->mshr[i] = dcache->mshr[--dcache->mshr_count];
 }

@@ -19,7 +19,6 @@ struct trax_mshr {
 };
 
 #define TRAX_DCACHE_STATE(X, S)                                                                                        \
-  X(S, trax_arbiter, bank, [TRAX_MAX_TPS_PER_TM])                                                                      \
   X(S, uint64_t, fills_end, [TRAX_MAX_TPS_PER_TM]) /* by bank; only with dcache.fill_cycles */                         \
   X(S, uint64_t, all_fills_end, )                  /* the latest of these */                                           \
   X(S, uint32_t, mshr_count, )                     /* miss registers in use */

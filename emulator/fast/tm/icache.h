@@ -16,9 +16,7 @@ struct trax_icache_pending {
   TRAX_ICACHE_PENDING_STATE(TRAX_FIELD, )
 };
 
-#define TRAX_ICACHE_STATE(X, S)                                                                                        \
-  X(S, trax_arbiter, bank, [64])                                                                                       \
-  X(S, uint32_t, pending_count, ) /* lines on their way */
+#define TRAX_ICACHE_STATE(X, S) X(S, uint32_t, pending_count, ) /* lines on their way */
 struct trax_icache {
   TRAX_ICACHE_STATE(TRAX_FIELD, )
   uint32_t number;

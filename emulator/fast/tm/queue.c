@@ -49,6 +49,20 @@ void trax_queue_start(struct trax_queue *queue, uint32_t index) {
   queue->oldest = queue->heap[0];
 }
 
+void trax_queue_import(struct trax_queue *queue) {
+  queue->submitted = queue->count;
+  queue->first_unsubmitted = TRAX_NO_REQUEST;
+  if (!queue->heap)
+    return;
+  queue->count = queue->depth;
+  queue->started = 0;
+  for (uint32_t i = 0; i < queue->depth; i++)
+    if (!trax_queue_is_taken(queue, i))
+      queue->places[--queue->count] = (uint16_t)i;
+    else if (trax_queue_is_started(queue, i))
+      trax_queue_start(queue, i);
+}
+
 void trax_queue_pop_heap(struct trax_queue *queue) {
   queue->requests[queue->oldest].bytes = 0;
   queue->places[--queue->count] = (uint16_t)queue->oldest;

@@ -32,23 +32,21 @@ typedef enum trax_request_kind {
   X(S, uint32_t, value, )      /* ATOMIC: the word before the increment, once started */                               \
   X(S, uint32_t, next, )       /* the next request of its list; not in a ring */                                       \
   X(S, uint64_t, number, )     /* number of requests that its TM made before; not in a ring */                         \
-  X(S, uint64_t, completion, ) /* a cycle, once started */
+  X(S, uint64_t, completion, ) /* a cycle, once started; without a ring, 0 before */
 struct trax_request {
   TRAX_REQUEST_STATE(TRAX_FIELD, )
 };
 
-/* `submitted`: of a ring, the number of requests that the memory has received; all of them, except in an epoch. */
 #define TRAX_QUEUE_STATE(X, S)                                                                                         \
   X(S, uint32_t, oldest, )                                                                                             \
   X(S, uint32_t, count, )                                                                                              \
   X(S, uint32_t, started, )                                                                                            \
-  X(S, uint32_t, submitted, )                                                                                          \
   X(S, uint32_t, peak, ) /* the largest count so far */                                                                \
-  X(S, uint32_t, first_unsubmitted, )                                                                                  \
-  X(S, uint32_t, last_unsubmitted, )                                                                                   \
   X(S, uint64_t, made, ) /* number of requests so far; not in a ring */
 struct trax_queue {
   TRAX_QUEUE_STATE(TRAX_FIELD, )
+  uint32_t submitted; /* of a ring: the number of requests that the memory has received; all, except in an epoch */
+  uint32_t first_unsubmitted, last_unsubmitted;
   uint32_t depth;
   struct trax_request *requests; /* [depth] */
   uint16_t *heap;                /* [depth]; NULL: the places are a ring */
@@ -61,6 +59,8 @@ void trax_queue_destroy(struct trax_queue *queue);
 
 /* Adds an unsubmitted request to a queue that is no ring. */
 void trax_queue_push_unsubmitted(struct trax_queue *queue, struct trax_request request);
+/* Makes what follows from the requests, none of which is unsubmitted. */
+void trax_queue_import(struct trax_queue *queue);
 /* Enters a request, whose completion has become known, into the heap. */
 void trax_queue_start(struct trax_queue *queue, uint32_t index);
 void trax_queue_pop_heap(struct trax_queue *queue);
@@ -101,12 +101,8 @@ static inline bool trax_queue_is_taken(const struct trax_queue *queue, uint32_t 
 
 /* Whether the taken place `index` has a request that has started. */
 static inline bool trax_queue_is_started(const struct trax_queue *queue, uint32_t index) {
-  if (queue->heap) {
-    for (uint32_t i = 0; i < queue->started; i++)
-      if (queue->heap[i] == index)
-        return true;
-    return false;
-  }
+  if (queue->heap)
+    return queue->requests[index].completion != 0;
   return (index < queue->oldest ? index + queue->depth : index) - queue->oldest < queue->started;
 }
 

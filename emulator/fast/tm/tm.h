@@ -24,11 +24,10 @@ struct trax_chip;
   X(S, uint64_t, awaiting, )                                                                                           \
   X(S, uint64_t, ended, )                                                                                              \
   X(S, uint64_t, wheel, [TRAX_WHEEL]) /* [cycle % 64]: mask of the TPs that wake */                                    \
-  X(S, uint64_t, wheel_occupied, )    /* slots that are not empty */                                                   \
-  X(S, uint64_t, next_cycle, )        /* no earlier cycle changes anything in this TM */                               \
   X(S, uint64_t, progressed, )        /* the cycle after the latest trap or halt; 0: there was none */                 \
-  X(S, uint32_t, running, )           /* threads that have not ended */                                                \
-  X(S, trax_arbiter, queue_arbiter, )
+  X(S, trax_arbiter, queue_arbiter, )                                                                                  \
+  X(S, trax_fast_lanes, data_bank_rr_masks, [TRAX_MAX_TPS_PER_TM / TRAX_FAST_LANES])                                   \
+  X(S, struct trax_fast_banks16, fetch_rr_masks16, ) /* as the next ones */
 struct trax_tm {
   _Alignas(64) uint32_t number; /* host threads run neighbouring TMs: none shares a cache line */
   uint32_t tps;
@@ -50,6 +49,9 @@ struct trax_tm {
   struct trax_store_buffer *buffer; /* in an epoch; else NULL */
   uint64_t now;                     /* the cycle that is being simulated */
   TRAX_TM_STATE(TRAX_FIELD, )
+  uint64_t wheel_occupied; /* slots that are not empty */
+  uint64_t next_cycle;     /* no earlier cycle changes anything in this TM */
+  uint32_t running;        /* threads that have not ended */
 
   /* Masks of TPs. */
   uint64_t ready; /* holds an instruction with usable operands, which lacks a unit, a bank or a queue place */
@@ -75,7 +77,6 @@ struct trax_tm {
      fetch_rr_masks has `vectors` vectors for each cache. */
   bool simple_fetch;
   uint32_t vectors;
-  struct trax_fast_banks16 fetch_rr_masks16;
   trax_fast_lanes *fetch_rr_masks;
   uint32_t data_banks, data_bank_bits;
   bool serial_hits; /* data-cache hits are served one by one: they update the scoreboard or the LRU order */
@@ -85,7 +86,6 @@ struct trax_tm {
 
   struct trax_fast_units fp;      /* adders, multipliers */
   struct trax_fast_units int_mul; /* integer multipliers; the second kind is not used */
-  trax_fast_lanes data_bank_rr_masks[TRAX_MAX_TPS_PER_TM / TRAX_FAST_LANES];
   struct trax_dcache dcache;
   struct trax_queue queue;
   /* [TP]: the words of WRITTEN blocks from which its burst has loaded, as bits of trax_fast_word_bit; 0: none. */

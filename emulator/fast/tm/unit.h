@@ -1,5 +1,5 @@
-/* Units that TPs share (docs/timing.md, "Units"). For the kinds with special code in cycle.c, the arbiters here are
-   only valid after an export (export.c). */
+/* Units that TPs share (docs/timing.md, "Units"). The kinds with special code have masks instead of arbiters
+   (time/masks.h). */
 #ifndef TRAX_FAST_UNIT_H
 #define TRAX_FAST_UNIT_H
 
