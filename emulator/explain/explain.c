@@ -18,7 +18,12 @@ struct trax_open_span {
 static void add_charge(void *context, uint32_t tm, uint32_t tp, trax_cause cause, unsigned rd, uint64_t since,
                        uint64_t cycles) {
   struct trax_explain *explain = context;
-  struct trax_open_span *open = &explain->open_spans[tm * explain->machine->config.chip.tps_per_tm + tp];
+  const uint32_t thread = tm * explain->machine->config.chip.tps_per_tm + tp;
+  struct trax_open_span *open = &explain->open_spans[thread];
+  if (explain->has_passages)
+    trax_log_charge(&explain->observer, &explain->observer.logs[thread], 0, cause, rd, cycles);
+  if (!explain->has_spans)
+    return;
   if (open->count && open->charges[open->count - 1].cause == cause && open->charges[open->count - 1].rd == rd) {
     open->charges[open->count - 1].cycles += cycles;
     return;
@@ -57,6 +62,65 @@ static void notify_span(struct trax_explain *explain, uint32_t tm, uint32_t tp, 
   }
 }
 
+/* Sets the indices of what belongs to a piece whose first instruction has the number `at`. */
+static void place_piece(const struct trax_piece *piece, unsigned at, struct trax_thread_log *log,
+                        struct trax_passage *passage) {
+  const unsigned end = at + piece->count;
+  for (size_t *i = &passage->charged_count; *i < log->charged_count && log->charged[*i].at < end; ++*i)
+    log->charged[*i].index = piece->index + (log->charged[*i].at - at);
+  for (size_t *i = &passage->accessed_count; *i < log->accessed_count && log->accessed[*i].at < end; ++*i)
+    log->accessed[*i].index = piece->index + (log->accessed[*i].at - at);
+}
+
+static void notify_passage(const struct trax_explain *explain, const struct trax_passage *passage) {
+  for (unsigned i = 0; i < explain->reader_count; i++)
+    if (explain->readers[i]->kind->passage)
+      explain->readers[i]->kind->passage(explain->readers[i], passage);
+}
+
+static void add_stretch(void *context, const struct trax_stretch *stretch) {
+  struct trax_explain *explain = context;
+  const uint32_t thread = stretch->tm * explain->machine->config.chip.tps_per_tm + stretch->tp;
+  struct trax_thread_log *log = &explain->observer.logs[thread];
+  struct trax_passage passage = {.thread = thread,
+                                 .count = stretch->count,
+                                 .piece = stretch->piece,
+                                 .pieces = stretch->pieces,
+                                 .charged = log->charged,
+                                 .accessed = log->accessed,
+                                 .next_pc = stretch->next_pc,
+                                 .result = stretch->result};
+  for (size_t i = 0, at = 0; i < stretch->pieces; at += stretch->piece[i++].count) {
+    stretch->piece[i].index = trax_places_index(explain->places, stretch->piece[i].pc);
+    place_piece(&stretch->piece[i], (unsigned)at, log, &passage);
+  }
+  passage.last = stretch->piece[stretch->pieces - 1].index + stretch->piece[stretch->pieces - 1].count - 1;
+  passage.inst = *trax_places_inst(explain->places, passage.last);
+  notify_passage(explain, &passage);
+  explain->open_spans[thread].pc = stretch->next_pc;
+  size_t left = 0, accesses_left = 0;
+  for (size_t i = passage.charged_count; i < log->charged_count; i++, left++) {
+    log->charged[left] = log->charged[i];
+    log->charged[left].at -= (uint8_t)stretch->count;
+  }
+  for (size_t i = passage.accessed_count; i < log->accessed_count; i++, accesses_left++) {
+    log->accessed[accesses_left] = log->accessed[i];
+    log->accessed[accesses_left].at -= (uint8_t)stretch->count;
+  }
+  log->charged_count = left;
+  log->accessed_count = (uint32_t)accesses_left;
+}
+
+/* What the thread was charged after its last instruction. */
+static void end_passages(struct trax_explain *explain, uint32_t thread) {
+  struct trax_thread_log *log = &explain->observer.logs[thread];
+  const uint32_t index = trax_places_index(explain->places, explain->open_spans[thread].pc);
+  for (size_t i = 0; i < log->charged_count; i++)
+    log->charged[i].index = index;
+  notify_passage(
+      explain, &(struct trax_passage){.thread = thread, .charged = log->charged, .charged_count = log->charged_count});
+}
+
 /* Notifies the readers of the arrivals that precede the issues of a TM in a cycle. */
 static void notify_arrivals(struct trax_explain *explain, uint64_t cycle, uint32_t tm) {
   size_t notified = 0;
@@ -74,8 +138,24 @@ static void notify_arrivals(struct trax_explain *explain, uint64_t cycle, uint32
 }
 
 static void add_issue(void *context, const struct trax_issue *issue) {
-  notify_arrivals(context, issue->cycle, issue->tm);
-  notify_span(context, issue->tm, issue->tp, issue);
+  struct trax_explain *explain = context;
+  notify_arrivals(explain, issue->cycle, issue->tm);
+  if (explain->has_spans)
+    notify_span(explain, issue->tm, issue->tp, issue);
+  if (!explain->has_passages)
+    return;
+  struct trax_thread_log *log =
+      &explain->observer.logs[issue->tm * explain->machine->config.chip.tps_per_tm + issue->tp];
+  const trax_inst *inst = trax_places_inst(explain->places, trax_places_index(explain->places, issue->pc));
+  if (trax_op_table[inst->op].access_bytes && issue->address < TRAX_LOCAL_BASE)
+    log->accessed[log->accessed_count++] = (struct trax_accessed){.address = issue->address, .outcome = issue->outcome};
+  add_stretch(explain, &(struct trax_stretch){.tm = issue->tm,
+                                              .tp = issue->tp,
+                                              .count = 1,
+                                              .piece = &(struct trax_piece){.pc = issue->pc, .count = 1},
+                                              .pieces = 1,
+                                              .next_pc = issue->next_pc,
+                                              .result = issue->result});
 }
 
 static void add_arrival(void *context, const struct trax_arrival *arrival) {
@@ -145,8 +225,9 @@ static trax_status open_reader(struct trax_explain *explain, const struct trax_r
 static trax_status create(struct trax_explain *explain, trax_error *error) {
   const size_t threads = explain->machine->stats.threads;
   explain->open_spans = trax_explain_array(threads, sizeof *explain->open_spans, error);
+  explain->observer.logs = trax_explain_array(threads, sizeof *explain->observer.logs, error);
   explain->places = trax_places_create(explain->machine);
-  if (!explain->open_spans || !explain->places)
+  if (!explain->open_spans || !explain->observer.logs || !explain->places)
     return trax_fail(error, "out of memory for the explanation of %zu threads", threads);
   for (size_t i = 0; i < threads; i++)
     explain->open_spans[i].pc = explain->open_spans[i].previous_pc =
@@ -182,15 +263,17 @@ trax_status trax_explain_begin(struct trax_explain **result, trax_machine *machi
     trax_explain_discard(explain);
     return TRAX_ERROR;
   }
-  explain->observer =
-      (struct trax_observer){.context = explain, .issue = add_issue, .charge = add_charge, .arrival = add_arrival};
-  explain->observer.ahead = true;
   for (unsigned i = 0; i < explain->reader_count; i++) {
-    if (explain->readers[i]->kind->span) /* the others watch the machine or its transfers */
-      machine->observer = &explain->observer;
-    if (explain->readers[i]->kind->exact)
-      explain->observer.ahead = false;
+    explain->has_spans |= explain->readers[i]->kind->span != NULL;
+    explain->has_passages |= explain->readers[i]->kind->passage != NULL;
   }
+  explain->observer.context = explain;
+  explain->observer.issue = add_issue;
+  explain->observer.charge = add_charge;
+  explain->observer.arrival = add_arrival;
+  explain->observer.stretch = explain->has_spans ? NULL : add_stretch;
+  if (explain->has_spans || explain->has_passages) /* other readers watch the machine or its transfers */
+    machine->observer = &explain->observer;
   *result = explain;
   return TRAX_OK;
 }
@@ -221,8 +304,12 @@ trax_status trax_explain_end(struct trax_explain *explain, trax_error *error) {
   trax_status status = TRAX_OK;
   trax_error reason;
   notify_arrivals(explain, UINT64_MAX, 0);
-  for (uint32_t thread = 0; thread < machine->stats.threads; thread++)
-    notify_span(explain, thread / tps, thread % tps, NULL);
+  for (uint32_t thread = 0; thread < machine->stats.threads; thread++) {
+    if (explain->has_spans)
+      notify_span(explain, thread / tps, thread % tps, NULL);
+    end_passages(explain, thread);
+  }
+  explain->out_of_memory |= explain->observer.lost;
   for (unsigned i = 0; i < explain->reader_count && !explain->out_of_memory; i++) {
     struct trax_reader *reader = explain->readers[i];
     const trax_status ended = reader->kind->end ? reader->kind->end(reader, &reason) : TRAX_OK;
@@ -262,7 +349,10 @@ void trax_explain_discard(struct trax_explain *explain) {
   trax_pixel_rays_destroy(explain->pixel_rays);
   for (uint64_t i = 0; explain->open_spans && i < explain->machine->stats.threads; i++)
     free(explain->open_spans[i].charges);
+  for (uint64_t i = 0; explain->observer.logs && i < explain->machine->stats.threads; i++)
+    free(explain->observer.logs[i].charged);
   free(explain->open_spans);
+  free(explain->observer.logs);
   free(explain->arrivals);
   trax_places_destroy(explain->places);
   free(explain);

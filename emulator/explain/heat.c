@@ -1,6 +1,7 @@
 /* Memory heat: accesses by object, and by 64 bytes of global memory. */
 #include "explain/objects.h"
 #include "explain/page.h"
+#include "explain/places.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -26,6 +27,7 @@ struct heat {
   struct heat_counts *counts;       /* of each object */
   struct heat_counts *parts;        /* of each part */
   struct heat_counts *pages[PAGES]; /* each [LINES_PER_PAGE], or NULL */
+  uint64_t *executed, *global;      /* [places]: executions of the instruction; those that accessed global memory */
 };
 
 static struct heat_counts *line_at(struct heat *heat, uint32_t address) {
@@ -37,37 +39,55 @@ static struct heat_counts *line_at(struct heat *heat, uint32_t address) {
   return &(*page)[address >> LINE_SHIFT & (LINES_PER_PAGE - 1)];
 }
 
-static void count(struct heat_counts *counts, unsigned flags, unsigned bytes, unsigned outcome) {
-  if (flags & TRAX_IS_ATOMIC) {
-    counts->atomics++;
-  } else if (flags & TRAX_IS_STORE) {
-    counts->stores++;
-    counts->store_bytes += bytes;
+/* `times`: the number of accesses. */
+static void count(struct heat_counts *counts, const trax_op_info *op, unsigned outcome, uint64_t times) {
+  if (op->flags & TRAX_IS_ATOMIC) {
+    counts->atomics += times;
+  } else if (op->flags & TRAX_IS_STORE) {
+    counts->stores += times;
+    counts->store_bytes += op->access_bytes * times;
     counts->combined += (outcome & TRAX_OUTCOME_COMBINED) != 0;
   } else {
-    counts->loads++;
-    counts->load_bytes += bytes;
+    counts->loads += times;
+    counts->load_bytes += op->access_bytes * times;
     counts->hits += (outcome & TRAX_OUTCOME_HIT) != 0;
     counts->misses += (outcome & TRAX_OUTCOME_MISS) != 0;
     counts->merged += (outcome & TRAX_OUTCOME_MERGED) != 0;
   }
 }
 
-static void add_span(void *self, const struct trax_span *span) {
-  struct heat *heat = self;
-  const trax_op_info *op = &trax_op_table[span->inst.op];
-  if (!span->issue || !op->access_bytes)
-    return;
-  const uint32_t address = span->issue->address;
+static void add_access(struct heat *heat, const struct trax_accessed *accessed) {
   const struct trax_explain_options *options = &heat->reader.explain->options;
+  const trax_op_info *op = &trax_op_table[trax_places_inst(heat->reader.explain->places, accessed->index)->op];
+  const uint32_t address = accessed->address;
+  heat->global[accessed->index]++;
   for (size_t i = 0; i < options->part_count; i++)
     if (address - options->parts[i].address < options->parts[i].bytes)
-      count(&heat->parts[i], op->flags, op->access_bytes, span->issue->outcome);
-  count(&heat->counts[trax_objects_at(&heat->objects, address)], op->flags, op->access_bytes, span->issue->outcome);
-  struct heat_counts *line =
-      heat->reader.explain->options.heat_lines && address < TRAX_LOCAL_BASE ? line_at(heat, address) : NULL;
+      count(&heat->parts[i], op, accessed->outcome, 1);
+  count(&heat->counts[trax_objects_at(&heat->objects, address)], op, accessed->outcome, 1);
+  struct heat_counts *line = options->heat_lines ? line_at(heat, address) : NULL;
   if (line)
-    count(line, op->flags, op->access_bytes, span->issue->outcome);
+    count(line, op, accessed->outcome, 1);
+}
+
+static void add_passage(void *self, const struct trax_passage *passage) {
+  struct heat *heat = self;
+  for (size_t i = 0; i < passage->pieces; i++)
+    trax_add_executed(heat->executed, &passage->piece[i]);
+  for (size_t i = 0; i < passage->accessed_count; i++)
+    add_access(heat, &passage->accessed[i]);
+}
+
+/* Accesses that were not to global memory were to local memory. */
+static trax_status add_local(void *self, trax_error *error) {
+  struct heat *heat = self;
+  struct trax_places *places = heat->reader.explain->places;
+  struct heat_counts *local = &heat->counts[trax_objects_at(&heat->objects, TRAX_LOCAL_BASE)];
+  (void)error;
+  for (uint32_t i = 0; i < trax_places_count(places); i++)
+    if (trax_op_table[trax_places_inst(places, i)->op].access_bytes)
+      count(local, &trax_op_table[trax_places_inst(places, i)->op], 0, heat->executed[i] - heat->global[i]);
+  return TRAX_OK;
 }
 
 static void put_counts(FILE *out, const struct heat_counts *counts) {
@@ -140,7 +160,9 @@ static trax_status open_heat(void *self, trax_error *error) {
     return TRAX_ERROR;
   heat->counts = trax_explain_array(heat->objects.count, sizeof *heat->counts, error);
   heat->parts = trax_explain_array(heat->reader.explain->options.part_count, sizeof *heat->parts, error);
-  return heat->counts && heat->parts ? TRAX_OK : TRAX_ERROR;
+  heat->executed = trax_explain_array(trax_places_count(heat->reader.explain->places) + 2, sizeof(uint64_t), error);
+  heat->global = trax_explain_array(trax_places_count(heat->reader.explain->places) + 2, sizeof(uint64_t), error);
+  return heat->counts && heat->parts && heat->executed && heat->global ? TRAX_OK : TRAX_ERROR;
 }
 
 static void close_heat(void *self) {
@@ -150,6 +172,8 @@ static void close_heat(void *self) {
   trax_objects_release(&heat->objects);
   free(heat->counts);
   free(heat->parts);
+  free(heat->executed);
+  free(heat->global);
 }
 
 const struct trax_reader_kind trax_heat_reader = {
@@ -159,5 +183,6 @@ const struct trax_reader_kind trax_heat_reader = {
               {.put = put_parts, .member = "parts"}},
     .in_page = true,
     .open = open_heat,
-    .span = add_span,
+    .passage = add_passage,
+    .end = add_local,
     .close = close_heat};

@@ -1,5 +1,6 @@
 /* The cost of each item, and the place of its result. */
 #include "explain/page.h"
+#include "explain/places.h"
 #include "explain/ray_kinds.h"
 #include "explain/stories.h"
 #include "trax/grow.h"
@@ -80,8 +81,8 @@ static void end_item(struct items *items, uint32_t number, uint64_t end, bool la
                                  .mark_capacity = thread->mark_capacity};
 }
 
-static void add_mark(struct items *items, struct item_thread *thread, const struct trax_span *span) {
-  const unsigned kind = trax_counted_kind(span);
+static void add_mark(struct items *items, struct item_thread *thread, const struct trax_passage *passage) {
+  const unsigned kind = trax_counted_kind(passage);
   if (kind == TRAX_NO_RAY)
     return;
   if (!trax_grow((void **)&thread->marks, thread->mark_count, &thread->mark_capacity, sizeof *thread->marks)) {
@@ -93,37 +94,46 @@ static void add_mark(struct items *items, struct item_thread *thread, const stru
 }
 
 /* Counts the rays that a trap reports. */
-static void add_rays(struct item_thread *thread, const struct trax_span *span) {
-  if (span->inst.imm == TRAX_TRAP_RAYS)
-    thread->rays[TRAX_RAY_KIND_COUNT - 1] += span->issue->result;
-  for (unsigned kind = 0; span->inst.imm == TRAX_TRAP_KINDS && kind < TRAX_RAY_KIND_COUNT; kind++)
-    thread->rays[kind] += span->issue->result >> kind * TRAX_KIND_BITS & ((1u << TRAX_KIND_BITS) - 1);
+static void add_rays(struct item_thread *thread, const struct trax_passage *passage) {
+  if (passage->inst.imm == TRAX_TRAP_RAYS)
+    thread->rays[TRAX_RAY_KIND_COUNT - 1] += passage->result;
+  for (unsigned kind = 0; passage->inst.imm == TRAX_TRAP_KINDS && kind < TRAX_RAY_KIND_COUNT; kind++)
+    thread->rays[kind] += passage->result >> kind * TRAX_KIND_BITS & ((1u << TRAX_KIND_BITS) - 1);
 }
 
-static void add_span(void *self, const struct trax_span *span) {
-  struct items *items = self;
-  struct item_thread *thread = &items->threads[span->thread];
-  if (items->reader.explain->stories)
-    trax_stories_add(items->reader.explain->stories, span);
-  for (size_t i = 0; i < span->count; i++) {
-    thread->cycles[span->charges[i].cause] += span->charges[i].cycles;
-    thread->until += span->charges[i].cycles;
+/* The place of a later store to the buffer counts. */
+static void find_place(const struct items *items, struct item_thread *thread, const struct trax_passage *passage) {
+  for (size_t i = 0; i < passage->accessed_count; i++) {
+    const uint32_t offset = passage->accessed[i].address - items->buffer_begin;
+    const trax_inst *inst = trax_places_inst(items->reader.explain->places, passage->accessed[i].index);
+    if (offset < items->buffer_bytes && trax_op_table[inst->op].flags & TRAX_IS_STORE)
+      thread->place = offset / items->reader.explain->options.item_bytes;
   }
-  if (!span->issue) {
-    end_item(items, span->thread, thread->until, true);
+}
+
+static void add_passage(void *self, const struct trax_passage *passage) {
+  struct items *items = self;
+  struct item_thread *thread = &items->threads[passage->thread];
+  if (items->reader.explain->stories)
+    trax_stories_add(items->reader.explain->stories, passage);
+  for (size_t i = 0; i < passage->charged_count; i++) {
+    thread->cycles[passage->charged[i].cause] += passage->charged[i].cycles;
+    thread->until += passage->charged[i].cycles;
+  }
+  if (!passage->count) {
+    end_item(items, passage->thread, thread->until, true);
     return;
   }
-  thread->cycles[TRAX_CAUSE_ISSUED]++;
-  thread->until++;
-  if (span->inst.op == TRAX_OP_TRAP)
-    add_rays(thread, span);
-  if (span->inst.op == TRAX_OP_TRAP && items->reader.explain->pixel_rays)
-    add_mark(items, thread, span);
-  if (trax_ends_item(span))
-    end_item(items, span->thread, thread->until, false);
-  else if (trax_op_table[span->inst.op].flags & TRAX_IS_STORE &&
-           span->issue->address - items->buffer_begin < items->buffer_bytes)
-    thread->place = (span->issue->address - items->buffer_begin) / items->reader.explain->options.item_bytes;
+  thread->cycles[TRAX_CAUSE_ISSUED] += passage->count;
+  thread->until += passage->count;
+  if (passage->inst.op == TRAX_OP_TRAP)
+    add_rays(thread, passage);
+  if (passage->inst.op == TRAX_OP_TRAP && items->reader.explain->pixel_rays)
+    add_mark(items, thread, passage);
+  if (trax_ends_item(passage))
+    end_item(items, passage->thread, thread->until, false);
+  else
+    find_place(items, thread, passage);
 }
 
 void trax_explain_items(struct trax_explain *explain,
@@ -205,6 +215,6 @@ const struct trax_reader_kind trax_items_reader = {
     .files = {{.path = TRAX_EXPLAIN_PATH(items)}, {.path = TRAX_EXPLAIN_PATH(story), .put = trax_stories_put}},
     .is_wanted = has_buffer,
     .open = open_items,
-    .span = add_span,
+    .passage = add_passage,
     .put_members = put_stories,
     .close = close_items};

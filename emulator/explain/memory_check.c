@@ -297,7 +297,6 @@ static bool is_wanted(const struct trax_explain_options *options) {
 
 const struct trax_reader_kind trax_memory_check_reader = {.bytes = sizeof(struct trax_memory_check),
                                                           .is_wanted = is_wanted,
-                                                          .exact = true,
                                                           .open = open_check,
                                                           .span = add_span,
                                                           .arrival = add_arrival,

@@ -45,6 +45,8 @@ static struct trax_profile_counts *counts_of(struct trax_profile *profile, uint3
     return &discarded;
   }
   *record = entry->value;
+  if (*record == profile->record_count && profile->record_count == MAX_RECORDS / 2)
+    profile->reader.explain->observer.single = true; /* the limit must not depend on the engine's stretches */
   if (*record == profile->record_count)
     profile->records[profile->record_count++] = (struct trax_profile_record){.context = context, .index = index};
   *latest = *record + 1;
@@ -73,6 +75,7 @@ static uint32_t context_of(struct trax_profile *profile, uint32_t parent, uint32
     return 0;
   profile->contexts[profile->context_count++] = (struct trax_profile_context){parent, index};
   profile->call_count += depth + 1;
+  profile->reader.explain->observer.single |= profile->call_count > MAX_CALLS / 2;
   if (!profile->first_of[index])
     profile->first_of[index] = context;
   return context;
@@ -120,49 +123,72 @@ static void jump_through_register(const struct trax_profile *profile, struct tra
   thread->context = thread->depth ? thread->calls[thread->depth - 1].context : 0;
 }
 
-static void follow(struct trax_profile *profile, struct trax_profile_thread *thread, const struct trax_span *span,
-                   uint32_t index) {
-  const trax_inst inst = span->inst;
+/* Follows the last instruction of a passage. */
+static void follow(struct trax_profile *profile, struct trax_profile_thread *thread,
+                   const struct trax_passage *passage) {
+  const trax_inst inst = passage->inst;
+  const struct trax_piece *piece = &passage->piece[passage->pieces - 1];
+  const uint32_t pc = piece->pc + 4 * (piece->count - 1);
   if (inst.op == TRAX_OP_JAL || inst.op == TRAX_OP_JALR) {
-    if (inst.rd && span->issue->next_pc != span->pc + 4) /* else a call of a weak function that is not defined */
-      call(profile, thread, index, span->pc + 4);
+    if (inst.rd && passage->next_pc != pc + 4) /* else a call of a weak function that is not defined */
+      call(profile, thread, passage->last, pc + 4);
     else if (!inst.rd && inst.op == TRAX_OP_JALR)
-      jump_through_register(profile, thread, span->pc, span->issue->next_pc);
+      jump_through_register(profile, thread, pc, passage->next_pc);
   } else if (inst.rd == TRAX_STACK_POINTER && trax_op_table[inst.op].flags & TRAX_WRITES_RD) {
-    thread->stack_pointer = span->issue->result;
+    thread->stack_pointer = passage->result;
   }
 }
 
 /* --- the reader --- */
 
-static void add_span(void *self, const struct trax_span *span) {
-  struct trax_profile *profile = self;
-  struct trax_profile_thread *thread = &profile->threads[span->thread];
+/* Adds a branch bubble to the jump before it. `before`: the record of the instruction before the passage. */
+static void add_bubble(struct trax_profile *profile, uint32_t context, const struct trax_passage *passage,
+                       const struct trax_charged *charged, uint32_t before) {
+  uint32_t record;
+  if (charged->at)
+    counts_of(profile, context, trax_passage_index(passage, charged->at - 1u), &record)->cycles[TRAX_CAUSE_BRANCH] +=
+        charged->cycles;
+  else if (before != UINT32_MAX)
+    profile->records[before].counts.cycles[TRAX_CAUSE_BRANCH] += charged->cycles;
+  else
+    counts_of(profile, context, charged->index, &record)->cycles[TRAX_CAUSE_BRANCH] += charged->cycles;
+}
+
+static void add_charges(struct trax_profile *profile, uint32_t context, const struct trax_passage *passage,
+                        uint32_t before) {
   const struct trax_places *places = profile->reader.explain->places;
-  const uint32_t index = span->index, previous = thread->latest;
-  struct trax_profile_counts *counts = NULL; /* created only if it counts something */
-  if (span->issue) {
-    counts = counts_of(profile, thread->context, index, &thread->latest);
-    counts->cycles[TRAX_CAUSE_ISSUED]++;
-    if (span->issue->outcome && trax_op_table[span->inst.op].flags & TRAX_IS_LOAD) {
-      counts->loads++;
-      counts->hits += span->issue->outcome & TRAX_OUTCOME_HIT;
-    }
-  }
-  for (size_t i = 0; i < span->count; i++) {
-    const struct trax_charge *charge = &span->charges[i];
-    uint32_t record;
-    if (charge->cause == TRAX_CAUSE_BRANCH && previous != UINT32_MAX)
-      profile->records[previous].counts.cycles[TRAX_CAUSE_BRANCH] += charge->cycles;
-    else if (charge->cause == TRAX_CAUSE_HALTED)
-      counts_of(profile, 0, trax_places_halted(places), &record)->cycles[TRAX_CAUSE_HALTED] += charge->cycles;
-    else if (counts)
-      counts->cycles[charge->cause] += charge->cycles;
+  uint32_t record;
+  for (size_t i = 0; i < passage->charged_count; i++) {
+    const struct trax_charged *charged = &passage->charged[i];
+    if (charged->cause == TRAX_CAUSE_BRANCH)
+      add_bubble(profile, context, passage, charged, before);
+    else if (charged->cause == TRAX_CAUSE_HALTED)
+      counts_of(profile, 0, trax_places_halted(places), &record)->cycles[TRAX_CAUSE_HALTED] += charged->cycles;
     else
-      counts_of(profile, thread->context, index, &record)->cycles[charge->cause] += charge->cycles;
+      counts_of(profile, context, charged->index, &record)->cycles[charged->cause] += charged->cycles;
   }
-  if (span->issue)
-    follow(profile, thread, span, index);
+}
+
+static void add_passage(void *self, const struct trax_passage *passage) {
+  struct trax_profile *profile = self;
+  struct trax_profile_thread *thread = &profile->threads[passage->thread];
+  const struct trax_places *places = profile->reader.explain->places;
+  const uint32_t before = thread->latest, context = thread->context;
+  uint32_t record;
+  for (size_t i = 0; i < passage->pieces; i++)
+    for (uint32_t k = 0; k < passage->piece[i].count; k++)
+      counts_of(profile, context, passage->piece[i].index + k, &thread->latest)->cycles[TRAX_CAUSE_ISSUED]++;
+  add_charges(profile, context, passage, before);
+  for (size_t i = 0; i < passage->accessed_count; i++) {
+    const struct trax_accessed *accessed = &passage->accessed[i];
+    if (!accessed->outcome || !(trax_op_table[trax_places_inst(places, accessed->index)->op].flags & TRAX_IS_LOAD))
+      continue;
+    struct trax_profile_counts *counts = counts_of(profile, context, accessed->index, &record);
+    counts->loads++;
+    counts->hits += accessed->outcome & TRAX_OUTCOME_HIT;
+  }
+  if (passage->count)
+    follow(profile, thread, passage);
 }
 
 static trax_status open_profile(void *self, trax_error *error) {
@@ -203,6 +229,6 @@ const struct trax_reader_kind trax_profile_reader = {
               {.path = TRAX_EXPLAIN_PATH(sample), .put = trax_profile_put_sample}},
     .in_page = true,
     .open = open_profile,
-    .span = add_span,
+    .passage = add_passage,
     .put_members = trax_profile_put_members,
     .close = close_profile};

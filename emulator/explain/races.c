@@ -230,7 +230,6 @@ static bool is_wanted(const struct trax_explain_options *options) {
 
 const struct trax_reader_kind trax_races_reader = {.bytes = sizeof(struct races),
                                                    .is_wanted = is_wanted,
-                                                   .exact = true,
                                                    .open = open_races,
                                                    .span = add_span,
                                                    .arrival = add_arrival,

@@ -4,6 +4,7 @@
    are combined. */
 #include "explain/ray_kinds.h"
 #include "explain/page.h"
+#include "explain/places.h"
 #include "report/energy.h"
 
 #include <inttypes.h>
@@ -21,7 +22,8 @@ const char *const trax_ray_kind_names[TRAX_RAY_KIND_COUNT] = {
 struct ray_kinds {
   struct trax_reader reader;
   struct trax_tm_stats kinds[KINDS];
-  uint8_t *working; /* [threads]: the kind of ray that the thread works for */
+  uint64_t *executed[KINDS]; /* each [places]: executions of the instruction */
+  uint8_t *working;          /* [threads]: the kind of ray that the thread works for */
 };
 
 /* --- the counters, as the engines count them --- */
@@ -32,16 +34,16 @@ static uint64_t transfer_bytes(const struct trax_config *config, uint32_t addres
   return bytes < config->memory.min_transfer_bytes ? config->memory.min_transfer_bytes : bytes;
 }
 
-static void count_load(struct trax_tm_stats *to, const struct trax_config *config, const struct trax_span *span,
+static void count_load(struct trax_tm_stats *to, const struct trax_config *config, const struct trax_accessed *accessed,
                        unsigned flags) {
   if (flags & TRAX_IS_NONTEMPORAL) {
     to->nontemporal_loads++;
-    to->nontemporal_read_bytes += transfer_bytes(config, span->issue->address, 4);
+    to->nontemporal_read_bytes += transfer_bytes(config, accessed->address, 4);
     return;
   }
-  to->dcache_hits += (span->issue->outcome & TRAX_OUTCOME_HIT) != 0;
-  to->dcache_merged += (span->issue->outcome & TRAX_OUTCOME_MERGED) != 0;
-  if (span->issue->outcome & TRAX_OUTCOME_MISS) {
+  to->dcache_hits += (accessed->outcome & TRAX_OUTCOME_HIT) != 0;
+  to->dcache_merged += (accessed->outcome & TRAX_OUTCOME_MERGED) != 0;
+  if (accessed->outcome & TRAX_OUTCOME_MISS) {
     to->dcache_misses++;
     to->data_read_bytes += config->memory.model == TRAX_MEMORY_DRAM
                                ? trax_dram_bytes(config, 0, config->dcache.line_bytes)
@@ -49,52 +51,74 @@ static void count_load(struct trax_tm_stats *to, const struct trax_config *confi
   }
 }
 
-static void count_store(struct trax_tm_stats *to, const struct trax_span *span, unsigned flags) {
-  to->combined_stores += (span->issue->outcome & TRAX_OUTCOME_COMBINED) != 0;
+static void count_store(struct trax_tm_stats *to, const struct trax_accessed *accessed, unsigned flags) {
+  to->combined_stores += (accessed->outcome & TRAX_OUTCOME_COMBINED) != 0;
   if (flags & TRAX_IS_NONTEMPORAL)
     to->nontemporal_stores++;
-  else if (span->issue->outcome & TRAX_OUTCOME_HIT)
+  else if (accessed->outcome & TRAX_OUTCOME_HIT)
     to->store_hits++;
   else
     to->store_misses++;
 }
 
-static void count_instruction(struct trax_tm_stats *to, const struct trax_config *config,
-                              const struct trax_span *span) {
-  const trax_op_info *info = &trax_op_table[span->inst.op];
-  to->cycles[TRAX_CAUSE_ISSUED]++;
-  to->instructions[span->inst.op]++;
-  to->icache_hits++; /* one fetch, for the energy */
-  to->taken_branches += span->issue->next_pc != span->pc + 4;
-  if (!info->access_bytes)
-    return;
-  if (span->issue->address >= TRAX_LOCAL_BASE)
-    ++*(info->flags & TRAX_IS_STORE ? &to->local_stores : &to->local_loads);
-  else if (info->flags & TRAX_IS_ATOMIC)
+/* An access to global memory is first taken off those to local memory, to which count_instructions adds all. */
+static void count_access(struct trax_tm_stats *to, const struct trax_config *config,
+                         const struct trax_accessed *accessed, trax_op op) {
+  const unsigned flags = trax_op_table[op].flags;
+  --*(flags & TRAX_IS_STORE ? &to->local_stores : &to->local_loads);
+  if (flags & TRAX_IS_ATOMIC)
     to->atomic_bytes += config->memory.model == TRAX_MEMORY_DRAM
                             ? 0
-                            : transfer_bytes(config, span->issue->address, config->memory.atomic_bytes);
-  else if (info->flags & TRAX_IS_STORE)
-    count_store(to, span, info->flags);
+                            : transfer_bytes(config, accessed->address, config->memory.atomic_bytes);
+  else if (flags & TRAX_IS_STORE)
+    count_store(to, accessed, flags);
   else
-    count_load(to, config, span, info->flags);
+    count_load(to, config, accessed, flags);
 }
 
-static void add_span(void *self, const struct trax_span *span) {
+static void count_instructions(struct trax_tm_stats *to, trax_op op, uint64_t times) {
+  const trax_op_info *info = &trax_op_table[op];
+  to->cycles[TRAX_CAUSE_ISSUED] += times;
+  to->instructions[op] += times;
+  to->icache_hits += times; /* one fetch, for the energy */
+  if (info->access_bytes)
+    *(info->flags & TRAX_IS_STORE ? &to->local_stores : &to->local_loads) += times;
+}
+
+static void add_passage(void *self, const struct trax_passage *passage) {
   struct ray_kinds *rays = self;
-  uint8_t *working = &rays->working[span->thread];
-  for (size_t i = 0; i < span->count; i++)
-    rays->kinds[*working].cycles[span->charges[i].cause] += span->charges[i].cycles;
-  if (!span->issue)
-    return;
-  const unsigned kind = trax_counted_kind(span);
+  const struct trax_places *places = rays->reader.explain->places;
+  uint8_t *working = &rays->working[passage->thread];
+  for (size_t i = 0; i < passage->charged_count; i++)
+    rays->kinds[*working].cycles[passage->charged[i].cause] += passage->charged[i].cycles;
+  const unsigned kind = trax_counted_kind(passage);
   if (kind != TRAX_NO_RAY)
     *working = (uint8_t)kind;
-  count_instruction(&rays->kinds[*working], &rays->reader.explain->machine->config, span);
-  if (trax_ends_item(span)) {
-    rays->kinds[TRAX_NO_RAY].items += span->issue->result;
+  struct trax_tm_stats *to = &rays->kinds[*working];
+  uint32_t pc = 0;
+  for (size_t i = 0; i < passage->pieces; i++) {
+    trax_add_executed(rays->executed[*working], &passage->piece[i]);
+    pc = passage->piece[i].pc + 4 * passage->piece[i].count;
+  }
+  if (passage->count) /* from one piece to the next, and behind the last */
+    to->taken_branches += passage->pieces - 1 + (passage->next_pc != pc);
+  for (size_t i = 0; i < passage->accessed_count; i++)
+    count_access(to, &rays->reader.explain->machine->config, &passage->accessed[i],
+                 trax_places_inst(places, passage->accessed[i].index)->op);
+  if (trax_ends_item(passage)) {
+    rays->kinds[TRAX_NO_RAY].items += passage->result;
     *working = TRAX_NO_RAY;
   }
+}
+
+static trax_status add_executed(void *self, trax_error *error) {
+  struct ray_kinds *rays = self;
+  const struct trax_places *places = rays->reader.explain->places;
+  (void)error;
+  for (unsigned kind = 0; kind < KINDS; kind++)
+    for (uint32_t i = 0; i < trax_places_count(places); i++)
+      count_instructions(&rays->kinds[kind], trax_places_inst(places, i)->op, rays->executed[kind][i]);
+  return TRAX_OK;
 }
 
 /* --- the table --- */
@@ -175,11 +199,18 @@ static trax_status open_ray_kinds(void *self, trax_error *error) {
   if (!(rays->working = trax_explain_array(threads, 1, error)))
     return TRAX_ERROR;
   memset(rays->working, TRAX_NO_RAY, threads);
+  for (unsigned kind = 0; kind < KINDS; kind++)
+    if (!(rays->executed[kind] =
+              trax_explain_array(trax_places_count(rays->reader.explain->places) + 2, sizeof(uint64_t), error)))
+      return TRAX_ERROR;
   return TRAX_OK;
 }
 
 static void close_ray_kinds(void *self) {
-  free(((struct ray_kinds *)self)->working);
+  struct ray_kinds *rays = self;
+  free(rays->working);
+  for (unsigned kind = 0; kind < KINDS; kind++)
+    free(rays->executed[kind]);
 }
 
 const struct trax_reader_kind trax_ray_kinds_reader = {
@@ -187,5 +218,6 @@ const struct trax_reader_kind trax_ray_kinds_reader = {
     .files = {{.path = TRAX_EXPLAIN_PATH(ray_kinds), .put = put_table, .member = "ray_kinds"}},
     .in_page = true,
     .open = open_ray_kinds,
-    .span = add_span,
+    .passage = add_passage,
+    .end = add_executed,
     .close = close_ray_kinds};

@@ -9,14 +9,13 @@
 
 extern const char *const trax_ray_kind_names[TRAX_RAY_KIND_COUNT];
 
-/* The kind of the rays that the span's trap counts; TRAX_NO_RAY if it counts no rays, or several kinds. */
-static inline unsigned trax_counted_kind(const struct trax_span *span) {
-  return span->issue && span->inst.op == TRAX_OP_TRAP ? trax_ray_kind_of(span->inst.imm, span->issue->result)
-                                                      : TRAX_NO_RAY;
+/* The kind of the rays that the passage's trap counts; TRAX_NO_RAY if it counts no rays, or several kinds. */
+static inline unsigned trax_counted_kind(const struct trax_passage *passage) {
+  return passage->inst.op == TRAX_OP_TRAP ? trax_ray_kind_of(passage->inst.imm, passage->result) : TRAX_NO_RAY;
 }
 
-static inline bool trax_ends_item(const struct trax_span *span) {
-  return span->issue && span->inst.op == TRAX_OP_TRAP && span->inst.imm == TRAX_TRAP_ITEMS;
+static inline bool trax_ends_item(const struct trax_passage *passage) {
+  return passage->inst.op == TRAX_OP_TRAP && passage->inst.imm == TRAX_TRAP_ITEMS;
 }
 
 #endif

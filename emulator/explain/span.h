@@ -1,6 +1,8 @@
-/* Spans and readers. A span is what a thread did from the issue of one instruction to the issue of the next. Readers
-   are called for the spans of all threads in the order of the issues that end them, which does not depend on the
-   engine. */
+/* Spans, passages and readers. A span is what a thread did from the issue of one instruction to the issue of the next.
+   Readers of spans are called for those of all threads in the order of the issues that end them, which does not depend
+   on the engine. A passage is what a thread did for a stretch of instructions (machine/observer.h). Readers of passages
+   are much faster, since the engine executes ahead for them. Only the passages of one thread are in order, and those
+   that end with a trap, a call, a return, or a write of the stack pointer, which each are passages of their own. */
 #ifndef TRAX_EXPLAIN_SPAN_H
 #define TRAX_EXPLAIN_SPAN_H
 
@@ -29,6 +31,34 @@ struct trax_span {
   trax_inst inst;                 /* the instruction; illegal if pc is no text */
 };
 
+struct trax_passage {
+  uint32_t thread;
+  uint32_t count; /* instructions; 0: at the end of the run, the charges since the thread's last instruction */
+  const struct trax_piece *piece; /* [pieces]; each index is one of the places */
+  size_t pieces;
+  const struct trax_charged *charged; /* [charged_count]; those before an instruction come before its access */
+  size_t charged_count;
+  const struct trax_accessed *accessed; /* [accessed_count] */
+  size_t accessed_count;
+  uint32_t next_pc, result; /* of the last instruction */
+  uint32_t last;            /* its index */
+  trax_inst inst;           /* the last instruction; illegal if there is none */
+};
+
+/* The index of an instruction of the passage. */
+static inline uint32_t trax_passage_index(const struct trax_passage *passage, unsigned at) {
+  const struct trax_piece *piece = passage->piece;
+  for (; at >= piece->count; piece++)
+    at -= piece->count;
+  return piece->index + at;
+}
+
+/* Counts the execution of a piece's instructions, by their indices. */
+static inline void trax_add_executed(uint64_t *executed, const struct trax_piece *piece) {
+  for (uint32_t i = 0; i < piece->count; i++)
+    executed[piece->index + i]++;
+}
+
 enum { TRAX_READER_FILES = 3 };
 
 /* A kind of reader. Its object begins with a struct trax_reader. Functions may be NULL. */
@@ -41,10 +71,10 @@ struct trax_reader_kind {
     const char *member; /* the member of the page that has the same text; NULL: none */
   } files[TRAX_READER_FILES];
   bool in_page;                                                  /* the page needs the reader */
-  bool exact; /* it needs all values of issues (machine/observer.h) */
   bool (*is_wanted)(const struct trax_explain_options *options); /* whether other options need it */
   trax_status (*open)(void *self, trax_error *error);
   void (*span)(void *self, const struct trax_span *span);
+  void (*passage)(void *self, const struct trax_passage *passage);
   /* Called in the order of (cycle, TM), before the spans that end with issues of the same cycle and TM. */
   void (*arrival)(void *self, const struct trax_arrival *arrival);
   trax_status (*end)(void *self, trax_error *error); /* called after the last span, before the files are written */
@@ -89,6 +119,7 @@ struct trax_explain {
   struct trax_explain_options options;
   struct trax_observer observer;
   struct trax_open_span *open_spans; /* [threads]: since the latest issue of each */
+  bool has_spans, has_passages;      /* readers take them */
   struct trax_places *places;
   struct trax_reader *readers[TRAX_READER_KINDS];
   unsigned reader_count;

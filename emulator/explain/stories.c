@@ -13,7 +13,8 @@ enum { INDEX_BITS = 19, MARK = 31, MOST_CYCLES = 255 };
 
 /* Small, since the logs of all threads are written at once. More cycles are several entries. */
 struct entry {
-  uint32_t index : INDEX_BITS, cause : 5, cycles : 8; /* cause MARK: a ray begins, of the kind `cycles` */
+  /* TRAX_CAUSE_ISSUED: of `cycles` instructions from the index on. Cause MARK: a ray begins, of the kind `cycles`. */
+  uint32_t index : INDEX_BITS, cause : 5, cycles : 8;
 };
 _Static_assert(sizeof(struct entry) == 4 && (int)TRAX_CAUSE_COUNT <= MARK, "the bits of an entry suffice");
 
@@ -112,15 +113,22 @@ static void pass_time(struct draft *draft, unsigned cause, uint64_t cycles) {
   }
 }
 
+static void add_code(struct draft *draft, uint32_t index, unsigned cause, uint32_t cycles) {
+  uint32_t *code = draft->code[index], sum = 0;
+  for (unsigned i = 0; i < TRAX_CAUSE_COUNT; i++)
+    sum |= code[i];
+  if (!sum)
+    draft->touched[draft->touched_count++] = index;
+  code[cause] += cycles;
+}
+
 static bool add_entry(struct draft *draft, struct entry entry) {
   if (entry.cause == MARK)
     return begin_ray(draft, entry.cycles);
-  uint32_t *code = draft->code[entry.index], sum = 0;
-  for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
-    sum |= code[cause];
-  if (!sum)
-    draft->touched[draft->touched_count++] = entry.index;
-  code[entry.cause] += entry.cycles;
+  if (entry.cause != TRAX_CAUSE_ISSUED)
+    add_code(draft, entry.index, entry.cause, entry.cycles);
+  for (uint32_t i = 0; entry.cause == TRAX_CAUSE_ISSUED && i < entry.cycles; i++)
+    add_code(draft, entry.index + i, TRAX_CAUSE_ISSUED, 1);
   draft->rays[draft->ray_count - 1].cycles[entry.cause] += entry.cycles;
   pass_time(draft, entry.cause, entry.cycles);
   return true;
@@ -150,24 +158,36 @@ static void log_entry(struct trax_stories *stories, struct story_thread *thread,
   thread->log[thread->logged++] = (struct entry){.index = index, .cause = cause, .cycles = cycles};
 }
 
-void trax_stories_add(struct trax_stories *stories, const struct trax_span *span) {
-  struct story_thread *thread = &stories->threads[span->thread];
-  for (size_t i = 0; i < span->count; i++) {
-    const struct trax_charge *charge = &span->charges[i];
-    const uint32_t index = charge->cause == TRAX_CAUSE_BRANCH ? thread->latest : span->index;
-    uint64_t left = charge->cause == TRAX_CAUSE_HALTED ? 0 : charge->cycles; /* a halted thread ends no item */
-    for (; left > MOST_CYCLES; left -= MOST_CYCLES)
-      log_entry(stories, thread, index, charge->cause, MOST_CYCLES);
-    if (left)
-      log_entry(stories, thread, index, charge->cause, (uint32_t)left);
+static void log_charge(struct trax_stories *stories, struct story_thread *thread, uint32_t index,
+                       const struct trax_charged *charged) {
+  uint64_t left = charged->cause == TRAX_CAUSE_HALTED ? 0 : charged->cycles; /* a halted thread ends no item */
+  for (; left > MOST_CYCLES; left -= MOST_CYCLES)
+    log_entry(stories, thread, index, charged->cause, MOST_CYCLES);
+  if (left)
+    log_entry(stories, thread, index, charged->cause, (uint32_t)left);
+}
+
+void trax_stories_add(struct trax_stories *stories, const struct trax_passage *passage) {
+  struct story_thread *thread = &stories->threads[passage->thread];
+  const struct trax_charged *charged = passage->charged, *const end = charged + passage->charged_count;
+  uint32_t begin = 0; /* the number of the piece's first instruction */
+  for (size_t i = 0; i < passage->pieces; begin += passage->piece[i++].count) {
+    const struct trax_piece *piece = &passage->piece[i];
+    uint32_t logged = 0; /* instructions */
+    for (; charged < end && charged->at < begin + piece->count; charged++) {
+      const uint32_t before = charged->at - begin;
+      if (before > logged)
+        log_entry(stories, thread, piece->index + logged, TRAX_CAUSE_ISSUED, before - logged);
+      logged = before;
+      const uint32_t jump = before ? piece->index + before - 1 : thread->latest;
+      log_charge(stories, thread, charged->cause == TRAX_CAUSE_BRANCH ? jump : charged->index, charged);
+    }
+    const unsigned kind = trax_counted_kind(passage); /* of a trap, which is a passage of its own */
+    if (kind != TRAX_NO_RAY)
+      log_entry(stories, thread, 0, MARK, kind);
+    log_entry(stories, thread, piece->index + logged, TRAX_CAUSE_ISSUED, piece->count - logged);
+    thread->latest = piece->index + piece->count - 1;
   }
-  if (!span->issue)
-    return;
-  const unsigned kind = trax_counted_kind(span);
-  if (kind != TRAX_NO_RAY)
-    log_entry(stories, thread, 0, MARK, kind);
-  log_entry(stories, thread, span->index, TRAX_CAUSE_ISSUED, 1);
-  thread->latest = span->index;
 }
 
 /* --- stories --- */

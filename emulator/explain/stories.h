@@ -41,7 +41,7 @@ struct trax_stories;
 bool trax_stories_fit(const struct trax_explain *explain);
 struct trax_stories *trax_stories_create(struct trax_explain *explain); /* NULL: out of memory */
 void trax_stories_destroy(struct trax_stories *stories);                /* which may be NULL */
-void trax_stories_add(struct trax_stories *stories, const struct trax_span *span);
+void trax_stories_add(struct trax_stories *stories, const struct trax_passage *passage);
 void trax_stories_end(struct trax_stories *stories, const struct trax_item_cost *cost, bool last);
 /* The stories, the chosen ones first, then by cost. Valid until one more is added. */
 const struct trax_story *trax_stories_sorted(struct trax_stories *stories, size_t *count);

@@ -86,7 +86,6 @@ static void close_trace(void *self) {
 
 const struct trax_reader_kind trax_trace_reader = {.bytes = sizeof(struct trace),
                                                    .files = {{.path = TRAX_EXPLAIN_PATH(trace)}},
-                                                   .exact = true,
                                                    .open = open_trace,
                                                    .span = add_span,
                                                    .arrival = add_arrival,

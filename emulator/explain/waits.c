@@ -5,6 +5,7 @@
 #include "explain/objects.h"
 #include "explain/page.h"
 #include "explain/places.h"
+#include "machine/timing.h"
 #include "trax/grow.h"
 #include "trax/map.h"
 
@@ -17,6 +18,8 @@ enum {
   BANK = WAITS,
   COLUMNS
 };
+
+enum { SLOW_ACCESS = TRAX_NUM_REGISTERS };
 
 /* What a thread's register is waited for. */
 struct writer {
@@ -37,6 +40,7 @@ struct waits {
   size_t count, capacity;
   struct trax_map pair_of, record_of; /* (awaited, waiting) to a number; (this number, object) to that of a record */
   uint32_t *latest_of;                /* [places]: the latest record of the waiting instruction, + 1 */
+  uint8_t *slow; /* [places]: the register, if it may be waited for, + SLOW_ACCESS of a memory access */
 };
 
 static struct record *record_of(struct waits *waits, struct record wanted) {
@@ -68,23 +72,56 @@ static void add(struct waits *waits, const struct writer *awaited, uint32_t wait
     record->cycles[column] += cycles;
 }
 
-static void add_span(void *self, const struct trax_span *span) {
-  struct waits *waits = self;
-  const trax_op_info *op = &trax_op_table[span->inst.op];
-  struct writer *writers = waits->writers[span->thread];
-  /* Only a memory access waits for a bank. If it has not been issued, its address is not known. A fence that waits for
-     its thread's stores waits for no register. */
-  const struct writer own = {span->index, span->issue ? span->issue->address : 0, span->issue && op->access_bytes};
-  for (size_t i = 0; i < span->count; i++) {
-    const struct trax_charge *charge = &span->charges[i];
-    if (charge->cause == TRAX_CAUSE_DCACHE_BANK)
-      add(waits, &own, span->index, BANK, charge->cycles);
-    else if (trax_is_wait(charge->cause))
-      add(waits, charge->rd ? &writers[charge->rd] : &own, span->index, charge->cause - TRAX_CAUSE_DATA_LOCAL,
-          charge->cycles);
+/* What the instructions before `end` of a passage have written. */
+struct written {
+  const struct trax_piece *piece;
+  const struct trax_accessed *accessed, *accessed_end;
+  uint32_t at, of_piece; /* the number of the next instruction, and of the piece's first */
+};
+
+static void write_up_to(const struct waits *waits, struct writer *writers, struct written *written, uint32_t end) {
+  for (; written->at < end; written->at++) {
+    if (written->at - written->of_piece == written->piece->count) {
+      written->of_piece += written->piece->count;
+      written->piece++;
+    }
+    const uint32_t index = written->piece->index + (written->at - written->of_piece);
+    const uint8_t slow = waits->slow[index];
+    if (!slow)
+      continue;
+    while (written->accessed < written->accessed_end && written->accessed->at < written->at)
+      written->accessed++;
+    const bool is_global = written->accessed < written->accessed_end && written->accessed->at == written->at;
+    writers[slow % TRAX_NUM_REGISTERS] =
+        (struct writer){index, is_global ? written->accessed->address : TRAX_LOCAL_BASE, slow >= SLOW_ACCESS};
   }
-  if (span->issue && op->flags & TRAX_WRITES_RD)
-    writers[span->inst.rd] = own;
+}
+
+static void add_passage(void *self, const struct trax_passage *passage) {
+  struct waits *waits = self;
+  struct writer *writers = waits->writers[passage->thread];
+  const struct trax_accessed *own = passage->accessed, *const end = own + passage->accessed_count;
+  struct written written = {.piece = passage->piece, .accessed = own, .accessed_end = end};
+  for (size_t i = 0; i < passage->charged_count; i++) {
+    const struct trax_charged *charged = &passage->charged[i];
+    if (charged->cause != TRAX_CAUSE_DCACHE_BANK && !trax_is_wait((trax_cause)charged->cause))
+      continue;
+    while (own < end && own->at < charged->at)
+      own++;
+    /* Only a memory access waits for a bank. If it has not been issued, its address is not known. A fence that waits
+       for its thread's stores waits for no register. */
+    const bool accesses = own < end && own->at == charged->at;
+    const struct writer itself = {charged->index, accesses ? own->address : 0, accesses};
+    if (charged->cause == TRAX_CAUSE_DCACHE_BANK) {
+      add(waits, &itself, charged->index, BANK, charged->cycles);
+      continue;
+    }
+    if (passage->count)
+      write_up_to(waits, writers, &written, charged->at);
+    add(waits, charged->rd ? &writers[charged->rd] : &itself, charged->index, charged->cause - TRAX_CAUSE_DATA_LOCAL,
+        charged->cycles);
+  }
+  write_up_to(waits, writers, &written, passage->count);
 }
 
 /* --- the table --- */
@@ -136,7 +173,19 @@ static trax_status open_waits(void *self, trax_error *error) {
     return TRAX_ERROR;
   waits->writers = trax_explain_array(explain->machine->stats.threads, sizeof *waits->writers, error);
   waits->latest_of = trax_explain_array(trax_places_count(explain->places) + 2, sizeof *waits->latest_of, error);
-  return waits->writers && waits->latest_of ? TRAX_OK : TRAX_ERROR;
+  waits->slow = trax_explain_array(trax_places_count(explain->places) + 2, sizeof *waits->slow, error);
+  if (!waits->writers || !waits->latest_of || !waits->slow)
+    return TRAX_ERROR;
+  for (uint32_t i = 0; i < trax_places_count(explain->places); i++) {
+    const trax_inst *inst = trax_places_inst(explain->places, i);
+    if (!(trax_op_table[inst->op].flags & TRAX_WRITES_RD) || !inst->rd)
+      continue;
+    if (trax_op_table[inst->op].access_bytes)
+      waits->slow[i] = SLOW_ACCESS + inst->rd;
+    else if (trax_timing_of(inst->op, &explain->machine->config).latency > 1)
+      waits->slow[i] = inst->rd;
+  }
+  return TRAX_OK;
 }
 
 static void close_waits(void *self) {
@@ -144,6 +193,7 @@ static void close_waits(void *self) {
   trax_objects_release(&waits->objects);
   free(waits->writers);
   free(waits->latest_of);
+  free(waits->slow);
   free(waits->records);
   trax_map_free(&waits->pair_of);
   trax_map_free(&waits->record_of);
@@ -154,5 +204,5 @@ const struct trax_reader_kind trax_waits_reader = {
     .files = {{.path = TRAX_EXPLAIN_PATH(waits), .put = put_table, .member = "waits"}},
     .in_page = true,
     .open = open_waits,
-    .span = add_span,
+    .passage = add_passage,
     .close = close_waits};

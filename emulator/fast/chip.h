@@ -56,6 +56,13 @@ void trax_fast_count_rays(struct trax_tm *tm, unsigned number, int32_t code, uin
 void trax_fast_settle_rays(struct trax_tm *tm);
 /* Notifies an observer of the refusals of the current cycle. */
 void trax_fast_notify_refusals(const struct trax_tm *tm, const struct trax_fast_refused *refused);
+/* For an observer of stretches: records the accesses by TPs that issue in this cycle, `issued`, as far as they belong
+   to bursts; tells it of the instruction at pc, which was executed at issue; of the steps before `end` of the current
+   burst, of which it does not know yet; of those that were issued. */
+void trax_fast_log_accesses(struct trax_tm *tm, uint64_t issued);
+void trax_fast_tell_single(struct trax_tm *tm, unsigned number, uint32_t pc, const struct trax_decoded *inst);
+void trax_fast_tell_steps(struct trax_tm *tm, unsigned number, unsigned end, uint32_t next_pc);
+void trax_fast_tell_issued(struct trax_tm *tm, unsigned number);
 
 /* Simulates cycles from t on, before `end`, of a TM in which one TP is awake, as long as it issues a step in each, and
    makes no request. Requires that no transfer starts before `end`. False: there are no such cycles; else next_cycle is

@@ -148,13 +148,13 @@ trax_status trax_chip_create(struct trax_run *run, const struct trax_fast_varian
   chip->text = &run->text;
   chip->variant = variant;
   chip->tms = machine->config.chip.tms;
-  chip->burst = machine->observer && !machine->observer->ahead ? 1 : TRAX_BURST;
+  chip->burst = machine->observer && !machine->observer->stretch ? 1 : TRAX_BURST;
   machine->calls.before_write = trax_fast_range_written;
   machine->calls.engine = chip;
   if (trax_memory_create(&chip->memory, &machine->config, &machine->stats.memory, error) ||
       trax_fast_blocks_create(&chip->blocks, &machine->space, error) ||
       trax_fast_program_create(&chip->program, chip->text, &machine->config,
-                               machine->observer && machine->observer->ahead, error))
+                               machine->observer && machine->observer->stretch, error))
     return TRAX_ERROR;
   chip->memory.before_increment = trax_fast_increment_outside;
   chip->memory.context = chip;

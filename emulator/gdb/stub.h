@@ -57,7 +57,7 @@ struct trax_gdb {
   const volatile int *interrupt;
   struct trax_watch watch;
   struct trax_observer observer;
-  const struct trax_observer *next_observer; /* the observer set before, which is notified, too; may be NULL */
+  struct trax_observer *next_observer; /* the observer set before, which is notified, too; may be NULL */
 
   enum { GDB_STOPPED, GDB_RUNNING, GDB_DETACHED, GDB_KILLED, GDB_INTERRUPTED } phase;
   bool begun;         /* the first stop has been made */

@@ -33,7 +33,7 @@ struct trax_machine {
 
   struct trax_host_calls calls; /* of the trap `host` */
 
-  const struct trax_observer *observer; /* of the run; NULL: none (machine/observer.h) */
+  struct trax_observer *observer;       /* of the run; NULL: none (machine/observer.h) */
   struct trax_transfers *transfers;     /* the same of transfers (machine/transfers.h) */
 
   /* Called before the first cycle if not NULL: may restore the state of another run (engine/engine.h). */

@@ -1,6 +1,7 @@
 /* Observers: profiles, traces and time lines, which follow a run instruction by instruction. The engine notifies an
    observer of every thread-cycle exactly once, by `issue` if the cause is TRAX_CAUSE_ISSUED and by `charge` otherwise.
-   So an observer's sums equal the statistics (docs/timing.md, "Accounting").
+   So an observer's sums equal the statistics (docs/timing.md, "Accounting"). An observer of stretches (below) is
+   notified of many instructions at once.
 
    An engine guarantees:
    - issue is called after the instruction's effect, in the order of (cycle, TM, TP) over the whole chip. It is not
@@ -14,13 +15,15 @@
    - All calls are made by the host thread that called trax_machine_run.
 
    A run without an observer pays nothing for this. With one, the fast engine executes ahead of time only if the
-   observer needs few values (`ahead`). */
+   observer takes stretches. */
 #ifndef TRAX_MACHINE_OBSERVER_H
 #define TRAX_MACHINE_OBSERVER_H
 
 #include "machine/stats.h"
+#include "trax/grow.h"
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 /* The outcome of an access to global memory: bits of trax_issue.outcome. */
@@ -50,17 +53,84 @@ struct trax_arrival {
   uint32_t value;
 };
 
+/* --- stretches: instructions that a TP issued one after the other --- */
+
+enum { TRAX_MOST_STRETCH = 128 /* instructions */ };
+
+/* Neighbouring instructions of the program. `index`, here and below, is for the observer. */
+struct trax_piece {
+  uint32_t pc, count, index;
+};
+
+/* Charges and accesses name the instruction by its number in the stretch. A charge belongs to the instruction before
+   whose issue it came. */
+struct trax_charged {
+  uint32_t cycles, index;
+  uint8_t at, cause, rd;
+};
+
+/* Of global memory. */
+struct trax_accessed {
+  uint32_t address, index;
+  uint8_t at, outcome;
+};
+
+/* What a TP was charged and what it accessed since its latest stretch: the observer's memory, to which the engine adds.
+   The observer takes out what belongs to a stretch, and subtracts the stretch's instructions from the others' `at`. */
+struct trax_thread_log {
+  struct trax_charged *charged; /* [charged_count] */
+  size_t charged_count, charged_capacity;
+  uint32_t accessed_count;
+  struct trax_accessed accessed[TRAX_MOST_STRETCH];
+};
+
+struct trax_stretch {
+  uint32_t tm, tp, count;   /* instructions */
+  struct trax_piece *piece; /* [pieces] */
+  size_t pieces;
+  uint32_t next_pc; /* of the last instruction */
+  /* Of a trap its operand, and of an instruction that writes r2, the stack pointer, the value: such an instruction, and
+     a jal or jalr that writes a register, is a stretch of its own. */
+  uint32_t result;
+};
+
 struct trax_observer {
   void *context;
-  /* It needs no `result` but those of traps and of writes of r2, the stack pointer, and of an access to local memory
-     only that it is one: the address may be TRAX_LOCAL_BASE. Then an engine is faster. */
-  bool ahead;
   /* Any function may be NULL. */
   void (*issue)(void *context, const struct trax_issue *issue);
   /* The TP was charged to `cause` for `cycles` cycles from `since` on. rd: the register that it waited for; 0: none. */
   void (*charge)(void *context, uint32_t tm, uint32_t tp, trax_cause cause, unsigned rd, uint64_t since,
                  uint64_t cycles);
   void (*arrival)(void *context, const struct trax_arrival *arrival);
+  /* If not NULL, an engine that can calls it instead of all others, when the last instruction of a stretch issues, or
+     earlier. The stretches of one TP are in order. Those that consist of one instruction that is to be alone, or of
+     which `single` was set before, are in the order of issue() over the chip. When trax_run_settle returns, all
+     instructions of the cycles before have been reported, and the logs have the charges since then. */
+  void (*stretch)(void *context, const struct trax_stretch *stretch);
+  struct trax_thread_log *logs; /* [threads]; for stretches */
+  bool single;                  /* the observer wants stretches of one instruction from now on */
+  bool lost;                    /* a charge was not recorded: out of memory */
 };
+
+/* For engines: adds a charge before the instruction `at` to a log. */
+static inline void trax_log_charge(struct trax_observer *observer, struct trax_thread_log *log, unsigned at,
+                                   trax_cause cause, unsigned rd, uint64_t cycles) {
+  struct trax_charged *latest = log->charged + log->charged_count - 1;
+  if (log->charged_count && latest->at == at && latest->cause == cause && latest->rd == rd &&
+      latest->cycles + cycles <= UINT32_MAX) {
+    latest->cycles += (uint32_t)cycles;
+    return;
+  }
+  while (cycles) {
+    const uint32_t part = cycles < UINT32_MAX ? (uint32_t)cycles : UINT32_MAX;
+    if (!trax_grow((void **)&log->charged, log->charged_count, &log->charged_capacity, sizeof *log->charged)) {
+      observer->lost = true;
+      return;
+    }
+    log->charged[log->charged_count++] =
+        (struct trax_charged){.cycles = part, .at = (uint8_t)at, .cause = (uint8_t)cause, .rd = (uint8_t)rd};
+    cycles -= part;
+  }
+}
 
 #endif

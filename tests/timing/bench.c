@@ -53,15 +53,94 @@ static void record_charge(void *context, uint32_t tm, uint32_t tp, trax_cause ca
   thread->cycles[cause] += cycles;
 }
 
-bool bench_ahead;
+/* --- stretches, as issues and charges --- */
+
+bool bench_stretches;
+
+/* Records the logged charges before the instruction `at` of a stretch, and returns how many have been recorded. */
+static size_t record_logged(struct bench *bench, uint32_t tm, uint32_t tp, const struct trax_thread_log *log,
+                            size_t recorded, unsigned at) {
+  for (; recorded < log->charged_count && log->charged[recorded].at == at; recorded++)
+    record_charge(bench, tm, tp, (trax_cause)log->charged[recorded].cause, log->charged[recorded].rd,
+                  told(bench, tm, tp)->until, log->charged[recorded].cycles);
+  return recorded;
+}
+
+static struct trax_thread_log *log_of(const struct bench *bench, uint32_t tm, uint32_t tp) {
+  return &bench->machine->observer->logs[tm * bench->machine->config.chip.tps_per_tm + tp];
+}
+
+/* Whether an instruction is one that a stretch has alone. */
+static bool is_single(trax_inst inst) {
+  return inst.op == TRAX_OP_TRAP || inst.op == TRAX_OP_JALR || (inst.op == TRAX_OP_JAL && inst.rd) ||
+         (inst.rd == TRAX_STACK_POINTER && trax_op_table[inst.op].flags & TRAX_WRITES_RD);
+}
+
+static void record_stretch(void *context, const struct trax_stretch *stretch) {
+  struct bench *bench = context;
+  struct trax_thread_log *log = log_of(bench, stretch->tm, stretch->tp);
+  size_t charged = 0, accessed = 0;
+  unsigned at = 0;
+  for (size_t i = 0; i < stretch->pieces; i++)
+    for (uint32_t k = 0; k < stretch->piece[i].count; k++, at++) {
+      struct trax_issue issue = {.tm = stretch->tm, .tp = stretch->tp, .pc = stretch->piece[i].pc + 4 * k};
+      memcpy(&issue.word, bench->machine->space.bytes + issue.pc, sizeof issue.word);
+      const trax_inst inst = trax_decode(issue.word);
+      assert_true(stretch->count == 1 || !is_single(inst));
+      charged = record_logged(bench, stretch->tm, stretch->tp, log, charged, at);
+      issue.cycle = told(bench, stretch->tm, stretch->tp)->until;
+      issue.next_pc = at + 1 == stretch->count           ? stretch->next_pc
+                      : k + 1 == stretch->piece[i].count ? stretch->piece[i + 1].pc
+                                                         : issue.pc + 4;
+      issue.result = at + 1 == stretch->count ? stretch->result : 0;
+      issue.address = trax_op_table[inst.op].access_bytes ? TRAX_LOCAL_BASE : 0;
+      if (accessed < log->accessed_count && log->accessed[accessed].at == at) {
+        issue.address = log->accessed[accessed].address;
+        issue.outcome = log->accessed[accessed++].outcome;
+      }
+      record_issue(bench, &issue);
+    }
+  assert_int_equal(at, stretch->count);
+  for (size_t i = charged; i < log->charged_count; i++)
+    log->charged[i].at -= (uint8_t)at;
+  for (size_t i = accessed; i < log->accessed_count; i++)
+    log->accessed[i].at -= (uint8_t)at;
+  memmove(log->charged, log->charged + charged, (log->charged_count -= charged) * sizeof *log->charged);
+  memmove(log->accessed, log->accessed + accessed, (log->accessed_count -= accessed) * sizeof *log->accessed);
+}
+
+static int by_time(const void *a, const void *b) {
+  const struct trax_issue *x = a, *y = b;
+  if (x->cycle != y->cycle)
+    return x->cycle < y->cycle ? -1 : 1;
+  return x->tm != y->tm ? (int)x->tm - (int)y->tm : (int)x->tp - (int)y->tp;
+}
+
+static void end_stretches(struct bench *bench) {
+  const uint32_t tps = bench->machine->config.chip.tps_per_tm;
+  for (uint32_t i = 0; i < bench->machine->stats.threads; i++) {
+    struct trax_thread_log *log = log_of(bench, i / tps, i % tps);
+    assert_int_equal(record_logged(bench, i / tps, i % tps, log, 0, 0), log->charged_count);
+    free(log->charged);
+  }
+  if (bench->issues.count)
+    qsort(bench->issues.issue, bench->issues.count, sizeof *bench->issues.issue, by_time);
+}
 
 void bench_run_observed(struct bench *bench, const trax_run_options *options) {
   struct trax_machine *machine = bench->machine;
-  const struct trax_observer observer = {
-      .context = bench, .ahead = bench_ahead, .issue = record_issue, .charge = record_charge};
+  struct trax_observer observer = {.context = bench,
+                                   .issue = record_issue,
+                                   .charge = record_charge,
+                                   .stretch = bench_stretches ? record_stretch : NULL,
+                                   .logs = calloc(machine->stats.threads, sizeof *observer.logs)};
+  assert_non_null(observer.logs);
   machine->observer = &observer;
   bench->status = trax_machine_run(machine, options, &bench->error);
+  if (bench_stretches)
+    end_stretches(bench);
   machine->observer = NULL;
+  free(observer.logs);
   for (uint64_t i = 0; i < machine->stats.threads; i++) {
     assert_int_equal(bench->told[i].until, machine->stats.cycles);
     assert_memory_equal(bench->told[i].cycles, machine->tp_stats[i].cycles, sizeof bench->told[i].cycles);

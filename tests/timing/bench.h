@@ -61,7 +61,7 @@ struct trax_config bench_far(uint32_t tms, uint32_t tps);
 struct bench bench_begin(const struct trax_config *config, const uint32_t *words, size_t count);
 void bench_run(struct bench *bench, uint64_t max_cycles);
 /* Runs with an observer, who must be told of every cycle of every thread once, and in order. */
-extern bool bench_ahead; /* the next observer lets the engine execute ahead */
+extern bool bench_stretches; /* the next observer takes stretches */
 void bench_run_observed(struct bench *bench, const trax_run_options *options);
 void bench_end(struct bench *bench);
 

@@ -99,13 +99,13 @@ static void compare_engines(const struct random_case *c, struct comparison *to) 
     if (c->config.chip.tms == 1)
       break; /* more threads have nothing to do */
   }
-  for (unsigned ahead = 0; !different && ahead < 2; ahead++) {
-    bench_ahead = ahead;
-    if (ahead)
+  for (unsigned stretches = 0; !different && stretches < 2; stretches++) {
+    bench_stretches = stretches;
+    if (stretches)
       reduce_issues(&reference.bench.issues);
     struct run observed = run(&c->config, c->words, c->count, tested_engine, true, c->max_cycles);
-    bench_ahead = false;
-    if (ahead) /* an engine may tell more */
+    bench_stretches = false;
+    if (stretches) /* an engine may tell more */
       reduce_issues(&observed.bench.issues);
     different = different_issues(difference, &reference.bench.issues, &observed.bench.issues) ||
                 different_waits(difference, &reference.bench, &observed.bench) ||

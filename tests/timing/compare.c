@@ -247,7 +247,7 @@ bool different_waits(struct difference *to, const struct bench *a, const struct 
   return false;
 }
 
-/* Leaves what an observer is told that lets the engine execute ahead. */
+/* Leaves what a stretch has. */
 static void reduce(struct trax_issue *issue) {
   const trax_inst inst = trax_decode(issue->word);
   const unsigned flags = trax_op_table[inst.op].flags;

@@ -49,7 +49,7 @@ bool different_number(struct difference *to, const char *name, uint64_t x, uint6
 bool different_bytes(struct difference *to, const char *name, const void *x, const void *y, size_t size);
 /* Whether observers were told that a thread waited for other registers. */
 bool different_waits(struct difference *to, const struct bench *a, const struct bench *b);
-/* Reduces issues to what an observer needs that lets the engine execute ahead. */
+/* Reduces issues to what stretches have of them. */
 void reduce_issues(struct bench_issues *issues);
 bool different_issues(struct difference *to, const struct bench_issues *a, const struct bench_issues *b);
 /* Outcome, cycles, every count and charge, memory and output. */

@@ -45,7 +45,7 @@ bool unwind_run(const char *path, void (*step)(void *context, const unwind_state
   if (ok) {
     stepper stepper = {machine, step, context};
     const trax_run_options options = {.max_cycles = 100000000, .engine = "fast"};
-    const struct trax_observer observer = {.context = &stepper, .issue = issued};
+    struct trax_observer observer = {.context = &stepper, .issue = issued};
     machine->observer = &observer;
     ok = trax_machine_run(machine, &options, &error) == TRAX_OK;
     machine->observer = NULL;

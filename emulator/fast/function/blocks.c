@@ -42,6 +42,8 @@ static void roll_back_tp(struct trax_chip *chip, struct trax_tm *tm, unsigned nu
   struct trax_tp *tp = &tm->tp[number];
   if (tm->executes_at_issue & bit)
     return;
+  if (tm->observer && tm->observer->stretch)
+    trax_fast_tell_issued(tm, number);
   while (tp->burst.undo_count) {
     const struct trax_burst_undo *undo = &tp->burst.undo[--tp->burst.undo_count];
     memcpy(undo->address < TRAX_LOCAL_BASE ? chip->machine->space.bytes + undo->address
@@ -63,6 +65,7 @@ static void roll_back_tp(struct trax_chip *chip, struct trax_tm *tm, unsigned nu
   tp->pc = tp->resume_pc;
   tp->address = tp->inst->bytes ? tp->reg[tp->inst->ra] + (uint32_t)tp->inst->imm : 0;
   trax_fast_execute_at_issue(tm, number, step, head, tp->address);
+  tm->told[number] = 0;
 }
 
 void trax_fast_roll_back(struct trax_chip *chip) {

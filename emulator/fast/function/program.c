@@ -28,8 +28,10 @@ static bool stops_burst(const struct trax_decoded *decoded) {
   return decoded->is_nontemporal || decoded->is_atomic;
 }
 
-static bool writes_stack_pointer(const struct trax_decoded *decoded) {
-  return decoded->rd == TRAX_STACK_POINTER && trax_op_table[decoded->op].flags & TRAX_WRITES_RD;
+/* A call, perhaps a return, or an instruction that writes the stack pointer. */
+static bool changes_stack(const struct trax_decoded *decoded) {
+  return decoded->op == TRAX_OP_JALR || (decoded->op == TRAX_OP_JAL && decoded->rd != TRAX_NO_REGISTER) ||
+         (decoded->rd == TRAX_STACK_POINTER && trax_op_table[decoded->op].flags & TRAX_WRITES_RD);
 }
 
 /* Whether the relative jump at `word` of a segment of `words` leaves the segment, or goes to the next instruction or
@@ -72,7 +74,7 @@ static void predecode(struct trax_fast_program *program, const struct trax_decod
 }
 
 trax_status trax_fast_program_create(struct trax_fast_program *program, const struct trax_text *text,
-                                     const struct trax_config *config, bool stack, trax_error *error) {
+                                     const struct trax_config *config, bool calls, trax_error *error) {
   const uint32_t line_bytes = config->icache.line_bytes;
   size_t total = 1;
   for (size_t i = 0; i < text->count; i++)
@@ -98,8 +100,7 @@ trax_status trax_fast_program_create(struct trax_fast_program *program, const st
     for (uint32_t word = 0; word <= words; word++, index++) {
       const uint32_t pc = section->begin + word * 4;
       predecode(program, &section->decoded[word], index, pc, lines + pc / line_bytes - first_line,
-                jumps_oddly(&section->decoded[word], word, words) ||
-                    (stack && writes_stack_pointer(&section->decoded[word])));
+                jumps_oddly(&section->decoded[word], word, words) || (calls && changes_stack(&section->decoded[word])));
     }
     lines += section->end / line_bytes - first_line + 1;
     lines = lines < TRAX_FAST_LINES ? lines : TRAX_FAST_LINES;

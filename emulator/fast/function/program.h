@@ -46,9 +46,9 @@ struct trax_fast_program {
   struct trax_fast_inst *no_text;  /* the last instruction, for every pc that is no text */
 };
 
-/* stack: bursts end before instructions that write the stack pointer. */
+/* calls: bursts end before calls, returns, and instructions that write the stack pointer. */
 trax_status trax_fast_program_create(struct trax_fast_program *program, const struct trax_text *text,
-                                     const struct trax_config *config, bool stack, trax_error *error);
+                                     const struct trax_config *config, bool calls, trax_error *error);
 void trax_fast_program_destroy(struct trax_fast_program *program);
 
 static inline const struct trax_fast_inst *trax_fast_inst_at(const struct trax_fast_program *program, uint32_t pc) {

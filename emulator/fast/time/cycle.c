@@ -444,8 +444,11 @@ static ALWAYS_INLINE void begin(struct tm_cycle *cycle) {
 static ALWAYS_INLINE void issue(const struct tm_cycle *cycle, const bool wide) {
   const uint64_t quick = cycle->granted & ~cycle->slow, slow = cycle->granted & cycle->slow;
   if (__builtin_expect(cycle->tm->observer != NULL, false)) {
-    issue_observed(cycle->tm, quick, slow, cycle->t);
-    return;
+    if (!cycle->tm->observer->stretch) {
+      issue_observed(cycle->tm, quick, slow, cycle->t);
+      return;
+    }
+    trax_fast_log_accesses(cycle->tm, cycle->granted & cycle->banks);
   }
   for (uint64_t loads = quick & cycle->banks; loads; loads &= loads - 1)
     trax_fast_set_load(cycle->tm, trax_first(loads), cycle->tm->heads.load[trax_first(loads)] + 1u);

@@ -64,6 +64,21 @@ static uint32_t next_pc(const struct trax_tm *tm, unsigned number) {
   return next > tm->heads.last[number] ? tp->resume_pc : tm->chip->program.timing[trax_fast_index(tp, next)].pc;
 }
 
+/* Tells the observer of a slow head that has been issued; one of stretches is told when they end. */
+static void tell_slow(struct trax_tm *tm, unsigned number, uint32_t pc, const struct trax_decoded *inst) {
+  const struct trax_tp *tp = &tm->tp[number];
+  const bool at_issue = tm->executes_at_issue >> number & 1;
+  const unsigned last = tm->heads.last[number];
+  if (!tm->observer->stretch) {
+    trax_tm_notify_issue(tm, number, pc, inst, at_issue ? tp->pc : next_pc(tm, number));
+  } else if (at_issue) {
+    trax_fast_tell_single(tm, number, pc, inst);
+  } else if (tm->heads.at[number] == last) {
+    trax_fast_tell_steps(tm, number, last + 1, tp->resume_pc);
+    tm->told[number] = 0;
+  }
+}
+
 /* Issues a slow head: one that executes at issue, the last one of a burst, or one with a latency above 1 or a bubble.
  */
 static void issue_slowly(struct trax_tm *tm, unsigned number, uint64_t t) {
@@ -86,7 +101,7 @@ static void issue_slowly(struct trax_tm *tm, unsigned number, uint64_t t) {
   }
   tm->holding &= ~bit;
   if (tm->observer)
-    trax_tm_notify_issue(tm, number, pc, inst, tm->executes_at_issue & bit ? tp->pc : next_pc(tm, number));
+    tell_slow(tm, number, pc, inst);
   if (tm->ended & bit)
     return;
   trax_fast_advance(tm, number);

@@ -229,57 +229,6 @@ trax_cause trax_tm_serve(struct trax_tm *tm, unsigned number, uint64_t t) {
   return serve_others(tm, number, t) ? TRAX_CAUSE_ISSUED : TRAX_CAUSE_MEMORY_QUEUE;
 }
 
-void trax_tm_tell_charge(const struct trax_tm *tm, unsigned tp, trax_cause cause, uint64_t since, uint64_t cycles) {
-  uint64_t until;
-  unsigned rd = 0;
-  if (!tm->observer->charge || !cycles || cause == TRAX_CAUSE_ISSUED)
-    return;
-  if (trax_is_wait(cause)) /* its value may have arrived, but only after `since` */
-    trax_tp_wait(&tm->tp[tp], since, &until, &rd);
-  tm->observer->charge(tm->observer->context, tm->number, tp, cause, rd, since, cycles);
-}
-
-/* Whether a memory access that has just been issued is one to global memory. An observer that lets the TP execute ahead
-   gets no address in local memory: the burst has not recorded it. */
-static bool issue_is_global(const struct trax_tm *tm, unsigned number, uint32_t *address) {
-  if (!tm->observer->ahead)
-    return *address < TRAX_LOCAL_BASE;
-  const bool is_global = tm->executes_at_issue >> number & 1
-                             ? *address < TRAX_LOCAL_BASE
-                             : (tm->heads.low[number] & TRAX_STEP_KIND) == TRAX_STEP_BANK;
-  *address = is_global ? *address : TRAX_LOCAL_BASE;
-  return is_global;
-}
-
-void trax_tm_notify_issue(struct trax_tm *tm, unsigned number, uint32_t pc, const struct trax_decoded *inst,
-                          uint32_t next_pc) {
-  struct trax_tp *tp = &tm->tp[number];
-  struct trax_issue issue = {.cycle = tm->now,
-                             .tm = tm->number,
-                             .tp = number,
-                             .pc = pc,
-                             .next_pc = next_pc,
-                             .result = tp->reg[inst->rd],
-                             .address = inst->bytes ? tp->address : 0,
-                             .outcome = tp->outcome};
-  tp->outcome = 0;
-  const bool is_global = inst->bytes && issue_is_global(tm, number, &issue.address);
-  if (tm->observer->ahead) { /* registers may be those of a later time */
-    issue.result = inst->op == TRAX_OP_TRAP ? tp->reg[inst->ra] : inst->rd == TRAX_STACK_POINTER ? issue.result : 0;
-  } else if (inst->is_store) {
-    issue.result = tp->reg[inst->rb];
-    if (inst->bytes < 4)
-      issue.result &= (1u << 8 * inst->bytes) - 1;
-  } else if (inst->op == TRAX_OP_TRAP) {
-    issue.result = tp->reg[inst->ra];
-  }
-  if (is_global && !inst->is_store && !inst->is_nontemporal && !inst->is_atomic && !issue.outcome)
-    issue.outcome = TRAX_OUTCOME_HIT;
-  memcpy(&issue.word, tm->machine->space.bytes + pc, sizeof issue.word);
-  if (tm->observer->issue)
-    tm->observer->issue(tm->observer->context, &issue);
-}
-
 uint64_t trax_tm_next_cycle(const struct trax_tm *tm, uint64_t t) {
   if (tm->awake)
     return t + 1;

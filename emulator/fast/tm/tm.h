@@ -36,7 +36,8 @@ struct trax_tm {
   struct trax_machine *machine;
   const struct trax_text *text;
   FILE *output;                         /* the guest's; NULL discards it */
-  const struct trax_observer *observer; /* NULL: none */
+  struct trax_observer *observer;       /* NULL: none */
+  uint8_t told[TRAX_MAX_TPS_PER_TM];    /* steps of the burst of which the observer knows; only for stretches */
   struct trax_tp *tp;                   /* [tps] */
   struct trax_icache *icache;           /* [icaches] */
   uint32_t icaches;

@@ -1,0 +1,125 @@
+/* Notifies an observer of the run (machine/observer.h). */
+#include "fast/time/head.h"
+
+#include <string.h>
+
+_Static_assert((int)TRAX_BURST <= (int)TRAX_MOST_STRETCH, "a burst is a stretch");
+
+static struct trax_thread_log *log_of(const struct trax_tm *tm, unsigned tp) {
+  return &tm->observer->logs[tm->number * tm->tps + tp];
+}
+
+/* The number of the TP's head in its next stretch. */
+static unsigned next_of_stretch(const struct trax_tm *tm, unsigned tp) {
+  return tm->heads.at[tp] - (unsigned)tm->told[tp];
+}
+
+void trax_tm_tell_charge(const struct trax_tm *tm, unsigned tp, trax_cause cause, uint64_t since, uint64_t cycles) {
+  uint64_t until;
+  unsigned rd = 0;
+  if (!cycles || cause == TRAX_CAUSE_ISSUED)
+    return;
+  if (trax_is_wait(cause)) /* its value may have arrived, but only after `since` */
+    trax_tp_wait(&tm->tp[tp], since, &until, &rd);
+  if (tm->observer->stretch)
+    trax_log_charge(tm->observer, log_of(tm, tp), next_of_stretch(tm, tp), cause, rd, cycles);
+  else if (tm->observer->charge)
+    tm->observer->charge(tm->observer->context, tm->number, tp, cause, rd, since, cycles);
+}
+
+static uint32_t result_of(const struct trax_tp *tp, const struct trax_decoded *inst) {
+  if (inst->is_store)
+    return inst->bytes < 4 ? tp->reg[inst->rb] & ((1u << 8 * inst->bytes) - 1) : tp->reg[inst->rb];
+  return tp->reg[inst->op == TRAX_OP_TRAP ? inst->ra : inst->rd];
+}
+
+/* The outcome of the access that the TP has just issued; 0: it is none to global memory. */
+static uint8_t take_outcome(struct trax_tp *tp, const struct trax_decoded *inst, bool is_global) {
+  const uint8_t outcome = tp->outcome;
+  tp->outcome = 0;
+  if (is_global && !inst->is_store && !inst->is_nontemporal && !inst->is_atomic && !outcome)
+    return TRAX_OUTCOME_HIT;
+  return outcome;
+}
+
+void trax_tm_notify_issue(struct trax_tm *tm, unsigned number, uint32_t pc, const struct trax_decoded *inst,
+                          uint32_t next_pc) {
+  struct trax_tp *tp = &tm->tp[number];
+  struct trax_issue issue = {.cycle = tm->now,
+                             .tm = tm->number,
+                             .tp = number,
+                             .pc = pc,
+                             .next_pc = next_pc,
+                             .result = result_of(tp, inst),
+                             .address = inst->bytes ? tp->address : 0};
+  issue.outcome = take_outcome(tp, inst, inst->bytes && issue.address < TRAX_LOCAL_BASE);
+  memcpy(&issue.word, tm->machine->space.bytes + pc, sizeof issue.word);
+  if (tm->observer->issue)
+    tm->observer->issue(tm->observer->context, &issue);
+}
+
+/* --- stretches --- */
+
+static void tell(struct trax_tm *tm, const struct trax_stretch *stretch) {
+  tm->observer->stretch(tm->observer->context, stretch);
+  if (tm->observer->single)
+    tm->chip->burst = 1;
+}
+
+static void log_access(struct trax_tm *tm, unsigned number, const struct trax_decoded *inst, uint32_t address) {
+  struct trax_thread_log *log = log_of(tm, number);
+  log->accessed[log->accessed_count++] = (struct trax_accessed){.address = address,
+                                                                .at = (uint8_t)next_of_stretch(tm, number),
+                                                                .outcome = take_outcome(&tm->tp[number], inst, true)};
+}
+
+void trax_fast_log_accesses(struct trax_tm *tm, uint64_t issued) {
+  for (uint64_t rest = issued & ~tm->executes_at_issue; rest; rest &= rest - 1) {
+    const unsigned number = trax_first(rest);
+    log_access(tm, number, trax_fast_head_timing(tm, number)->decoded, tm->heads.address[number]);
+  }
+}
+
+void trax_fast_tell_single(struct trax_tm *tm, unsigned number, uint32_t pc, const struct trax_decoded *inst) {
+  const struct trax_tp *tp = &tm->tp[number];
+  if (inst->bytes && tp->address < TRAX_LOCAL_BASE && !log_of(tm, number)->accessed_count) /* else before a roll back */
+    log_access(tm, number, inst, tp->address);
+  tell(tm, &(struct trax_stretch){.tm = tm->number,
+                                  .tp = number,
+                                  .count = 1,
+                                  .piece = &(struct trax_piece){pc, 1, 0},
+                                  .pieces = 1,
+                                  .next_pc = tp->pc,
+                                  .result = result_of(tp, inst)});
+}
+
+void trax_fast_tell_steps(struct trax_tm *tm, unsigned number, unsigned end, uint32_t next_pc) {
+  const struct trax_tp *tp = &tm->tp[number];
+  struct trax_piece pieces[TRAX_BURST];
+  const unsigned begin = tm->told[number];
+  size_t count = 0;
+  for (unsigned at = begin; at < end;) {
+    const uint32_t pc = tm->chip->program.timing[trax_fast_index(tp, at)].pc;
+    unsigned next = at + 1;
+    while (next < end && tp->burst.distance[next])
+      next++;
+    if (count && pieces[count - 1].pc + 4 * pieces[count - 1].count == pc) /* the next chunk */
+      pieces[count - 1].count += next - at;
+    else
+      pieces[count++] = (struct trax_piece){pc, next - at, 0};
+    at = next;
+  }
+  if (count)
+    tell(tm, &(struct trax_stretch){.tm = tm->number,
+                                    .tp = number,
+                                    .count = end - begin,
+                                    .piece = pieces,
+                                    .pieces = count,
+                                    .next_pc = next_pc});
+  tm->told[number] = (uint8_t)end;
+}
+
+void trax_fast_tell_issued(struct trax_tm *tm, unsigned number) {
+  if (!((tm->executes_at_issue | tm->ended) >> number & 1))
+    trax_fast_tell_steps(tm, number, tm->heads.at[number], trax_fast_head_timing(tm, number)->pc);
+}
