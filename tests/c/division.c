@@ -1,6 +1,6 @@
-// RUN: %run_c %s %t --levels -O2,-Os
-// RUN: %run_c %s %t --levels -O3 --simflags "--set special.precision_bits=1"
-// RUN: %run_c %s %t --levels -O2 --simflags "--set special.precision_bits=7"
+// RUN: %run_c %s %t --levels -O2,-Os --also -O3
+// RUN: %trax_sim --set special.precision_bits=1 %t-Os | diff %S/division.expected -
+// RUN: %trax_sim --set special.precision_bits=7 %t-O2 | diff %S/division.expected -
 // Integer division in every form that the compiler writes out, and the library's, against what defines it:
 // n = q * d + r, and r below d. The special unit has 24 bits, or so few that nearly every estimate is wrong.
 // docs/results/division.md has the command for more operands: the argument is a multiple of these.

@@ -278,7 +278,7 @@ static void test_furnace_from_inside(void **state) {
   struct trax_view view = *dark_view();
   view.eye[0] = 0.3f, view.eye[2] = 0.1f;
   struct trax_frame_options options = plain;
-  options.floats = true, options.samples = 16;
+  options.floats = true, options.samples = 4;
   for (uint32_t depth = 1; depth <= 16; depth *= 4) {
     options.paths = depth;
     struct trax_picture picture = shoot(&scene, &view, &options, by_embree, 2);
@@ -440,6 +440,7 @@ static void test_rectangles_and_lamps(void **state) {
                                          .strength = way < 2 ? 2 : 0};
     struct trax_frame_options options = plain;
     options.floats = true, options.ambient = 0, options.background = 0xFF000000u;
+    options.width = 64, options.height = 36;
     options.samples = way == 3 ? 512 : 64;
     options.paths = way > 0;
     struct trax_picture picture = shoot(&scene, &view, &options, by_embree, 2);
