@@ -20,6 +20,7 @@ struct trax_chip {
   struct trax_machine *machine;
   const struct trax_text *text; /* the run's */
   struct trax_tm *tm;           /* [tms] */
+  struct trax_tp *tp;           /* [tms * TPs of a TM] */
   uint32_t tms;
   struct trax_memory memory;
   struct trax_transfer_log transfers; /* no roll back changes it */

@@ -1,14 +1,24 @@
 /* The creation of a chip and its TMs. */
+#define _DEFAULT_SOURCE /* madvise */
 #include "fast/chip.h"
 #include "fast/epochs.h"
 #include "fast/time/head.h"
 
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
+
+#define HUGE_PAGE ((size_t)1 << 21)
 
 static void *create_aligned(size_t count, size_t size) {
-  void *array = aligned_alloc(64, (count * size + 63) / 64 * 64);
-  return array ? memset(array, 0, count * size) : NULL;
+  const size_t alignment = count * size < HUGE_PAGE ? 64 : HUGE_PAGE;
+  const size_t bytes = (count * size + alignment - 1) / alignment * alignment;
+  void *array = aligned_alloc(alignment, bytes);
+#ifdef MADV_HUGEPAGE
+  if (array && alignment == HUGE_PAGE)
+    madvise(array, bytes, MADV_HUGEPAGE);
+#endif
+  return array ? memset(array, 0, bytes) : NULL;
 }
 
 static void prepare_units(struct trax_fast_units *unit, const struct trax_shared_unit *first,
@@ -85,9 +95,9 @@ static trax_status create_tm(struct trax_tm *tm, uint32_t number, struct trax_ch
     tm->ray_counts = &machine->ray_cycles->tms[number];
     tm->rays = &machine->ray_cycles->threads[(size_t)number * tps];
   }
-  tm->tp = create_aligned(tps, sizeof *tm->tp);
+  tm->tp = chip->tp + (size_t)number * tps;
   tm->count_deltas = calloc(chip->program.inst_count + 1, sizeof *tm->count_deltas);
-  if (!tm->tp || !tm->count_deltas || !create_fetch(tm) || !create_data(tm) || !create_units(tm))
+  if (!tm->count_deltas || !create_fetch(tm) || !create_data(tm) || !create_units(tm))
     return trax_fail(error, "out of memory");
   tm->awake = trax_group_mask(0, tps);
   tm->running = tps;
@@ -112,7 +122,6 @@ static void destroy_tm(struct trax_tm *tm) {
   trax_dcache_destroy(&tm->dcache);
   trax_queue_destroy(&tm->queue);
   free(tm->icache);
-  free(tm->tp);
   free(tm->count_deltas);
   free(tm->fetch_rr_masks);
   free(tm->resident);
@@ -162,7 +171,8 @@ trax_status trax_chip_create(struct trax_run *run, const struct trax_fast_varian
   if (machine->transfers)
     chip->memory.transfers = &chip->transfers;
   chip->tm = create_aligned(chip->tms, sizeof *chip->tm);
-  if (!chip->tm)
+  chip->tp = create_aligned((size_t)chip->tms * machine->config.chip.tps_per_tm, sizeof *chip->tp);
+  if (!chip->tm || !chip->tp)
     return trax_fail(error, "out of memory");
   for (uint32_t i = 0; i < chip->tms; i++)
     if (create_tm(&chip->tm[i], i, chip, run->options->output, error))
@@ -182,6 +192,7 @@ void trax_chip_destroy(void *context) {
   for (uint32_t i = 0; chip->tm && i < chip->tms; i++)
     destroy_tm(&chip->tm[i]);
   free(chip->tm);
+  free(chip->tp);
   trax_translation_destroy(chip->translation);
   trax_memory_destroy(&chip->memory);
   trax_fast_blocks_destroy(&chip->blocks);
