@@ -38,7 +38,7 @@ def check_checkpoints(policy):
 def main():
     policy = Patched("policy.patch", most_files=4)
     for keys in (KEYS, []):  # small data caches that have it, and any cache
-        policy.engines_agree(keys, 15)
+        policy.engines_agree(keys, 10)
     check_hits(policy)
     check_checkpoints(policy)
     return policy.end()

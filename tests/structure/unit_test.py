@@ -37,7 +37,7 @@ def check_statistics(unit):
 
 def main():
     unit = Patched("unit.patch", most_files=5)
-    unit.engines_agree(UNIT, 15)  # policy_test.py compares machines of any keys, those of the unit among them
+    unit.engines_agree(UNIT, 10)  # policy_test.py compares machines of any keys, those of the unit among them
     check_statistics(unit)
     return unit.end()
 
