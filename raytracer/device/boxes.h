@@ -11,12 +11,16 @@
 /* The bits of a plane's distance along the ray. */
 static inline __attribute__((always_inline)) int32_t plane_distance(uint32_t layout, const char *plane, float origin,
                                                                     float inverse) {
-  return nodes_are_quantised(layout) ? quantised_plane(plane, origin, inverse) : binary_plane(plane, origin, inverse);
+  return nodes_are_wide8(layout)       ? wide8_plane(plane, origin, inverse)
+         : nodes_are_quantised(layout) ? quantised_plane(plane, origin, inverse)
+                                       : binary_plane(plane, origin, inverse);
 }
 
 /* A distance in the unit of the planes' distances. */
 static inline __attribute__((always_inline)) int32_t limit_of(uint32_t layout, int32_t distance_bits) {
-  return nodes_are_quantised(layout) ? distance_on_grid(distance_bits) : distance_bits;
+  return nodes_are_wide8(layout)       ? distance_in_units(distance_bits, FRAME_EXPONENT)
+         : nodes_are_quantised(layout) ? distance_in_units(distance_bits, GRID_EXPONENT)
+                                       : distance_bits;
 }
 
 /* place - offset, by integers: for pointers the compiler would keep -offset in a register of its own. */

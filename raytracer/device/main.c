@@ -152,6 +152,15 @@ static RENDER_ALL void render_quantised(const struct trax_render_params *run) {
   render_layout(run, TRAX_NODES_QUANTISED);
 }
 
+static RENDER_ALL void render_wide(const struct trax_render_params *run) {
+  if (RUN_LAYOUT(run) == TRAX_NODES_WIDE4)
+    render_layout(run, TRAX_NODES_WIDE4);
+  else if (RUN_LAYOUT(run) == TRAX_NODES_WIDE4_QUANTISED)
+    render_layout(run, TRAX_NODES_WIDE4_QUANTISED);
+  else
+    render_layout(run, TRAX_NODES_WIDE8);
+}
+
 static RENDER_ALL void refuse_layout(void) {
   trax_abort("this program does not know the scene's layout of nodes");
 }
@@ -185,6 +194,8 @@ NO_RETURN int main(void) {
     render_binary(run);
   else if (RUN_LAYOUT(run) == TRAX_NODES_QUANTISED)
     render_quantised(run);
+  else if (KNOWS_WIDE_NODES && RUN_LAYOUT(run) < TRAX_NODE_LAYOUTS)
+    render_wide(run);
   else
     refuse_layout();
 #ifndef __trax__

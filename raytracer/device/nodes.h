@@ -1,6 +1,6 @@
-/* The two layouts of nodes. nodes_binary.h and nodes_quantised.h prepare a ray and compute a plane's distance for each.
-   The layout is a constant in code that is compiled for one, so that nothing is left of the other. Further layouts are
-   experiments (evaluation/experiments/nodes). */
+/* The layouts of nodes. nodes_binary.h and nodes_quantised.h prepare a ray and compute a plane's distance,
+   nodes_wide4.h visits nodes of up to four children with such planes, and nodes_wide8.h is the whole of the layout of
+   eight. The layout is a constant in code that is compiled for one, so that nothing is left of the others. */
 #ifndef TRAX_DEVICE_NODES_H
 #define TRAX_DEVICE_NODES_H
 
@@ -10,16 +10,35 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Whether planes are numbers on the scene's grid. */
+/* Whether there is code for nodes of more than two children: the general programs of the TPs have none. */
+#ifndef KNOWS_WIDE_NODES
+#if defined TRAX_NODE_LAYOUT || !defined __trax__
+#define KNOWS_WIDE_NODES 1
+#else
+#define KNOWS_WIDE_NODES 0
+#endif
+#endif
+
+static inline bool nodes_are_wide4(uint32_t layout) {
+  return KNOWS_WIDE_NODES && (layout == TRAX_NODES_WIDE4 || layout == TRAX_NODES_WIDE4_QUANTISED);
+}
+
+static inline bool nodes_are_wide8(uint32_t layout) {
+  return KNOWS_WIDE_NODES && layout == TRAX_NODES_WIDE8;
+}
+
+/* Whether planes are numbers, on the scene's grid or in a frame. */
 static inline bool nodes_are_quantised(uint32_t layout) {
-  return layout != TRAX_NODES_BINARY;
+  return layout != TRAX_NODES_BINARY && !(KNOWS_WIDE_NODES && layout == TRAX_NODES_WIDE4);
 }
 
+/* From a plane of a box to that of the next axis: of eight children, planes of an axis stand together. */
 static inline int plane_bytes(uint32_t layout) {
-  return nodes_are_quantised(layout) ? 2 : 4;
+  return nodes_are_wide8(layout) ? 8 : nodes_are_quantised(layout) ? 2 : 4;
 }
 
-/* A node is two boxes of six planes, the three least ones first, and the children's references. */
+/* A node, or a pair of children of a wide one, is two boxes of six planes, the three least ones first, and the
+   children's references. */
 static inline int second_box_of(uint32_t layout) {
   return 6 * plane_bytes(layout);
 }

@@ -37,9 +37,9 @@ static inline int32_t quantised_plane(const char *plane, float origin, float inv
   return float_bits(times_plane(*(const uint16_t *)(const void *)plane, inverse) - origin);
 }
 
-/* The bits of a distance in these units. Nearly 0 becomes a little more. */
-static inline int32_t distance_on_grid(int32_t distance_bits) {
-  return larger(distance_bits - (GRID_EXPONENT << 23), 0x00800000);
+/* The bits of a distance in units of 2^exponent. Nearly 0 becomes a little more. */
+static inline int32_t distance_in_units(int32_t distance_bits, int exponent) {
+  return larger(distance_bits - (exponent << 23), 0x00800000);
 }
 
 #endif

@@ -6,6 +6,7 @@
 #include "bits.h"
 #include "nodes_binary.h"
 #include "nodes_quantised.h"
+#include "nodes_wide8.h"
 #include "trax/render_params.h"
 #include "triangle.h"
 
@@ -72,7 +73,9 @@ static inline __attribute__((always_inline)) void prepare_ray(struct ray *ray, u
   ray->near_offset_z = near_offset(way.z, far_planes);
   struct vector margin = {with_sign_of(box_margin, way.x), with_sign_of(box_margin, way.y),
                           with_sign_of(box_margin, way.z)};
-  if (nodes_are_quantised(layout))
+  if (nodes_are_wide8(layout))
+    prepare_for_frames(&ray->box, origin, inverse, margin);
+  else if (nodes_are_quantised(layout))
     prepare_for_quantised(&ray->box, origin, inverse, margin, grid);
   else
     prepare_for_binary(&ray->box, origin, inverse, margin);

@@ -26,6 +26,9 @@ static inline __attribute__((always_inline)) void push(struct stack_entry **top,
   ++*top;
 }
 
+#include "nodes_wide4.h"
+#include "traverse_wide8.h"
+
 /* Goes from a node to the nearer of the children that the ray enters, and pushes the other one. False if it enters
    none. */
 static inline __attribute__((always_inline)) bool visit_node(uint32_t layout, const char *node, const struct ray *ray,
@@ -57,8 +60,12 @@ static inline __attribute__((always_inline)) bool descend(uint32_t layout, const
   while (__builtin_expect_with_probability(!leads_to_leaf(*reference), 1, 0.95)) {
     const char *node = scene_at(scene, *reference);
     ACCESS_NODE(node);
-    if (nodes_are_quantised(layout) ? !visit_node(TRAX_NODES_QUANTISED, node, ray, limit, reference, top)
-                                    : !visit_node(TRAX_NODES_BINARY, node, ray, limit, reference, top))
+    if (nodes_are_wide4(layout)) {
+      if (nodes_are_quantised(layout) ? !visit_wide4_node(TRAX_NODES_WIDE4_QUANTISED, node, ray, limit, reference, top)
+                                      : !visit_wide4_node(TRAX_NODES_WIDE4, node, ray, limit, reference, top))
+        return false;
+    } else if (nodes_are_quantised(layout) ? !visit_node(TRAX_NODES_QUANTISED, node, ray, limit, reference, top)
+                                           : !visit_node(TRAX_NODES_BINARY, node, ray, limit, reference, top))
       return false;
   }
   return true;
@@ -70,7 +77,7 @@ static inline __attribute__((always_inline)) bool descend_by_sign(uint32_t layou
                                                                   const struct ray *ray, int32_t limit,
                                                                   trax_scene_ref *reference, struct stack_entry **top) {
   struct ray positive = *ray, negative = *ray;
-  if (!LOOPS_FOR_BOTH_SIGNS)
+  if (!LOOPS_FOR_BOTH_SIGNS || nodes_are_wide4(layout))
     return descend(layout, scene, ray, limit, reference, top);
   positive.near_offset_x = 0, negative.near_offset_x = 3 * (uint32_t)plane_bytes(layout);
   return float_bits(ray->box.inverse.x) < 0 ? descend(layout, scene, &negative, limit, reference, top)
@@ -81,6 +88,8 @@ static inline __attribute__((always_inline)) bool descend_by_sign(uint32_t layou
    tell the register allocator that rays visit many more nodes than triangles. */
 static inline __attribute__((always_inline)) bool trace_ray(uint32_t layout, const char *scene, trax_scene_ref root,
                                                             const struct ray *ray, bool any, struct hit *hit) {
+  if (nodes_are_wide8(layout))
+    return trace_wide8(scene, root, ray, any, hit);
   struct stack_entry stack[TRAX_TREE_DEPTH + 1], *top = stack;
   trax_scene_ref reference = root;
   int32_t limit = limit_of(layout, hit->distance_bits); /* boxes that the ray enters later are left out */

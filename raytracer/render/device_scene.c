@@ -84,9 +84,14 @@ void trax_scene_relocate(void *bytes, uint32_t address) {
   const struct trax_node_format *format = &trax_node_formats[header->node_layout];
   unsigned char *node = (unsigned char *)bytes + section->offset;
   for (uint32_t i = 0; i < section->count; i++, node += format->bytes) {
-    for (uint32_t k = 0; k < 2; k++) {
+    if (header->node_layout == TRAX_NODES_WIDE8) { /* references to what is there; nothing reads the others */
+      struct trax_wide8_node *wide = (struct trax_wide8_node *)(void *)node;
+      wide->first_node += address, wide->first_triangle += address;
+      continue;
+    }
+    for (uint32_t k = 0; k < format->children; k++) {
       trax_scene_ref *child = (trax_scene_ref *)(void *)(node + trax_node_child(format, k));
-      *child = at_address(*child, address);
+      *child = *child ? at_address(*child, address) : 0;
     }
   }
   if (header->version == TRAX_SCENE_VERSION_INSTANCES) {

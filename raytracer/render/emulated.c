@@ -25,6 +25,9 @@ static trax_status general_program(struct trax_program *program, const struct op
       return trax_fail(error, "the path of the program is too long");
     return TRAX_OK;
   }
+  const struct trax_node_format *format = &trax_node_formats[frame->params->node_layout];
+  if (format->children > 2)
+    return trax_fail(error, "%s nodes: the general program knows binary and quantised ones only", format->name);
   const char *name = frame->params->features & TRAX_FEATURE_BIT(EXACT) ? "trax-raytracer-exact"
                      : deep                                            ? "trax-raytracer-deep"
                                                                        : "trax-raytracer";

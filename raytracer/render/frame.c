@@ -23,6 +23,15 @@ static void scale_floats(float *values, size_t count, int exponent) {
     values[i] = ldexpf(values[i], exponent);
 }
 
+/* Scales of frames that are out of range belong to nodes smaller than any margin. */
+static void scale_frame(struct trax_wide8_node *node, int exponent) {
+  scale_floats(node->origin, 3, exponent);
+  for (int axis = 0; axis < 3; axis++) {
+    const int scale = node->scale[axis] + exponent;
+    node->scale[axis] = (uint8_t)(scale < 0 ? 0 : scale > 255 ? 255 : scale);
+  }
+}
+
 /* Rounding to subnormals keeps the order of coordinates, so boxes stay exact. Boxes on the grid scale with the grid. */
 void trax_scale_scene(struct trax_scene *scene, int exponent) {
   if (exponent == 0)
@@ -34,9 +43,12 @@ void trax_scale_scene(struct trax_scene *scene, int exponent) {
   scale_floats(scene->grid.cell, 3, exponent);
   const struct trax_node_format *format = &trax_node_formats[header->node_layout];
   unsigned char *node = (unsigned char *)scene->nodes;
-  for (uint32_t i = 0; i < scene->node_count && !format->quantised; i++, node += format->bytes)
-    for (uint32_t child = 0; child < 2; child++)
+  for (uint32_t i = 0; i < scene->node_count && !format->quantised; i++, node += format->bytes) {
+    if (header->node_layout == TRAX_NODES_WIDE8)
+      scale_frame((struct trax_wide8_node *)(void *)node, exponent);
+    for (uint32_t child = 0; child < format->children && header->node_layout != TRAX_NODES_WIDE8; child++)
       scale_floats((float *)(void *)(node + trax_node_box(format, child)), 6, exponent);
+  }
   struct trax_triangle *triangles = (struct trax_triangle *)scene->triangles;
   for (uint32_t i = 0; i < scene->triangle_count; i++) {
     scale_floats(triangles[i].v0, 3, exponent);
@@ -112,7 +124,7 @@ float trax_box_margin(const struct trax_scene_header *header, const float eye[3]
    enough once the scene is normalised, unless the eye is very far away from a very small one. */
 static trax_status set_grid(struct trax_render_params *params, const struct trax_scene *scene, trax_error *error) {
   params->node_layout = scene->header->node_layout;
-  if (!trax_node_formats[params->node_layout].quantised || scene->triangle_count == 0)
+  if (trax_node_formats[params->node_layout].plane_bytes == sizeof(float) || scene->triangle_count == 0)
     return TRAX_OK;
   for (int axis = 0; axis < 3; axis++) {
     if (!(scene->grid.cell[axis] >= 0x1p-44f && scene->grid.cell[axis] <= 0x1p6f))

@@ -63,6 +63,9 @@ trax_status trax_plain_scene_bind(trax_machine *machine, const struct trax_scene
       return trax_fail(error,
                        "the program takes scenes of %d nodes from the root to a leaf, not %u (trax-scene --depth)",
                        TRAX_PLAIN_MAX_DEPTH, scene->header->max_depth);
+    if (trax_node_formats[scene->header->node_layout].children > 2)
+      return trax_fail(error, "the program takes nodes of two children, not %s ones (--nodes binary)",
+                       trax_node_formats[scene->header->node_layout].name);
     const uint32_t count = 2 * scene->node_count + 2;
     struct trax_plain_node *nodes = NULL;
     status = make_nodes(&nodes, scene, count, error);

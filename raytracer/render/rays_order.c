@@ -85,8 +85,9 @@ static uint32_t measure(struct tree *tree, trax_scene_ref reference) {
     return TRAX_SCENE_REF_COUNT(reference) * (uint32_t)sizeof(struct trax_triangle);
   const uint32_t number = number_of(tree->scene, reference);
   trax_node_read(&node, tree->scene, number);
-  tree->bytes[number] = trax_node_formats[tree->scene->header->node_layout].bytes + measure(tree, node.child[0]) +
-                        measure(tree, node.child[1]);
+  tree->bytes[number] = trax_node_formats[tree->scene->header->node_layout].bytes;
+  for (uint32_t i = 0; i < node.count; i++)
+    tree->bytes[number] += measure(tree, node.child[i]);
   return tree->bytes[number];
 }
 
@@ -112,10 +113,16 @@ static uint64_t treelet_of(const struct tree *tree, const struct trax_ray_record
   while (at && !TRAX_SCENE_REF_COUNT(at) && tree->bytes[number_of(tree->scene, at)] > tree->treelet_bytes) {
     struct trax_node_children node;
     trax_node_read(&node, tree->scene, number_of(tree->scene, at));
-    const double first = enter(ray, node.min[0], node.max[0]), second = enter(ray, node.min[1], node.max[1]);
-    if (isinf(first) && isinf(second))
+    uint32_t nearest = 0;
+    double first = INFINITY;
+    for (uint32_t i = 0; i < node.count; i++) {
+      const double here = enter(ray, node.min[i], node.max[i]);
+      nearest = here < first ? i : nearest;
+      first = fmin(here, first);
+    }
+    if (isinf(first))
       break;
-    at = node.child[second < first];
+    at = node.child[nearest];
   }
   return at;
 }

@@ -82,13 +82,13 @@ static void note_parts(struct checker *checker, trax_scene_ref ref, const struct
 }
 
 static trax_status wrong_box(const struct checker *checker, uint32_t place) {
-  return trax_fail(checker->error, "%s: node %u: box %u is not that of its triangles", checker->name, place / 2,
-                   place % 2);
+  return trax_fail(checker->error, "%s: node %u: box %u is not that of its triangles", checker->name,
+                   place / TRAX_NODE_MOST_CHILDREN, place % TRAX_NODE_MOST_CHILDREN);
 }
 
 /* Checks a node that is the last of `depth` on its path, and reads it. */
 static trax_status enter_node(struct checker *checker, trax_scene_ref ref, unsigned depth, uint32_t *entered,
-                              struct scene_box boxes[2], trax_scene_ref children[2]) {
+                              struct scene_node *node) {
   const struct trax_node_format *format = &trax_node_formats[checker->view->header->node_layout];
   if (ref < checker->nodes_offset || ref - checker->nodes_offset >= checker->nodes_size ||
       (ref - checker->nodes_offset) % format->bytes != 0)
@@ -102,22 +102,51 @@ static trax_status enter_node(struct checker *checker, trax_scene_ref ref, unsig
   checker->nodes_left--;
   if (depth > TRAX_SCENE_MAX_DEPTH)
     return trax_fail(checker->error, "%s: node %u is deeper than %u", checker->name, number, TRAX_SCENE_MAX_DEPTH);
-  static const unsigned char zeros[sizeof(struct trax_bvh_node)];
-  const uint32_t used = trax_node_child(format, 2);
-  if (memcmp((const unsigned char *)checker->view->nodes + (size_t)number * format->bytes + used, zeros,
-             format->bytes - used) != 0)
-    return trax_fail(checker->error, "%s: node %u: reserved words are not zero", checker->name, number);
-  scene_node_boxes(boxes, children, checker->view, number);
-  if (!children[0] || !children[1])
+  scene_node_of(node, checker->view, number);
+  if (node->count < 2 && !(format->children == 8 && node->count == 1 && checker->view->node_count == 1))
     return trax_fail(checker->error, "%s: node %u: fewer than two children", checker->name, number);
-  if (depth > checker->max_depth)
-    checker->max_depth = depth;
+  return TRAX_OK;
+}
+
+/* Each byte of a node is as it is written around these boxes: its frame, what is reserved, and children that are not
+   there. */
+static trax_status check_bytes(const struct checker *checker, uint32_t number, const struct scene_node *node) {
+  unsigned char right[sizeof(struct trax_wide4_node)];
+  const enum trax_node_layout layout = checker->view->header->node_layout;
+  const struct trax_node_format *format = &trax_node_formats[layout];
+  scene_node_write(right, layout, node);
+  if (memcmp(right, (const unsigned char *)checker->view->nodes + (size_t)number * format->bytes, format->bytes) == 0)
+    return TRAX_OK;
+  return trax_fail(checker->error, "%s: node %u: %s", checker->name, number,
+                   format->children == 2 ? "reserved words are not zero"
+                                         : "its frame, its reserved bytes or the places of its children are wrong");
+}
+
+static trax_status check_subtree(struct checker *checker, trax_scene_ref ref, unsigned depth, uint32_t entries,
+                                 struct scene_box *box);
+
+/* Checks a child of a node and what is below it. Its box becomes what counts above. */
+static trax_status check_child(struct checker *checker, struct scene_node *node, uint32_t i, uint32_t number,
+                               unsigned depth, uint32_t entries) {
+  const trax_scene_ref child = node->child[i];
+  struct scene_box expected = scene_empty_box();
+  if (check_subtree(checker, child, depth, entries, &expected) != TRAX_OK)
+    return TRAX_ERROR;
+  const struct scene_box stored = node->box[i], right = scene_box_in_node(checker->view, number, &expected);
+  if (!same_box(&stored, &right)) {
+    if (!TRAX_SCENE_REF_COUNT(child) || !box_within(&stored, &right))
+      return wrong_box(checker, TRAX_NODE_MOST_CHILDREN * number + i);
+    note_parts(checker, child, &stored, TRAX_NODE_MOST_CHILDREN * number + i);
+  }
+  if (checker->view->header->node_layout == TRAX_NODES_WIDE8)
+    node->box[i] = TRAX_SCENE_REF_COUNT(child) ? scene_box_within(&stored, &expected) : expected;
   return TRAX_OK;
 }
 
 /* Checks the subtree below ref, with `depth` nodes above it. *box receives the box that must be stored for it; that of
    a leaf may be smaller. The recursion ends, because a node is entered once and the depth is limited. */
-static trax_status check_subtree(struct checker *checker, trax_scene_ref ref, unsigned depth, struct scene_box *box) {
+static trax_status check_subtree(struct checker *checker, trax_scene_ref ref, unsigned depth, uint32_t entries,
+                                 struct scene_box *box) {
   if (TRAX_SCENE_REF_COUNT(ref)) {
     struct scene_box exact = scene_empty_box();
     trax_status result = check_leaf(checker, ref, &exact);
@@ -125,24 +154,25 @@ static trax_status check_subtree(struct checker *checker, trax_scene_ref ref, un
     *box = as_stored(checker, &exact);
     return result;
   }
-  struct scene_box boxes[2];
-  trax_scene_ref children[2];
+  const enum trax_node_layout layout = checker->view->header->node_layout;
+  struct scene_node node;
   uint32_t number;
-  if (enter_node(checker, ref, ++depth, &number, boxes, children) != TRAX_OK)
+  if (enter_node(checker, ref, ++depth, &number, &node) != TRAX_OK)
     return TRAX_ERROR;
+  entries = scene_stack_entries(layout, entries, node.count, &checker->max_depth);
   checker->ranges[number].first = checker->next_triangle;
-  for (uint32_t i = 0; i < 2; i++) {
-    struct scene_box expected = scene_empty_box();
-    trax_status result = check_subtree(checker, children[i], depth, &expected);
-    if (result != TRAX_OK)
-      return result;
-    if (!same_box(&boxes[i], &expected)) {
-      if (!TRAX_SCENE_REF_COUNT(children[i]) || !box_within(&boxes[i], &expected))
-        return wrong_box(checker, 2 * number + i);
-      note_parts(checker, children[i], &boxes[i], 2 * number + i);
-    }
-  }
-  *box = scene_box_around(boxes);
+  const bool leaves_first = trax_node_formats[layout].children == 8;
+  for (uint32_t i = 0; i < node.count; i++)
+    if (!leaves_first || TRAX_SCENE_REF_COUNT(node.child[i]))
+      if (check_child(checker, &node, i, number, depth, entries) != TRAX_OK)
+        return TRAX_ERROR;
+  for (uint32_t i = 0; i < node.count; i++)
+    if (leaves_first && !TRAX_SCENE_REF_COUNT(node.child[i]))
+      if (check_child(checker, &node, i, number, depth, entries) != TRAX_OK)
+        return TRAX_ERROR;
+  if (check_bytes(checker, number, &node) != TRAX_OK)
+    return TRAX_ERROR;
+  *box = scene_box_around(&node);
   checker->ranges[number].end = checker->next_triangle;
   return TRAX_OK;
 }
@@ -150,7 +180,9 @@ static trax_status check_subtree(struct checker *checker, trax_scene_ref ref, un
 /* With room for the notes of each node and triangle. */
 static trax_status check_whole_tree(struct checker *checker) {
   struct scene_box root;
-  trax_status result = check_subtree(checker, checker->view->header->root, 0, &root);
+  if (checker->view->header->node_layout == TRAX_NODES_WIDE8 && TRAX_SCENE_REF_COUNT(checker->view->header->root))
+    return trax_fail(checker->error, "%s: its root is no node", checker->name);
+  trax_status result = check_subtree(checker, checker->view->header->root, 0, 0, &root);
   if (result != TRAX_OK || !checker->any_in_part)
     return result;
   const struct scene_parts parts = {checker->view, checker->ranges, checker->in_part};
@@ -173,7 +205,7 @@ static trax_status check_mesh(struct checker *checker, uint32_t number) {
   checker->bounds = scene_empty_box();
   if (mesh->root == 0)
     return trax_fail(checker->error, "%s: mesh %u: a tree without triangles", checker->name, number);
-  const trax_status result = check_subtree(checker, mesh->root, 0, &root);
+  const trax_status result = check_subtree(checker, mesh->root, 0, 0, &root);
   if (result != TRAX_OK)
     return result;
   const struct scene_box stored = {{mesh->bounds_min[0], mesh->bounds_min[1], mesh->bounds_min[2]},
@@ -238,19 +270,20 @@ static trax_status check_upper(struct checker *checker, trax_scene_ref ref, unsi
     checker->max_depth = depth > checker->max_depth ? depth : checker->max_depth;
     return TRAX_OK;
   }
-  struct scene_box boxes[2];
-  trax_scene_ref children[2];
+  struct scene_node node;
   uint32_t number;
-  if (enter_node(checker, ref, ++depth, &number, boxes, children) != TRAX_OK)
+  if (enter_node(checker, ref, ++depth, &number, &node) != TRAX_OK)
     return TRAX_ERROR;
-  for (uint32_t i = 0; i < 2; i++) {
-    struct scene_box expected;
-    if (check_upper(checker, children[i], depth, &expected) != TRAX_OK)
+  for (uint32_t i = 0; i < node.count; i++) {
+    struct scene_box expected = scene_empty_box();
+    if (check_upper(checker, node.child[i], depth, &expected) != TRAX_OK)
       return TRAX_ERROR;
-    if (!same_box(&boxes[i], &expected))
+    if (!same_box(&node.box[i], &expected))
       return trax_fail(checker->error, "%s: node %u: box %u is not that of its instances", checker->name, number, i);
   }
-  *box = scene_box_around(boxes);
+  if (check_bytes(checker, number, &node) != TRAX_OK)
+    return TRAX_ERROR;
+  *box = scene_box_around(&node);
   return TRAX_OK;
 }
 
@@ -311,6 +344,9 @@ static trax_status check_tree(struct checker *checker) {
       return trax_fail(checker->error, "%s: %u triangles are in no leaf", checker->name,
                        header->triangle_count - checker->next_triangle);
   }
+  if (checker->max_depth > TRAX_SCENE_MAX_DEPTH)
+    return trax_fail(checker->error, "%s: its traversal needs more than %u entries of the stack", checker->name,
+                     TRAX_SCENE_MAX_DEPTH);
   if (checker->max_depth != header->max_depth || checker->max_leaf != header->max_leaf)
     return trax_fail(checker->error, "%s: depth %u and leaves of %u, where its header says %u and %u", checker->name,
                      checker->max_depth, checker->max_leaf, header->max_depth, header->max_leaf);

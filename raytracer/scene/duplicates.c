@@ -81,7 +81,8 @@ void scene_duplicates_release(struct scene_duplicates *duplicates) {
   *duplicates = (struct scene_duplicates){0};
 }
 
-trax_status scene_order_duplicates(struct scene_tree *tree, const struct trax_mesh *mesh, trax_error *error) {
+trax_status scene_order_duplicates(struct scene_tree *tree, const uint32_t *leaves, const struct trax_mesh *mesh,
+                                   trax_error *error) {
   struct scene_duplicates duplicates;
   trax_status result = scene_find_duplicates(&duplicates, mesh, error);
   if (result != TRAX_OK)
@@ -92,13 +93,58 @@ trax_status scene_order_duplicates(struct scene_tree *tree, const struct trax_me
     result = scene_out_of_memory(error, "BVH");
   for (uint32_t i = 0; next && i < mesh->triangle_count; i++)
     next[i] = i;
-  for (uint32_t i = 0; next && duplicates.any && i < tree->node_count; i++)
-    for (uint32_t t = 0; t < tree->nodes[i].triangle_count; t++) {
-      uint32_t *slot = &tree->nodes[i].triangles[t], place = duplicates.first[*slot];
+  const uint32_t count = leaves ? tree->node_count - tree->inner_count : tree->node_count;
+  for (uint32_t i = 0; next && duplicates.any && i < count; i++) {
+    struct scene_tree_node *node = &tree->nodes[leaves ? leaves[i] : i];
+    for (uint32_t t = 0; t < node->triangle_count; t++) {
+      uint32_t *slot = &node->triangles[t], place = duplicates.first[*slot];
       *slot = next[place];
       next[place] = duplicates.after[*slot];
     }
+  }
   free(next);
+  scene_duplicates_release(&duplicates);
+  return result;
+}
+
+/* Each part of a split triangle is followed by those of its duplicates: along the tree, a part ends where a number is
+   not larger than the one before. */
+trax_status scene_order_split_duplicates(struct scene_tree *tree, const uint32_t *leaves, const struct trax_mesh *mesh,
+                                         trax_error *error) {
+  struct scene_duplicates duplicates;
+  trax_status result = scene_find_duplicates(&duplicates, mesh, error);
+  if (result != TRAX_OK)
+    return result;
+  const size_t count = mesh->triangle_count + (size_t)1;
+  uint32_t *part = malloc(count * sizeof *part), *last = malloc(count * sizeof *last); /* of each first triangle */
+  uint32_t *first_part = malloc((tree->node_count + (size_t)1) * sizeof *first_part);  /* of each leaf, in parts */
+  uint32_t *parts = malloc(tree->ref_count * sizeof *parts), *next = malloc(tree->ref_count * sizeof *next);
+  if (!part || !last || !first_part || !parts || !next)
+    result = scene_out_of_memory(error, "BVH");
+  for (uint32_t i = 0; i + 1 < count && result == TRAX_OK; i++)
+    part[i] = last[i] = SCENE_NO_DUPLICATE;
+  uint32_t used = 0, part_count = 0;
+  for (uint32_t i = 0; i < tree->node_count && result == TRAX_OK && duplicates.any; i++) {
+    first_part[i] = used;
+    for (uint32_t t = 0; t < tree->nodes[i].triangle_count; t++) {
+      const uint32_t triangle = tree->nodes[i].triangles[t], first = duplicates.first[triangle];
+      if (last[first] == SCENE_NO_DUPLICATE || triangle <= last[first]) {
+        part[first] = part_count;
+        next[part_count++] = first;
+      }
+      last[first] = triangle;
+      parts[used++] = part[first];
+    }
+  }
+  for (uint32_t i = 0; i < tree->node_count - tree->inner_count && result == TRAX_OK && duplicates.any; i++) {
+    struct scene_tree_node *leaf = &tree->nodes[leaves[i]];
+    for (uint32_t t = 0; t < leaf->triangle_count; t++) {
+      uint32_t *one = &next[parts[first_part[leaves[i]] + t]];
+      leaf->triangles[t] = *one;
+      *one = duplicates.after[*one];
+    }
+  }
+  free(part), free(last), free(first_part), free(parts), free(next);
   scene_duplicates_release(&duplicates);
   return result;
 }

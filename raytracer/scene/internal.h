@@ -248,6 +248,16 @@ static inline void scene_box_add_box(struct scene_box *box, const struct scene_b
   scene_box_add_point(box, other->max);
 }
 
+/* What both boxes have in common. */
+static inline struct scene_box scene_box_within(const struct scene_box *a, const struct scene_box *b) {
+  struct scene_box box;
+  for (int axis = 0; axis < 3; axis++) {
+    box.min[axis] = a->min[axis] > b->min[axis] ? a->min[axis] : b->min[axis];
+    box.max[axis] = a->max[axis] < b->max[axis] ? a->max[axis] : b->max[axis];
+  }
+  return box;
+}
+
 static inline struct scene_box scene_triangle_box(const struct trax_mesh *mesh, uint32_t triangle) {
   struct scene_box box = scene_empty_box();
   for (int corner = 0; corner < 3; corner++)
@@ -263,16 +273,58 @@ struct scene_tree;
    the same unit. */
 struct scene_box scene_box_as_stored(enum trax_node_layout layout, const struct trax_scene_grid *grid,
                                      const struct scene_box *box);
-/* The least box that contains both. */
-struct scene_box scene_box_around(const struct scene_box boxes[2]);
-/* A node around such boxes. */
-void scene_node_write(void *node, enum trax_node_layout layout, const struct scene_box boxes[2],
-                      const trax_scene_ref children[2]);
+
+/* A box as this node stores it, in its frame if it has one. */
+struct scene_box scene_box_in_node(const struct trax_scene *scene, uint32_t number, const struct scene_box *box);
+
+/* A node in a form for all layouts. */
+struct scene_node {
+  uint32_t count;
+  struct scene_box box[TRAX_NODE_MOST_CHILDREN];
+  trax_scene_ref child[TRAX_NODE_MOST_CHILDREN];
+  uint8_t slot[TRAX_NODE_MOST_CHILDREN]; /* of eight children, ascending: which of the eight they are */
+};
+
+/* The least box that contains all children. */
+struct scene_box scene_box_around(const struct scene_node *node);
+/* The bytes of a node, and a node from its bytes. Boxes are as stored, but of eight children exact ones are written. */
+void scene_node_write(void *bytes, enum trax_node_layout layout, const struct scene_node *node);
+void scene_node_read(struct scene_node *node, enum trax_node_layout layout, const void *bytes);
+void scene_node_of(struct scene_node *node, const struct trax_scene *scene, uint32_t number);
+/* The stack's entries below a node with `above` above it. *most: so far at once. */
+uint32_t scene_stack_entries(enum trax_node_layout layout, uint32_t above, uint32_t children, uint32_t *most);
 /* Whether boxes on the scene's grid cost few additional visits in each larger part of the tree. */
 bool scene_grid_suits(const struct scene_tree *tree);
-/* The boxes of a node as they are stored. */
-void scene_node_boxes(struct scene_box boxes[2], trax_scene_ref children[2], const struct trax_scene *scene,
-                      uint32_t number);
+
+/* --- nodes_wide8.c --- */
+
+void scene_wide8_write(struct trax_wide8_node *out, const struct scene_node *node);
+void scene_wide8_read(struct scene_node *node, const struct trax_wide8_node *in);
+struct scene_box scene_wide8_box(const struct trax_wide8_node *node, const struct scene_box *box);
+/* The distance of planes along an axis. */
+double scene_wide8_cell(const struct trax_wide8_node *node, int axis);
+
+/* --- wide.c --- */
+
+/* The wide nodes of a tree: which of its nodes and leaves are children of which. */
+struct scene_wide {
+  struct scene_wide_node {
+    uint32_t count, child[TRAX_NODE_MOST_CHILDREN]; /* indices of the tree */
+    uint8_t slot[TRAX_NODE_MOST_CHILDREN];
+  } * nodes;
+  uint32_t *number;   /* of each node of the tree: its number among `nodes` */
+  uint32_t *position; /* of each of `nodes`: its place in the file */
+  uint32_t *by_position;
+  uint32_t *leaves;        /* of the tree, in the order of the file; NULL: depth first */
+  uint32_t count, entries; /* entries: as header.max_depth */
+};
+
+/* Makes them from a tree of which they are the largest part. position: of the tree's inner nodes (struct scene_order);
+   the wide nodes have the same order, if the layout leaves it open. */
+trax_status scene_widen(struct scene_wide *wide, const struct scene_tree *tree, enum trax_node_layout layout,
+                        trax_error *error);
+void scene_place_wide(struct scene_wide *wide, const struct scene_tree *tree, const uint32_t *position);
+void scene_wide_release(struct scene_wide *wide);
 
 /* --- clip.c --- */
 
@@ -411,8 +463,13 @@ struct scene_duplicates {
 trax_status scene_find_duplicates(struct scene_duplicates *duplicates, const struct trax_mesh *mesh, trax_error *error);
 void scene_duplicates_release(struct scene_duplicates *duplicates);
 
-/* Puts triangles with the same vertices in the order of their numbers, along the tree depth first. */
-trax_status scene_order_duplicates(struct scene_tree *tree, const struct trax_mesh *mesh, trax_error *error);
+/* Puts triangles with the same vertices in the order of their numbers, along the tree depth first, or along `leaves`,
+   which may be NULL. */
+trax_status scene_order_duplicates(struct scene_tree *tree, const uint32_t *leaves, const struct trax_mesh *mesh,
+                                   trax_error *error);
+/* The same of a tree with splits, in which they are in this order along the tree. */
+trax_status scene_order_split_duplicates(struct scene_tree *tree, const uint32_t *leaves, const struct trax_mesh *mesh,
+                                         trax_error *error);
 
 /* --- order.c --- */
 

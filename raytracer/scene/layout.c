@@ -154,13 +154,57 @@ trax_scene_ref scene_place_subtree(struct layout *layout, uint32_t index, struct
     *box = scene_box_as_stored(layout->node_layout, &layout->grid, &node->box);
     return place_leaf(layout, node);
   }
-  struct scene_box boxes[2];
-  trax_scene_ref children[2];
+  struct scene_node out = {.count = 2};
   for (int i = 0; i < 2; i++)
-    children[i] = scene_place_subtree(layout, node->child[i], &boxes[i]);
-  *box = scene_box_around(boxes);
+    out.child[i] = scene_place_subtree(layout, node->child[i], &out.box[i]);
+  *box = scene_box_around(&out);
   const uint32_t offset = layout->positions[index] * trax_node_formats[layout->node_layout].bytes;
-  scene_node_write(layout->nodes + offset, layout->node_layout, boxes, children);
+  scene_node_write(layout->nodes + offset, layout->node_layout, &out);
+  return layout->nodes_offset + offset;
+}
+
+static trax_scene_ref place_wide(struct layout *layout, uint32_t number, struct scene_box *box);
+
+static void place_child(struct layout *layout, struct scene_node *out, uint32_t i, uint32_t index) {
+  const struct scene_tree_node *node = &layout->tree->nodes[index];
+  out->child[i] = node->triangle_count ? scene_place_subtree(layout, index, &out->box[i])
+                                       : place_wide(layout, layout->wide->number[index], &out->box[i]);
+}
+
+/* A leaf's box in a frame may be larger than the part that it is for: what counts above is the box that is stored, as
+   far as there are triangles in it. That is also all that the checker knows. */
+static void read_back(struct scene_node *out, const struct layout *layout, const struct scene_wide_node *wide,
+                      const void *bytes) {
+  struct scene_node stored;
+  scene_node_read(&stored, layout->node_layout, bytes);
+  for (uint32_t i = 0; i < out->count; i++) {
+    const struct scene_tree_node *leaf = &layout->tree->nodes[wide->child[i]];
+    struct scene_box whole = scene_empty_box();
+    for (uint32_t k = 0; k < leaf->triangle_count; k++) {
+      const struct scene_box one = scene_triangle_box(layout->mesh, leaf->triangles[k]);
+      scene_box_add_box(&whole, &one);
+    }
+    if (leaf->triangle_count)
+      out->box[i] = scene_box_within(&stored.box[i], &whole);
+  }
+}
+
+static trax_scene_ref place_wide(struct layout *layout, uint32_t number, struct scene_box *box) {
+  const struct scene_wide_node *wide = &layout->wide->nodes[number];
+  const bool leaves_first = layout->wide->leaves != NULL;
+  struct scene_node out = {.count = wide->count};
+  memcpy(out.slot, wide->slot, sizeof out.slot);
+  for (uint32_t i = 0; i < wide->count; i++)
+    if (!leaves_first || layout->tree->nodes[wide->child[i]].triangle_count)
+      place_child(layout, &out, i, wide->child[i]);
+  for (uint32_t i = 0; i < wide->count; i++)
+    if (leaves_first && !layout->tree->nodes[wide->child[i]].triangle_count)
+      place_child(layout, &out, i, wide->child[i]);
+  const uint32_t offset = layout->wide->position[number] * trax_node_formats[layout->node_layout].bytes;
+  scene_node_write(layout->nodes + offset, layout->node_layout, &out);
+  if (layout->node_layout == TRAX_NODES_WIDE8)
+    read_back(&out, layout, wide, layout->nodes + offset);
+  *box = scene_box_around(&out);
   return layout->nodes_offset + offset;
 }
 
@@ -253,17 +297,18 @@ static trax_status make_normals(const struct layout *layout, double cosine, trax
 }
 
 static trax_status lay_out(struct trax_scene *scene, const struct trax_mesh *mesh, const struct scene_tree *tree,
-                           const struct palette *palette, const uint32_t *positions,
+                           const struct palette *palette, const uint32_t *positions, const struct scene_wide *wide,
                            const struct trax_build_options *options, trax_error *error) {
+  const uint32_t node_count = wide ? wide->count : tree->inner_count;
   struct trax_scene_header header = {.magic = TRAX_SCENE_MAGIC,
                                      .version = TRAX_SCENE_VERSION,
                                      .node_layout = options->nodes,
-                                     .max_depth = tree->max_depth,
+                                     .max_depth = wide ? wide->entries : tree->max_depth,
                                      .max_leaf = tree->max_leaf,
                                      .triangle_count = tree->ref_count};
   uint64_t end = sizeof header;
   struct trax_scene_section *sections = header.sections;
-  scene_plan_section(&sections[TRAX_SCENE_NODES], &end, tree->inner_count, trax_node_formats[options->nodes].bytes);
+  scene_plan_section(&sections[TRAX_SCENE_NODES], &end, node_count, trax_node_formats[options->nodes].bytes);
   scene_plan_section(&sections[TRAX_SCENE_TRIANGLES], &end, tree->ref_count, sizeof(struct trax_triangle));
   if (options->smooth)
     scene_plan_section(&sections[TRAX_SCENE_NORMALS], &end, tree->ref_count, sizeof(struct trax_triangle_normals));
@@ -285,6 +330,7 @@ static trax_status lay_out(struct trax_scene *scene, const struct trax_mesh *mes
                           .tree = tree,
                           .materials = palette->of_mesh,
                           .positions = positions,
+                          .wide = wide,
                           .node_layout = options->nodes,
                           .bytes = bytes,
                           .nodes = scene_section_bytes(bytes, &sections[TRAX_SCENE_NODES]),
@@ -306,7 +352,7 @@ static trax_status lay_out(struct trax_scene *scene, const struct trax_mesh *mes
     memcpy(header.bounds_max, tree->bounds.max, sizeof tree->bounds.max);
     layout.grid = trax_scene_grid_of(header.bounds_min, header.bounds_max);
     struct scene_box bounds;
-    header.root = scene_place_subtree(&layout, 0, &bounds);
+    header.root = wide && wide->count ? place_wide(&layout, 0, &bounds) : scene_place_subtree(&layout, 0, &bounds);
   }
   if (layout.normals) {
     const trax_status result = make_normals(&layout, scene_crease_cosine(options), error);
@@ -335,7 +381,7 @@ static trax_status lay_out(struct trax_scene *scene, const struct trax_mesh *mes
                                .textures = scene_section_bytes(bytes, &sections[TRAX_SCENE_TEXTURES]),
                                .texels = scene_section_bytes(bytes, &sections[TRAX_SCENE_TEXELS]),
                                .source_ids = layout.source_ids,
-                               .node_count = tree->inner_count,
+                               .node_count = node_count,
                                .triangle_count = tree->ref_count,
                                .material_count = palette->count,
                                .texture_count = palette->texture_count,
@@ -369,20 +415,29 @@ trax_status trax_scene_build(struct trax_scene *scene, const struct trax_mesh *m
   options = &chosen;
   scene_report(options, SCENE_LAY_OUT, 0);
   struct palette palette = {0};
-  if (!tree.split)
-    result = scene_order_duplicates(&tree, mesh, error);
+  struct scene_wide wide = {0};
+  const bool is_wide = trax_node_formats[options->nodes].children > 2 && tree.node_count;
+  if (is_wide)
+    result = scene_widen(&wide, &tree, options->nodes, error);
+  if (result == TRAX_OK && !tree.split)
+    result = scene_order_duplicates(&tree, wide.leaves, mesh, error);
+  else if (result == TRAX_OK && wide.leaves)
+    result = scene_order_split_duplicates(&tree, wide.leaves, mesh, error);
   if (result == TRAX_OK && scene_is_interrupted(options->interrupt))
     result = TRAX_INTERRUPTED;
   if (result == TRAX_OK && !order.position)
     result =
         scene_order_nodes(&order, &tree, options->nodes,
                           options->cache_lines ? options->cache_lines : SCENE_CACHE_LINES, options->interrupt, error);
+  if (result == TRAX_OK && is_wide)
+    scene_place_wide(&wide, &tree, order.position);
   if (result == TRAX_OK) {
     result = scene_make_palette(&palette, mesh, mesh->uvs != NULL, error);
     if (result == TRAX_OK)
-      result = lay_out(scene, mesh, &tree, &palette, order.position, options, error);
+      result = lay_out(scene, mesh, &tree, &palette, order.position, is_wide ? &wide : NULL, options, error);
     scene_palette_release(&palette);
   }
+  scene_wide_release(&wide);
   scene_order_release(&order);
   scene_tree_release(&tree);
   if (result == TRAX_OK && options->tree_nodes) { /* checks that the leaves of a triangle cover it */

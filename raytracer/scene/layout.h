@@ -11,6 +11,7 @@ struct layout {
   const struct scene_tree *tree;
   const uint32_t *materials; /* of the mesh to the file's */
   const uint32_t *positions; /* of the tree's inner nodes in the file */
+  const struct scene_wide *wide; /* NULL: nodes are the tree's */
   enum trax_node_layout node_layout;
   struct trax_scene_grid grid;
   /* the file's sections */

@@ -6,8 +6,12 @@
 #include <string.h>
 
 const struct trax_node_format trax_node_formats[TRAX_NODE_LAYOUTS] = {
-    [TRAX_NODES_BINARY] = {"binary", sizeof(struct trax_bvh_node), false, sizeof(float)},
-    [TRAX_NODES_QUANTISED] = {"quantised", sizeof(struct trax_quantised_node), true, sizeof(uint16_t)},
+    [TRAX_NODES_BINARY] = {"binary", sizeof(struct trax_bvh_node), 2, false, sizeof(float)},
+    [TRAX_NODES_QUANTISED] = {"quantised", sizeof(struct trax_quantised_node), 2, true, sizeof(uint16_t)},
+    [TRAX_NODES_WIDE4] = {"wide4", sizeof(struct trax_wide4_node), 4, false, sizeof(float)},
+    [TRAX_NODES_WIDE4_QUANTISED] = {"wide4-quantised", sizeof(struct trax_wide4_quantised_node), 4, true,
+                                    sizeof(uint16_t)},
+    [TRAX_NODES_WIDE8] = {"wide8", sizeof(struct trax_wide8_node), 8, false, sizeof(uint8_t)},
 };
 
 bool trax_node_layout_choose(const char *name, struct trax_build_options *build) {
@@ -117,49 +121,87 @@ static float read_plane(const unsigned char *from, uint32_t bytes) {
   return number;
 }
 
-struct scene_box scene_box_around(const struct scene_box boxes[2]) {
-  struct scene_box box = boxes[0];
-  scene_box_add_box(&box, &boxes[1]);
+struct scene_box scene_box_around(const struct scene_node *node) {
+  struct scene_box box = scene_empty_box();
+  for (uint32_t i = 0; i < node->count; i++)
+    scene_box_add_box(&box, &node->box[i]);
   return box;
 }
 
-void scene_node_write(void *node, enum trax_node_layout layout, const struct scene_box boxes[2],
-                      const trax_scene_ref children[2]) {
+void scene_node_write(void *bytes, enum trax_node_layout layout, const struct scene_node *node) {
   const struct trax_node_format *format = &trax_node_formats[layout];
-  unsigned char *bytes = node;
-  for (uint32_t i = 0; i < 2; i++) {
-    unsigned char *plane = bytes + trax_node_box(format, i);
+  if (layout == TRAX_NODES_WIDE8) {
+    scene_wide8_write(bytes, node);
+    return;
+  }
+  const struct scene_box whole = scene_box_around(node);
+  const struct scene_box inside_out = {{whole.max[0], whole.max[1], whole.max[2]},
+                                       {whole.min[0], whole.min[1], whole.min[2]}};
+  memset(bytes, 0, format->bytes);
+  for (uint32_t i = 0; i < format->children; i++) {
+    const struct scene_box *box = i < node->count ? &node->box[i] : &inside_out;
+    unsigned char *plane = (unsigned char *)bytes + trax_node_box(format, i);
     for (int axis = 0; axis < 3; axis++, plane += format->plane_bytes) {
-      write_plane(plane, format->plane_bytes, boxes[i].min[axis]);
-      write_plane(plane + 3 * format->plane_bytes, format->plane_bytes, boxes[i].max[axis]);
+      write_plane(plane, format->plane_bytes, box->min[axis]);
+      write_plane(plane + 3 * format->plane_bytes, format->plane_bytes, box->max[axis]);
     }
-    memcpy(bytes + trax_node_child(format, i), &children[i], sizeof *children);
+    if (i < node->count)
+      memcpy((unsigned char *)bytes + trax_node_child(format, i), &node->child[i], sizeof *node->child);
   }
 }
 
-void scene_node_boxes(struct scene_box boxes[2], trax_scene_ref children[2], const struct trax_scene *scene,
-                      uint32_t number) {
-  const struct trax_node_format *format = &trax_node_formats[scene->header->node_layout];
-  const unsigned char *node = (const unsigned char *)scene->nodes + (size_t)number * format->bytes;
-  for (uint32_t i = 0; i < 2; i++) {
-    const unsigned char *plane = node + trax_node_box(format, i);
-    for (int axis = 0; axis < 3; axis++, plane += format->plane_bytes) {
-      boxes[i].min[axis] = read_plane(plane, format->plane_bytes);
-      boxes[i].max[axis] = read_plane(plane + 3 * format->plane_bytes, format->plane_bytes);
-    }
-    memcpy(&children[i], node + trax_node_child(format, i), sizeof *children);
+void scene_node_read(struct scene_node *node, enum trax_node_layout layout, const void *bytes) {
+  const struct trax_node_format *format = &trax_node_formats[layout];
+  if (layout == TRAX_NODES_WIDE8) {
+    scene_wide8_read(node, bytes);
+    return;
   }
+  node->count = 0;
+  for (uint32_t i = 0; i < format->children; i++) {
+    const unsigned char *plane = (const unsigned char *)bytes + trax_node_box(format, i);
+    for (int axis = 0; axis < 3; axis++, plane += format->plane_bytes) {
+      node->box[i].min[axis] = read_plane(plane, format->plane_bytes);
+      node->box[i].max[axis] = read_plane(plane + 3 * format->plane_bytes, format->plane_bytes);
+    }
+    memcpy(&node->child[i], (const unsigned char *)bytes + trax_node_child(format, i), sizeof *node->child);
+    if (!node->child[i])
+      break;
+    node->count++;
+  }
+}
+
+void scene_node_of(struct scene_node *node, const struct trax_scene *scene, uint32_t number) {
+  const enum trax_node_layout layout = scene->header->node_layout;
+  scene_node_read(node, layout, (const unsigned char *)scene->nodes + (size_t)number * trax_node_formats[layout].bytes);
+}
+
+struct scene_box scene_box_in_node(const struct trax_scene *scene, uint32_t number, const struct scene_box *box) {
+  return scene->header->node_layout == TRAX_NODES_WIDE8
+             ? scene_wide8_box((const struct trax_wide8_node *)scene->nodes + number, box)
+             : *box;
+}
+
+uint32_t scene_stack_entries(enum trax_node_layout layout, uint32_t above, uint32_t children, uint32_t *most) {
+  const uint32_t here = above + (layout == TRAX_NODES_WIDE8 ? 1 : children - 1);
+  *most = here > *most ? here : *most;
+  return here;
 }
 
 void trax_node_read(struct trax_node_children *children, const struct trax_scene *scene, uint32_t number) {
   const struct trax_node_format *format = &trax_node_formats[scene->header->node_layout];
-  struct scene_box boxes[2];
-  scene_node_boxes(boxes, children->child, scene, number);
-  for (int i = 0; i < 2; i++)
-    for (int axis = 0; axis < 3; axis++) {
-      const double origin = format->quantised ? scene->grid.origin[axis] : 0;
-      const double cell = format->quantised ? scene->grid.cell[axis] : 1;
-      children->min[i][axis] = origin + boxes[i].min[axis] * cell;
-      children->max[i][axis] = origin + boxes[i].max[axis] * cell;
+  struct scene_node node;
+  scene_node_of(&node, scene, number);
+  children->count = node.count;
+  memcpy(children->child, node.child, sizeof children->child);
+  for (int axis = 0; axis < 3; axis++) {
+    const double origin = format->quantised ? scene->grid.origin[axis] : 0;
+    const double cell = format->quantised ? scene->grid.cell[axis] : 1;
+    for (uint32_t i = 0; i < node.count; i++) {
+      children->min[i][axis] = origin + node.box[i].min[axis] * cell;
+      children->max[i][axis] = origin + node.box[i].max[axis] * cell;
     }
+    children->cell[axis] = format->quantised ? cell : 0;
+    if (scene->header->node_layout == TRAX_NODES_WIDE8)
+      children->cell[axis] = scene_wide8_cell((const struct trax_wide8_node *)scene->nodes + number, axis);
+  }
 }

@@ -52,13 +52,14 @@ static void set_range(struct subtree *subtree, const struct scene_parts *parts) 
   subtree->end = parts->ranges[node].end;
 }
 
-static void list_children(struct subtree below[2], const struct scene_parts *parts, const struct subtree *parent) {
+static void list_children(struct subtree below[TRAX_NODE_MOST_CHILDREN], const struct scene_parts *parts,
+                          const struct subtree *parent) {
   const struct trax_scene_section *section = &parts->scene->header->sections[TRAX_SCENE_NODES];
-  struct scene_box boxes[2];
-  trax_scene_ref children[2];
-  scene_node_boxes(boxes, children, parts->scene, (parent->ref - section->offset) / section->record_size);
-  for (int i = 0; i < 2; i++) {
-    below[i] = (struct subtree){.ref = children[i], .box = boxes[i], .next = i == 0 ? &below[1] : parent->next};
+  struct scene_node node;
+  scene_node_of(&node, parts->scene, (parent->ref - section->offset) / section->record_size);
+  for (uint32_t i = 0; i < node.count; i++) {
+    below[i] = (struct subtree){
+        .ref = node.child[i], .box = node.box[i], .next = i + 1 < node.count ? &below[i + 1] : parent->next};
     set_range(&below[i], parts);
   }
 }
@@ -109,7 +110,7 @@ static bool is_covered(struct cover *cover, const struct polygon *polygon, const
     inside = next, next = swap;
   }
   if (covered && inside->count && !TRAX_SCENE_REF_COUNT(list->ref)) {
-    struct subtree below[2];
+    struct subtree below[TRAX_NODE_MOST_CHILDREN];
     list_children(below, cover->parts, list);
     covered = is_covered(cover, inside, below);
   }

@@ -118,15 +118,14 @@ static void add_image(struct scene_box *box, const struct trax_instance *instanc
 
 static void add_subtree(struct scene_box *box, const struct trax_scene *scene, const struct trax_instance *instance,
                         trax_scene_ref reference, int levels) {
-  struct scene_box boxes[2];
-  trax_scene_ref children[2];
+  struct scene_node node;
   const struct trax_scene_section *nodes = &scene->header->sections[TRAX_SCENE_NODES];
-  scene_node_boxes(boxes, children, scene, (reference - nodes->offset) / nodes->record_size);
-  for (int i = 0; i < 2; i++)
-    if (TRAX_SCENE_REF_COUNT(children[i]) || levels == 1)
-      add_image(box, instance, boxes[i].min, boxes[i].max);
+  scene_node_of(&node, scene, (reference - nodes->offset) / nodes->record_size);
+  for (uint32_t i = 0; i < node.count; i++)
+    if (TRAX_SCENE_REF_COUNT(node.child[i]) || levels == 1)
+      add_image(box, instance, node.box[i].min, node.box[i].max);
     else
-      add_subtree(box, scene, instance, children[i], levels - 1);
+      add_subtree(box, scene, instance, node.child[i], levels - 1);
 }
 
 struct scene_box scene_instance_box(const struct trax_scene *scene, const struct trax_instance *instance) {

@@ -3,6 +3,7 @@
 #include "internal.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #define NOWHERE UINT32_MAX
 
@@ -65,8 +66,9 @@ static uint32_t node_of(const struct refit *refit, trax_scene_ref ref) {
 }
 
 static void children_of(trax_scene_ref children[2], const struct refit *refit, uint32_t number) {
-  struct scene_box boxes[2];
-  scene_node_boxes(boxes, children, refit->base, number);
+  struct scene_node node;
+  scene_node_of(&node, refit->base, number);
+  memcpy(children, node.child, 2 * sizeof *children);
 }
 
 /* Recursion, here and below, is bounded by the depth of the base. */
@@ -159,6 +161,9 @@ static trax_status check_base(const struct refit *refit, const struct trax_build
                      refit->base->source_ids ? "without nodes" : "without the triangles' numbers");
   if (refit->base->instance_count)
     return trax_fail(error, "%s: a scene with instances has no tree to refit (--flatten)", refit->name);
+  if (trax_node_formats[refit->base->header->node_layout].children > 2)
+    return trax_fail(error, "%s: only binary and quantised nodes are refitted; its nodes are %s", refit->name,
+                     trax_node_formats[refit->base->header->node_layout].name);
   if (!options->choose_nodes && options->nodes != refit->base->header->node_layout)
     return trax_fail(error, "%s: its nodes are %s; a tree that is refitted keeps its layout", refit->name,
                      trax_node_formats[refit->base->header->node_layout].name);

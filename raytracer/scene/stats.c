@@ -40,7 +40,7 @@ static void measure(const struct walk *walk, trax_scene_ref ref, unsigned depth,
   struct trax_node_children node;
   trax_node_read(&node, walk->scene, (ref - section->offset) / section->record_size);
   walk->stats->sah_nodes += probability;
-  for (int i = 0; i < 2; i++)
+  for (uint32_t i = 0; i < node.count; i++)
     measure(walk, node.child[i], depth + 1,
             walk->area > 0 ? walk->share * half_area(node.min[i], node.max[i]) / walk->area : 0);
 }

@@ -28,7 +28,7 @@ static trax_status check_options(const struct trax_build_options *options, trax_
     return trax_fail(error, "--tree is the tree of a mesh without instances (--flatten)");
   if (options->splits > 1 && !options->choose_splits)
     return trax_fail(error, "--splits: triangles of instances are not split (--flatten)");
-  if (trax_node_formats[options->nodes].quantised && !options->choose_nodes)
+  if (options->nodes != TRAX_NODES_BINARY && !options->choose_nodes)
     return trax_fail(error, "--nodes: a scene of instances has binary nodes (--flatten)");
   return TRAX_OK;
 }
@@ -64,7 +64,7 @@ static trax_status build_parts(struct two_levels *two) {
     struct scene_tree *tree = &two->trees[i];
     result = scene_build_tree(tree, &part, &two->parts, two->error);
     if (result == TRAX_OK)
-      result = scene_order_duplicates(tree, &part, two->error);
+      result = scene_order_duplicates(tree, NULL, &part, two->error);
     if (result == TRAX_OK)
       result = order_nodes(&two->orders[i], tree, &two->parts, two->error);
     two->inner_nodes += tree->inner_count;
@@ -256,13 +256,12 @@ static trax_scene_ref place_upper(struct upper *upper, uint32_t index, uint32_t 
     upper->max_depth = depth > upper->max_depth ? depth : upper->max_depth;
     return (uint32_t)((const char *)&scene->instances[upper->placed++] - (const char *)scene->bytes) | 1;
   }
-  struct scene_box boxes[2];
-  trax_scene_ref children[2];
+  struct scene_node out = {.count = 2};
   for (int i = 0; i < 2; i++)
-    children[i] = place_upper(upper, node->child[i], depth + 1, &boxes[i]);
-  *box = scene_box_around(boxes);
+    out.child[i] = place_upper(upper, node->child[i], depth + 1, &out.box[i]);
+  *box = scene_box_around(&out);
   struct trax_bvh_node *to = (struct trax_bvh_node *)scene->nodes + upper->positions[index];
-  scene_node_write(to, TRAX_NODES_BINARY, boxes, children);
+  scene_node_write(to, TRAX_NODES_BINARY, &out);
   return (uint32_t)((const char *)to - (const char *)scene->bytes);
 }
 
@@ -273,7 +272,7 @@ static trax_status build_upper(struct two_levels *two, const struct trax_mesh *b
   struct scene_box box;
   trax_status result = scene_build_tree(&tree, boxes, &two->upper, two->error);
   if (result == TRAX_OK)
-    result = scene_order_duplicates(&tree, boxes, two->error);
+    result = scene_order_duplicates(&tree, NULL, boxes, two->error);
   if (result == TRAX_OK)
     result = order_nodes(&order, &tree, &two->upper, two->error);
   if (result == TRAX_OK) {

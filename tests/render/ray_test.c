@@ -228,10 +228,11 @@ int main(void) {
   const struct CMUnitTest slots[] = {cmocka_unit_test(test_slots_are_pixels),
                                      cmocka_unit_test(test_slots_of_large_pictures)};
   const struct CMUnitTest tests[] = {
-      OF_LAYOUT(test_no_ray_leaves_a_closed_surface, BINARY),
-      OF_LAYOUT(test_nearest_hit, BINARY),
-      OF_LAYOUT(test_no_ray_leaves_a_closed_surface, QUANTISED),
-      OF_LAYOUT(test_nearest_hit, QUANTISED),
+      OF_LAYOUT(test_no_ray_leaves_a_closed_surface, BINARY),          OF_LAYOUT(test_nearest_hit, BINARY),
+      OF_LAYOUT(test_no_ray_leaves_a_closed_surface, QUANTISED),       OF_LAYOUT(test_nearest_hit, QUANTISED),
+      OF_LAYOUT(test_no_ray_leaves_a_closed_surface, WIDE4),           OF_LAYOUT(test_nearest_hit, WIDE4),
+      OF_LAYOUT(test_no_ray_leaves_a_closed_surface, WIDE4_QUANTISED), OF_LAYOUT(test_nearest_hit, WIDE4_QUANTISED),
+      OF_LAYOUT(test_no_ray_leaves_a_closed_surface, WIDE8),           OF_LAYOUT(test_nearest_hit, WIDE8),
       cmocka_unit_test(test_shadow_rays_start_off_the_surface),
   };
   int failures = cmocka_run_group_tests_name("slots", slots, NULL, NULL);

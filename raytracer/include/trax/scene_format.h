@@ -42,8 +42,13 @@ typedef uint32_t trax_scene_ref;
 enum trax_node_layout {
   TRAX_NODES_BINARY = 0,    /* struct trax_bvh_node: two boxes in binary32 */
   TRAX_NODES_QUANTISED = 1, /* struct trax_quantised_node: two boxes on the scene's grid, two nodes in a line */
-  TRAX_NODE_LAYOUTS = 2     /* 2 to 5 were quantised8, wide, wide-quantised and wide-quantised8 */
+  TRAX_NODES_WIDE4 = 2,     /* struct trax_wide4_node: up to four boxes in binary32 */
+  TRAX_NODES_WIDE4_QUANTISED =
+      3,                /* struct trax_wide4_quantised_node: up to four boxes on the scene's grid, in a line */
+  TRAX_NODES_WIDE8 = 4, /* struct trax_wide8_node: up to eight boxes in a frame of the node's */
+  TRAX_NODE_LAYOUTS = 5
 };
+#define TRAX_NODE_MOST_CHILDREN 8u
 
 /* The grid of quantised nodes: along each axis 2^16 planes at equal distances. The first plane is at bounds_min, and
    all triangles are below the last but one. trax_scene_grid_of (scene.h) computes the grid. */
@@ -77,7 +82,8 @@ struct trax_scene_header {
   uint32_t checksum;       /* CRC-32 (ISO 3309, as in zlib) of the whole file with this field zero */
   trax_scene_ref root;     /* an inner node; a leaf if that holds all triangles; 0 if there are none */
   uint32_t max_depth;      /* most inner nodes on a path from the root. A traversal that pushes the other child of each
-                              never has more entries on its stack */
+                              never has more entries on its stack. In layouts of four children: most entries of one
+                              that pushes all children of a node but one */
   uint32_t max_leaf;       /* most triangles in one leaf */
   uint32_t triangle_count; /* = sections[TRAX_SCENE_TRIANGLES].count */
   float bounds_min[3];     /* of all triangles, or of all instances' boxes; zeros if there are none */
@@ -153,6 +159,37 @@ struct trax_quantised_node {
   trax_scene_ref child[2]; /* never 0 */
 };
 
+/* Two binary nodes, one behind the other. Children that are not there follow the others; their reference is 0, and
+   their box is that of all children inside out. */
+struct trax_wide4_node {
+  struct {
+    struct {
+      float min[3], max[3];
+    } box[2];
+    trax_scene_ref child[2];
+  } pair[2];
+  uint32_t reserved[4]; /* zero */
+};
+
+struct trax_wide4_quantised_node {
+  struct trax_quantised_node pair[2];
+};
+
+/* The node of Ylitie, Karras and Laine ("Efficient incoherent ray traversal on GPUs through compressed wide BVHs", HPG
+   2017). Plane q of an axis is at origin + q * 2^(scale - 149), with the least scale that has room for all children. A
+   child is in one of eight slots. Rays with a positive direction along the axis of bit b of a slot's number visit the
+   slots without that bit first. Children that are nodes follow one another in the file in the order of slots, and so
+   do the triangles of all leaves, before those of the nodes. Aligned to 16 bytes. */
+struct trax_wide8_node {
+  float origin[3]; /* the least corner of all children */
+  uint8_t scale[3];
+  uint8_t reserved;
+  trax_scene_ref first_node, first_triangle; /* without a count; 0: no child needs it */
+  uint8_t meta[8]; /* a leaf: triangles + 8 * place of its first, counted from first_triangle; a node: 8 * its number
+                      from 1; 0: no child, whose planes are 255 to 0 */
+  uint8_t min[3][8], max[3][8];
+};
+
 struct trax_triangle {
   float v0[3], v1[3], v2[3]; /* finite; winding as in the mesh */
   uint32_t material;         /* index into the materials */
@@ -222,6 +259,9 @@ TRAX_SCENE_ASSERT_SIZE(struct trax_instance, 128);
 TRAX_SCENE_ASSERT_SIZE(struct trax_scene_mesh, 64);
 TRAX_SCENE_ASSERT_SIZE(struct trax_bvh_node, 64);
 TRAX_SCENE_ASSERT_SIZE(struct trax_quantised_node, 32);
+TRAX_SCENE_ASSERT_SIZE(struct trax_wide4_node, 128);
+TRAX_SCENE_ASSERT_SIZE(struct trax_wide4_quantised_node, 64);
+TRAX_SCENE_ASSERT_SIZE(struct trax_wide8_node, 80);
 TRAX_SCENE_ASSERT_SIZE(struct trax_triangle, 40);
 TRAX_SCENE_ASSERT_SIZE(struct trax_triangle_normals, sizeof(struct trax_triangle));
 TRAX_SCENE_ASSERT_SIZE(struct trax_triangle_uvs, sizeof(struct trax_triangle));
