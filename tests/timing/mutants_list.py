@@ -19,8 +19,7 @@ MUTANTS = [
     ("reference/fetch.c", "trax_ref_charge(tm, tp, t, TRAX_CAUSE_MEMORY_QUEUE);",
      "trax_ref_charge(tm, tp, t, TRAX_CAUSE_ICACHE_MISS);"),
     ("reference/lines.c", "line_bytes * ways)", "line_bytes)"),
-    ("reference/lines.c", "const uint32_t set = line % lines->sets",
-     "const uint32_t set = line / lines->ways % lines->sets"),
+    ("reference/lines.c", "return line & (lines->sets - 1)", "return line / lines->ways & (lines->sets - 1)"),
     # --- Operands ---
     ("reference/operands.c", "{trax_ref_is(tp, TRAX_READS_RD | TRAX_WRITES_RD), tp->inst.rd}",
      "{trax_ref_is(tp, TRAX_READS_RD), tp->inst.rd}"),
