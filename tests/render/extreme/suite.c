@@ -118,7 +118,7 @@ static void make_variants(struct prepared *prepared, const struct trax_view *vie
     build.splits = i % 2 ? 3 : 0;
     build.passes = i & 2;
     if (prepared->scene.instances)
-      build.nodes = TRAX_NODES_BINARY, build.splits = 0, build.max_leaf = i;
+      build.nodes = TRAX_NODES_BINARY, build.splits = 0, build.max_leaf = 1 + (i - 1) % TRAX_SCENE_MAX_LEAF;
     if (trax_scene_build(&prepared->variants[i], &prepared->setup.mesh, &build, &error) != TRAX_OK ||
         trax_scene_check(NULL, prepared->variants[i].bytes, prepared->variants[i].size, name, &error) != TRAX_OK)
       die(name, &error);
