@@ -19,6 +19,14 @@ struct stack_entry {
   int32_t enter; /* where the ray enters its box */
 };
 
+/* Of a node of four children the nearest one is on the stack, too, for a moment. */
+#ifdef TRAX_NODE_LAYOUT
+#define MAY_BE_WIDE4 (TRAX_NODE_LAYOUT == TRAX_NODES_WIDE4 || TRAX_NODE_LAYOUT == TRAX_NODES_WIDE4_QUANTISED)
+#else
+#define MAY_BE_WIDE4 KNOWS_WIDE_NODES
+#endif
+#define STACK_ENTRIES (TRAX_TREE_DEPTH + 1 + MAY_BE_WIDE4)
+
 static inline __attribute__((always_inline)) void push(struct stack_entry **top, trax_scene_ref reference,
                                                        int32_t enter) {
   **top = (struct stack_entry){reference, enter};
@@ -60,12 +68,15 @@ static inline __attribute__((always_inline)) bool descend(uint32_t layout, const
   while (__builtin_expect_with_probability(!leads_to_leaf(*reference), 1, 0.95)) {
     const char *node = scene_at(scene, *reference);
     ACCESS_NODE(node);
-    if (nodes_are_wide4(layout)) {
-      if (nodes_are_quantised(layout) ? !visit_wide4_node(TRAX_NODES_WIDE4_QUANTISED, node, ray, limit, reference, top)
-                                      : !visit_wide4_node(TRAX_NODES_WIDE4, node, ray, limit, reference, top))
-        return false;
-    } else if (nodes_are_quantised(layout) ? !visit_node(TRAX_NODES_QUANTISED, node, ray, limit, reference, top)
-                                           : !visit_node(TRAX_NODES_BINARY, node, ray, limit, reference, top))
+    if (nodes_are_wide4(layout)) { /* the next child is the stack's */
+      if (nodes_are_quantised(layout))
+        visit_wide4_node(TRAX_NODES_WIDE4_QUANTISED, node, ray, limit, top);
+      else
+        visit_wide4_node(TRAX_NODES_WIDE4, node, ray, limit, top);
+      return false;
+    }
+    if (nodes_are_quantised(layout) ? !visit_node(TRAX_NODES_QUANTISED, node, ray, limit, reference, top)
+                                    : !visit_node(TRAX_NODES_BINARY, node, ray, limit, reference, top))
       return false;
   }
   return true;
@@ -90,7 +101,7 @@ static inline __attribute__((always_inline)) bool trace_ray(uint32_t layout, con
                                                             const struct ray *ray, bool any, struct hit *hit) {
   if (nodes_are_wide8(layout))
     return trace_wide8(scene, root, ray, any, hit);
-  struct stack_entry stack[TRAX_TREE_DEPTH + 1], *top = stack;
+  struct stack_entry stack[STACK_ENTRIES], *top = stack;
   trax_scene_ref reference = root;
   int32_t limit = limit_of(layout, hit->distance_bits); /* boxes that the ray enters later are left out */
 

@@ -87,8 +87,8 @@ static const trax_option rows[] = {
     {"unpack-limit", .argument = "SIZE", PARSED(trax_take_unpack_limit, import.unpack_limit),
      .meaning = "most bytes of a packed file or a pipe, unpacked; K, M and G are powers of 1024 (default 1G)"},
     {"nodes", .argument = "KIND", PARSED(trax_take_nodes, nodes), .choices = trax_node_words,
-     .meaning = "of the meshes' tree: binary, quantised or auto, as trax-scene has them (default auto;\n"
-                "for another --program binary)"},
+     .meaning = "of the meshes' tree: binary, quantised, wide4, wide4-quantised, wide8 or auto, as trax-scene has\n"
+                "them (default auto; for another --program binary)"},
     {"splits", .argument = "[=FACTOR]", PARSED(trax_take_splits, splits),
      .meaning = "splits large triangles, as trax-scene does (default auto; for another\n"
                 "--program 1, which is none)"},

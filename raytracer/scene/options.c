@@ -42,7 +42,7 @@ trax_status trax_take_at(void *target, const trax_option *option, const char *va
              : trax_option_refuse(option, value, error, "is neither a time in seconds nor the number of a frame");
 }
 
-const char *const trax_node_words[] = {"auto", "binary", "quantised", NULL};
+const char *const trax_node_words[] = {"auto", "binary", "quantised", "wide4", "wide4-quantised", "wide8", NULL};
 const char *const trax_normals_words[] = {"file", "smooth", "flat", NULL};
 
 trax_status trax_take_texture_size(void *target, const trax_option *option, const char *value, trax_error *error) {
@@ -66,7 +66,7 @@ trax_status trax_take_nodes(void *target, const trax_option *option, const char 
   return trax_node_layout_choose(value, &build)
              ? TRAX_OK
              : trax_option_refuse(option, value, error,
-                                  "is none of auto, binary and quantised; trax-eval has others as experiments");
+                                  "is none of auto, binary, quantised, wide4, wide4-quantised and wide8");
 }
 
 trax_status trax_take_splits(void *target, const trax_option *option, const char *value, trax_error *error) {

@@ -67,7 +67,8 @@ static const trax_option rows[] = {
     TRAX_OPTION_GROUP("Tree"),
     {"nodes", .argument = "KIND", PARSED(trax_take_nodes, nodes), .choices = trax_node_words,
      .meaning = "binary: two boxes a line of memory; quantised: four, on a grid of 2^16 planes an axis;\n"
-                "auto (default): quantised, if the grid is fine enough for each large part of the tree"},
+                "wide4, wide4-quantised: up to four children; wide8: up to eight, with planes of 8 bits;\n"
+                "auto (default): quantised, if the grid is fine enough for each large part of the tree, else binary"},
     {"leaf", .argument = "N", NUMBER(build.max_leaf, 1, TRAX_SCENE_MAX_LEAF),
      .meaning = "at most N triangles in a leaf, 1 to 7"},
     {"splits", .argument = "[=FACTOR]", PARSED(trax_take_splits, splits),

@@ -61,8 +61,7 @@ refuse '--seed is for --paths' "$render" "$box" -o x.png --seed 3
 refuse "--material: 'wood' is not" "$render" "$box" -o x.png --material wood
 refuse "no material is named 'tin'" "$render" "$box" -o x.png --material tin=mirror
 refuse "--diffuse: 'red=2,0,0'" "$render" "$box" -o x.png --diffuse red=2,0,0
-refuse "--nodes: 'octal' is none of auto, binary and quantised" "$render" "$box" -o x.png --nodes octal
-refuse "--nodes: 'wide-quantised' is none of auto, binary and quantised; trax-eval has others" "$render" "$box" -o x.png --nodes wide-quantised
+refuse "--nodes: 'octal' is none of auto, binary, quantised, wide4, wide4-quantised and wide8" "$render" "$box" -o x.png --nodes octal
 refuse "--texture-size: '3' is not a power of two" "$render" "$box" -o x.png --texture-size 3
 refuse "--normals: 'round' is none of file" "$render" "$box" -o x.png --normals round
 refuse '--background' "$render" "$box" -o x.png --background 12345g
@@ -156,7 +155,7 @@ refuse '--nodes, --splits, --instances, --flatten and --normals smooth are for m
 
 # The picture does not depend on how the tree is stored; the file does.
 refuse "--splits: '0.5' is neither auto nor a number from 1 to 8" "$render" "$box" -o x.png --splits=0.5
-for nodes in binary quantised auto; do
+for nodes in binary quantised wide4 wide4-quantised wide8 auto; do
   accept "$bin/trax-scene" "$box" -o "$nodes.trax" --nodes "$nodes"
   accept "$bin/trax-scene" "$box" -o "split-$nodes.trax" --nodes "$nodes" --splits=4
   for input in "$nodes.trax" "$box --nodes $nodes" "split-$nodes.trax" "$box --nodes $nodes --splits"; do
@@ -164,6 +163,8 @@ for nodes in binary quantised auto; do
     accept "$compare" a.png b.png
   done
 done
+refuse 'wide8 nodes: the general program knows binary and quantised ones only' "$render" wide8.trax -o x.png --size 4x4 --no-specialise
+refuse 'wide4.trax: only binary and quantised nodes are refitted; its nodes are wide4' "$bin/trax-scene" "$box" --refit wide4.trax -o x.trax
 cmp -s binary.trax quantised.trax && fail "--nodes makes no difference"
 cmp -s quantised.trax auto.trax || fail "--nodes auto is not quantised"
 accept "$render" "$box" -o tiny.png --engine native --size 1x1

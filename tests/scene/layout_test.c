@@ -134,8 +134,10 @@ static void test_changed_nodes(void **state) {
         const uint16_t old = halves[i];
         halves[i] = (uint16_t)(old + step);
         seal(scene.bytes, scene.size);
-        if (trax_scene_check(NULL, scene.bytes, scene.size, "scene", NULL) == TRAX_OK)
+        trax_error error;
+        if (trax_scene_check(NULL, scene.bytes, scene.size, "scene", &error) == TRAX_OK)
           fail_msg("%s nodes: half word %u may be %u as well as %u", trax_node_formats[layout].name, i, halves[i], old);
+        assert_true(strstr(error.message, "scene: node ") || strstr(error.message, "scene: reference "));
         halves[i] = old;
       }
     struct trax_scene_header *header = scene.bytes;
