@@ -28,29 +28,38 @@ struct trax_profile_thread {
   size_t depth, capacity;
 };
 
-static struct trax_profile_counts *counts_of(struct trax_profile *profile, uint32_t context, uint32_t index,
-                                             uint32_t *record) {
-  static struct trax_profile_counts discarded;
-  uint32_t *const latest = &profile->latest_of[index];
-  if (*latest && profile->records[*latest - 1].context == context) {
-    *record = *latest - 1;
-    return &profile->records[*record].counts;
-  }
+/* Returns the record of an instruction in a context; UINT32_MAX: out of memory. */
+static __attribute__((noinline)) uint32_t find_record(struct trax_profile *profile, uint32_t context, uint32_t index) {
   const struct trax_map_entry *entry = trax_map_put(&profile->record_of, sizeof *entry, (uint64_t)context << 32 | index,
                                                     (uint32_t)profile->record_count);
-  if (!entry || !trax_grow((void **)&profile->records, profile->record_count, &profile->record_capacity,
-                           sizeof *profile->records)) {
+  if (!entry ||
+      !trax_grow((void **)&profile->records, profile->record_count, &profile->record_capacity,
+                 sizeof *profile->records) ||
+      !trax_grow((void **)&profile->issued, profile->record_count, &profile->issued_capacity,
+                 sizeof *profile->issued)) {
     profile->reader.explain->out_of_memory = true;
-    *record = UINT32_MAX;
-    return &discarded;
+    return UINT32_MAX;
   }
-  *record = entry->value;
-  if (*record == profile->record_count && profile->record_count == MAX_RECORDS / 2)
-    profile->reader.explain->observer.single = true; /* the limit must not depend on the engine's stretches */
-  if (*record == profile->record_count)
+  const uint32_t record = entry->value;
+  if (record == profile->record_count) {
+    if (record == MAX_RECORDS / 2) /* the limit must not depend on the engine's stretches */
+      profile->reader.explain->observer.single = true;
+    profile->issued[record] = 0;
     profile->records[profile->record_count++] = (struct trax_profile_record){.context = context, .index = index};
-  *latest = *record + 1;
-  return &profile->records[*record].counts;
+  }
+  profile->latest_of[index] = (struct trax_profile_latest){context, record + 1};
+  return record;
+}
+
+static inline uint32_t record_at(struct trax_profile *profile, uint32_t context, uint32_t index) {
+  const struct trax_profile_latest latest = profile->latest_of[index];
+  return latest.record && latest.context == context ? latest.record - 1 : find_record(profile, context, index);
+}
+
+static struct trax_profile_counts *counts_of(struct trax_profile *profile, uint32_t context, uint32_t index) {
+  static struct trax_profile_counts discarded;
+  const uint32_t record = record_at(profile, context, index);
+  return record == UINT32_MAX ? &discarded : &profile->records[record].counts;
 }
 
 /* --- the call stack --- */
@@ -144,28 +153,26 @@ static void follow(struct trax_profile *profile, struct trax_profile_thread *thr
 /* Adds a branch bubble to the jump before it. `before`: the record of the instruction before the passage. */
 static void add_bubble(struct trax_profile *profile, uint32_t context, const struct trax_passage *passage,
                        const struct trax_charged *charged, uint32_t before) {
-  uint32_t record;
   if (charged->at)
-    counts_of(profile, context, trax_passage_index(passage, charged->at - 1u), &record)->cycles[TRAX_CAUSE_BRANCH] +=
+    counts_of(profile, context, trax_passage_index(passage, charged->at - 1u))->cycles[TRAX_CAUSE_BRANCH] +=
         charged->cycles;
   else if (before != UINT32_MAX)
     profile->records[before].counts.cycles[TRAX_CAUSE_BRANCH] += charged->cycles;
   else
-    counts_of(profile, context, charged->index, &record)->cycles[TRAX_CAUSE_BRANCH] += charged->cycles;
+    counts_of(profile, context, charged->index)->cycles[TRAX_CAUSE_BRANCH] += charged->cycles;
 }
 
 static void add_charges(struct trax_profile *profile, uint32_t context, const struct trax_passage *passage,
                         uint32_t before) {
   const struct trax_places *places = profile->reader.explain->places;
-  uint32_t record;
   for (size_t i = 0; i < passage->charged_count; i++) {
     const struct trax_charged *charged = &passage->charged[i];
     if (charged->cause == TRAX_CAUSE_BRANCH)
       add_bubble(profile, context, passage, charged, before);
     else if (charged->cause == TRAX_CAUSE_HALTED)
-      counts_of(profile, 0, trax_places_halted(places), &record)->cycles[TRAX_CAUSE_HALTED] += charged->cycles;
+      counts_of(profile, 0, trax_places_halted(places))->cycles[TRAX_CAUSE_HALTED] += charged->cycles;
     else
-      counts_of(profile, context, charged->index, &record)->cycles[charged->cause] += charged->cycles;
+      counts_of(profile, context, charged->index)->cycles[charged->cause] += charged->cycles;
   }
 }
 
@@ -174,21 +181,29 @@ static void add_passage(void *self, const struct trax_passage *passage) {
   struct trax_profile_thread *thread = &profile->threads[passage->thread];
   const struct trax_places *places = profile->reader.explain->places;
   const uint32_t before = thread->latest, context = thread->context;
-  uint32_t record;
   for (size_t i = 0; i < passage->pieces; i++)
     for (uint32_t k = 0; k < passage->piece[i].count; k++)
-      counts_of(profile, context, passage->piece[i].index + k, &thread->latest)->cycles[TRAX_CAUSE_ISSUED]++;
+      if ((thread->latest = record_at(profile, context, passage->piece[i].index + k)) != UINT32_MAX)
+        profile->issued[thread->latest]++;
   add_charges(profile, context, passage, before);
   for (size_t i = 0; i < passage->accessed_count; i++) {
     const struct trax_accessed *accessed = &passage->accessed[i];
     if (!accessed->outcome || !(trax_op_table[trax_places_inst(places, accessed->index)->op].flags & TRAX_IS_LOAD))
       continue;
-    struct trax_profile_counts *counts = counts_of(profile, context, accessed->index, &record);
+    struct trax_profile_counts *counts = counts_of(profile, context, accessed->index);
     counts->loads++;
     counts->hits += accessed->outcome & TRAX_OUTCOME_HIT;
   }
   if (passage->count)
     follow(profile, thread, passage);
+}
+
+static trax_status add_issued(void *self, trax_error *error) {
+  struct trax_profile *profile = self;
+  (void)error;
+  for (size_t i = 0; i < profile->record_count; i++)
+    profile->records[i].counts.cycles[TRAX_CAUSE_ISSUED] = profile->issued[i];
+  return TRAX_OK;
 }
 
 static trax_status open_profile(void *self, trax_error *error) {
@@ -216,6 +231,7 @@ static void close_profile(void *self) {
   free(profile->threads);
   free(profile->contexts);
   free(profile->records);
+  free(profile->issued);
   free(profile->latest_of);
   free(profile->first_of);
   trax_map_free(&profile->context_of);
@@ -230,5 +246,6 @@ const struct trax_reader_kind trax_profile_reader = {
     .in_page = true,
     .open = open_profile,
     .passage = add_passage,
+    .end = add_issued,
     .put_members = trax_profile_put_members,
     .close = close_profile};

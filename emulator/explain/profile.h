@@ -35,8 +35,12 @@ struct trax_profile {
 
   struct trax_profile_record *records;
   size_t record_count, record_capacity;
+  uint64_t *issued; /* [record_count]: instructions, which the records have only after the end */
+  size_t issued_capacity;
   struct trax_map record_of; /* (context, index) */
-  uint32_t *latest_of;       /* [places]: the latest record of the instruction, + 1; a cache of record_of */
+  struct trax_profile_latest {
+    uint32_t context, record; /* its number + 1; 0: none */
+  } * latest_of;              /* [places]: the latest record of the instruction; a cache of record_of */
 };
 
 static inline uint64_t trax_profile_cycles(const struct trax_profile_counts *counts) {

@@ -115,12 +115,12 @@ static void print_table(const struct tables *tables, FILE *out, struct row *rows
   fprintf(out, "  total\n");
 }
 
-/* Looks up all places, so that the number of names is final. */
+/* Looks up all places, so that the number of names is final; in the order in which the page does. */
 static void look_up_all(const struct trax_profile *profile) {
-  for (size_t i = 0; i < profile->record_count; i++)
-    trax_places_at(profile->reader.explain->places, profile->records[i].index);
-  for (size_t i = 1; i < profile->context_count; i++)
-    trax_places_at(profile->reader.explain->places, profile->contexts[i].index);
+  struct trax_places *places = profile->reader.explain->places;
+  for (uint32_t i = 0; i < trax_places_count(places) + 2; i++)
+    if (profile->latest_of[i].record)
+      trax_places_at(places, i);
 }
 
 trax_status trax_profile_put(void *self, FILE *out, trax_error *error) {

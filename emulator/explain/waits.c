@@ -40,7 +40,8 @@ struct waits {
   size_t count, capacity;
   struct trax_map pair_of, record_of; /* (awaited, waiting) to a number; (this number, object) to that of a record */
   uint32_t *latest_of;                /* [places]: the latest record of the waiting instruction, + 1 */
-  uint8_t *slow; /* [places]: the register, if it may be waited for, + SLOW_ACCESS of a memory access */
+  uint8_t *slow;    /* [places]: the register, if it may be waited for, + SLOW_ACCESS of a memory access */
+  uint32_t *others; /* [places + 1]: of the instructions before, those that are waited for without global memory */
 };
 
 static struct record *record_of(struct waits *waits, struct record wanted) {
@@ -77,9 +78,24 @@ struct written {
   const struct trax_piece *piece;
   const struct trax_accessed *accessed, *accessed_end;
   uint32_t at, of_piece; /* the number of the next instruction, and of the piece's first */
+  bool loads_alone;      /* no instruction but loads of global memory is waited for */
 };
 
+static bool has_loads_alone(const struct waits *waits, const struct trax_passage *passage) {
+  for (size_t i = 0; i < passage->pieces; i++)
+    if (waits->others[passage->piece[i].index] != waits->others[passage->piece[i].index + passage->piece[i].count])
+      return false;
+  return true;
+}
+
 static void write_up_to(const struct waits *waits, struct writer *writers, struct written *written, uint32_t end) {
+  if (written->loads_alone) {
+    for (; written->accessed < written->accessed_end && written->accessed->at < end; written->accessed++) {
+      const uint32_t index = written->accessed->index;
+      writers[waits->slow[index] % TRAX_NUM_REGISTERS] = (struct writer){index, written->accessed->address, true};
+    }
+    return;
+  }
   for (; written->at < end; written->at++) {
     if (written->at - written->of_piece == written->piece->count) {
       written->of_piece += written->piece->count;
@@ -101,7 +117,8 @@ static void add_passage(void *self, const struct trax_passage *passage) {
   struct waits *waits = self;
   struct writer *writers = waits->writers[passage->thread];
   const struct trax_accessed *own = passage->accessed, *const end = own + passage->accessed_count;
-  struct written written = {.piece = passage->piece, .accessed = own, .accessed_end = end};
+  struct written written = {
+      .piece = passage->piece, .accessed = own, .accessed_end = end, .loads_alone = has_loads_alone(waits, passage)};
   for (size_t i = 0; i < passage->charged_count; i++) {
     const struct trax_charged *charged = &passage->charged[i];
     if (charged->cause != TRAX_CAUSE_DCACHE_BANK && !trax_is_wait((trax_cause)charged->cause))
@@ -174,16 +191,20 @@ static trax_status open_waits(void *self, trax_error *error) {
   waits->writers = trax_explain_array(explain->machine->stats.threads, sizeof *waits->writers, error);
   waits->latest_of = trax_explain_array(trax_places_count(explain->places) + 2, sizeof *waits->latest_of, error);
   waits->slow = trax_explain_array(trax_places_count(explain->places) + 2, sizeof *waits->slow, error);
-  if (!waits->writers || !waits->latest_of || !waits->slow)
+  waits->others = trax_explain_array(trax_places_count(explain->places) + 3, sizeof *waits->others, error);
+  if (!waits->writers || !waits->latest_of || !waits->slow || !waits->others)
     return TRAX_ERROR;
+  const uint32_t local = explain->machine->config.tp.local_latency_cycles;
   for (uint32_t i = 0; i < trax_places_count(explain->places); i++) {
     const trax_inst *inst = trax_places_inst(explain->places, i);
+    waits->others[i + 1] = waits->others[i];
     if (!(trax_op_table[inst->op].flags & TRAX_WRITES_RD) || !inst->rd)
       continue;
     if (trax_op_table[inst->op].access_bytes)
       waits->slow[i] = SLOW_ACCESS + inst->rd;
     else if (trax_timing_of(inst->op, &explain->machine->config).latency > 1)
       waits->slow[i] = inst->rd;
+    waits->others[i + 1] += waits->slow[i] && (waits->slow[i] < SLOW_ACCESS || local > 1);
   }
   return TRAX_OK;
 }
@@ -194,6 +215,7 @@ static void close_waits(void *self) {
   free(waits->writers);
   free(waits->latest_of);
   free(waits->slow);
+  free(waits->others);
   free(waits->records);
   trax_map_free(&waits->pair_of);
   trax_map_free(&waits->record_of);

@@ -64,6 +64,10 @@ void trax_fast_log_accesses(struct trax_tm *tm, uint64_t issued);
 void trax_fast_tell_single(struct trax_tm *tm, unsigned number, uint32_t pc, const struct trax_decoded *inst);
 void trax_fast_tell_steps(struct trax_tm *tm, unsigned number, unsigned end, uint32_t next_pc);
 void trax_fast_tell_issued(struct trax_tm *tm, unsigned number);
+/* The number of the TP's head in its next stretch. */
+static inline unsigned trax_fast_next_of_stretch(const struct trax_tm *tm, unsigned tp) {
+  return tm->heads.at[tp] - (unsigned)tm->told[tp];
+}
 
 /* Simulates cycles from t on, before `end`, of a TM in which one TP is awake, as long as it issues a step in each, and
    makes no request. Requires that no transfer starts before `end`. False: there are no such cycles; else next_cycle is

@@ -128,8 +128,8 @@ static void destroy_tm(struct trax_tm *tm) {
   free(tm->resident_lines);
 }
 
-/* Bursts are translated if a bank follows from bits of the address. With an observer, they end before more
-   instructions than translated ones do. */
+/* Bursts are translated if a bank follows from bits of the address. With an observer of each issue they have one
+   instruction. */
 static void create_translation(struct trax_chip *chip, const struct trax_run *run) {
   const struct trax_config *const config = &chip->machine->config;
   const uint32_t banks = chip->tm->data_banks;
@@ -140,8 +140,9 @@ static void create_translation(struct trax_chip *chip, const struct trax_run *ru
                                           .load_step = TRAX_STEP_BANK,
                                           .bank_mask = (banks - 1) << TRAX_STEP_BANK_SHIFT,
                                           .slow_local = config->tp.local_latency_cycles > 1 ? TRAX_STEP_SLOW : 0,
-                                          .slow_jump = config->tp.branch_bubble_cycles > 0 ? TRAX_STEP_SLOW : 0};
-  if (run->engine != &trax_fast_interpreted_engine && !chip->machine->observer && !(banks & (banks - 1)))
+                                          .slow_jump = config->tp.branch_bubble_cycles > 0 ? TRAX_STEP_SLOW : 0,
+                                          .end_at_calls = chip->machine->observer != NULL};
+  if (run->engine != &trax_fast_interpreted_engine && chip->burst > 1 && !(banks & (banks - 1)))
     chip->translation = trax_translation_create(chip->text, &chip->machine->space, config->special.precision_bits,
                                                 chip->tms, at_once, &chip->facts);
   if (chip->translation && at_once)

@@ -9,11 +9,6 @@ static struct trax_thread_log *log_of(const struct trax_tm *tm, unsigned tp) {
   return &tm->observer->logs[tm->number * tm->tps + tp];
 }
 
-/* The number of the TP's head in its next stretch. */
-static unsigned next_of_stretch(const struct trax_tm *tm, unsigned tp) {
-  return tm->heads.at[tp] - (unsigned)tm->told[tp];
-}
-
 void trax_tm_tell_charge(const struct trax_tm *tm, unsigned tp, trax_cause cause, uint64_t since, uint64_t cycles) {
   uint64_t until;
   unsigned rd = 0;
@@ -22,7 +17,7 @@ void trax_tm_tell_charge(const struct trax_tm *tm, unsigned tp, trax_cause cause
   if (trax_is_wait(cause)) /* its value may have arrived, but only after `since` */
     trax_tp_wait(&tm->tp[tp], since, &until, &rd);
   if (tm->observer->stretch)
-    trax_log_charge(tm->observer, log_of(tm, tp), next_of_stretch(tm, tp), cause, rd, cycles);
+    trax_log_charge(tm->observer, log_of(tm, tp), trax_fast_next_of_stretch(tm, tp), cause, rd, cycles);
   else if (tm->observer->charge)
     tm->observer->charge(tm->observer->context, tm->number, tp, cause, rd, since, cycles);
 }
@@ -66,24 +61,27 @@ static void tell(struct trax_tm *tm, const struct trax_stretch *stretch) {
     tm->chip->burst = 1;
 }
 
-static void log_access(struct trax_tm *tm, unsigned number, const struct trax_decoded *inst, uint32_t address) {
+static void log_access(struct trax_tm *tm, unsigned number, uint32_t address, uint8_t outcome) {
   struct trax_thread_log *log = log_of(tm, number);
-  log->accessed[log->accessed_count++] = (struct trax_accessed){.address = address,
-                                                                .at = (uint8_t)next_of_stretch(tm, number),
-                                                                .outcome = take_outcome(&tm->tp[number], inst, true)};
+  log->accessed[log->accessed_count++] = (struct trax_accessed){
+      .address = address, .at = (uint8_t)trax_fast_next_of_stretch(tm, number), .outcome = outcome};
 }
 
 void trax_fast_log_accesses(struct trax_tm *tm, uint64_t issued) {
+  const uint64_t hits = tm->serial_hits || tm->chip->alone ? 0 : tm->load_hits; /* as in grant() */
   for (uint64_t rest = issued & ~tm->executes_at_issue; rest; rest &= rest - 1) {
     const unsigned number = trax_first(rest);
-    log_access(tm, number, trax_fast_head_timing(tm, number)->decoded, tm->heads.address[number]);
+    const uint8_t outcome = hits >> number & 1
+                                ? TRAX_OUTCOME_HIT
+                                : take_outcome(&tm->tp[number], trax_fast_head_timing(tm, number)->decoded, true);
+    log_access(tm, number, tm->heads.address[number], outcome);
   }
 }
 
 void trax_fast_tell_single(struct trax_tm *tm, unsigned number, uint32_t pc, const struct trax_decoded *inst) {
-  const struct trax_tp *tp = &tm->tp[number];
+  struct trax_tp *tp = &tm->tp[number];
   if (inst->bytes && tp->address < TRAX_LOCAL_BASE && !log_of(tm, number)->accessed_count) /* else before a roll back */
-    log_access(tm, number, inst, tp->address);
+    log_access(tm, number, tp->address, take_outcome(tp, inst, true));
   tell(tm, &(struct trax_stretch){.tm = tm->number,
                                   .tp = number,
                                   .count = 1,

@@ -34,8 +34,6 @@ enum {
   TRAX_OUTCOME_COMBINED = 8 /* a store was combined with the TP's earlier one */
 };
 
-enum { TRAX_STACK_POINTER = 2 };
-
 struct trax_issue {
   uint64_t cycle;
   uint32_t tm, tp, pc;
@@ -121,15 +119,17 @@ static inline void trax_log_charge(struct trax_observer *observer, struct trax_t
     latest->cycles += (uint32_t)cycles;
     return;
   }
-  while (cycles) {
-    const uint32_t part = cycles < UINT32_MAX ? (uint32_t)cycles : UINT32_MAX;
-    if (!trax_grow((void **)&log->charged, log->charged_count, &log->charged_capacity, sizeof *log->charged)) {
+  for (; cycles; cycles -= cycles < UINT32_MAX ? cycles : UINT32_MAX) {
+    if (log->charged_count == log->charged_capacity &&
+        !trax_grow((void **)&log->charged, log->charged_count, &log->charged_capacity, sizeof *log->charged)) {
       observer->lost = true;
       return;
     }
     log->charged[log->charged_count++] =
-        (struct trax_charged){.cycles = part, .at = (uint8_t)at, .cause = (uint8_t)cause, .rd = (uint8_t)rd};
-    cycles -= part;
+        (struct trax_charged){.cycles = cycles < UINT32_MAX ? (uint32_t)cycles : UINT32_MAX,
+                              .at = (uint8_t)at,
+                              .cause = (uint8_t)cause,
+                              .rd = (uint8_t)rd};
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include "machine/address_space.h"
 #include "machine/config.h"
+#include "trax/isa.h"
 
 #include <stddef.h>
 #include <stdint.h>
@@ -37,6 +38,14 @@ struct trax_decoded {
   uint16_t latency;
   int32_t imm;
 };
+
+enum { TRAX_STACK_POINTER = 2 };
+
+/* Whether it is a call, perhaps a return, or writes the stack pointer. */
+static inline bool trax_changes_stack(const struct trax_decoded *decoded) {
+  return decoded->op == TRAX_OP_JALR || (decoded->op == TRAX_OP_JAL && decoded->rd != TRAX_NO_REGISTER) ||
+         (decoded->rd == TRAX_STACK_POINTER && trax_op_table[decoded->op].flags & TRAX_WRITES_RD);
+}
 
 struct trax_text_segment {
   uint32_t begin, end;

@@ -3,6 +3,7 @@
 #ifndef TRAX_TRANSLATE_BURST_H
 #define TRAX_TRANSLATE_BURST_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -43,6 +44,7 @@ struct trax_burst_facts {
   uint32_t load_step;    /* is added to the step of a load of global memory, with the bits bank_mask of address * 4 */
   uint32_t bank_mask;
   uint32_t slow_local, slow_jump; /* are added to the steps of loads of local memory, and of taken jumps */
+  bool end_at_calls;              /* bursts end before what trax_changes_stack */
 };
 
 #endif

@@ -16,7 +16,7 @@ static bool is_plain_jump(const struct trax_translation *t, size_t index, size_t
 static bool is_slow(const struct trax_translation *t, size_t index) {
   size_t target;
   const struct trax_decoded *const inst = t->decoded[index];
-  return trax_is_always_slow(inst) ||
+  return trax_is_always_slow(inst) || (t->bursts && t->bursts->end_at_calls && trax_changes_stack(inst)) ||
          (trax_op_table[inst->op].flags & TRAX_IS_RELATIVE &&
           (!is_plain_jump(t, index, &target) || (t->bursts && inst->imm == 4))); /* bursts count no jump to the next */
 }

@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "machine/machine.h"
+#include "machine/text.h"
 #include "trax/isa.h"
 
 #define TEXT 0x1000u

@@ -28,12 +28,6 @@ static bool stops_burst(const struct trax_decoded *decoded) {
   return decoded->is_nontemporal || decoded->is_atomic;
 }
 
-/* A call, perhaps a return, or an instruction that writes the stack pointer. */
-static bool changes_stack(const struct trax_decoded *decoded) {
-  return decoded->op == TRAX_OP_JALR || (decoded->op == TRAX_OP_JAL && decoded->rd != TRAX_NO_REGISTER) ||
-         (decoded->rd == TRAX_STACK_POINTER && trax_op_table[decoded->op].flags & TRAX_WRITES_RD);
-}
-
 /* Whether the relative jump at `word` of a segment of `words` leaves the segment, or goes to the next instruction or
    into the middle of one. burst_steps.h assumes that others do not. */
 static bool jumps_oddly(const struct trax_decoded *decoded, uint32_t word, uint32_t words) {
@@ -100,7 +94,8 @@ trax_status trax_fast_program_create(struct trax_fast_program *program, const st
     for (uint32_t word = 0; word <= words; word++, index++) {
       const uint32_t pc = section->begin + word * 4;
       predecode(program, &section->decoded[word], index, pc, lines + pc / line_bytes - first_line,
-                jumps_oddly(&section->decoded[word], word, words) || (calls && changes_stack(&section->decoded[word])));
+                jumps_oddly(&section->decoded[word], word, words) ||
+                    (calls && trax_changes_stack(&section->decoded[word])));
     }
     lines += section->end / line_bytes - first_line + 1;
     lines = lines < TRAX_FAST_LINES ? lines : TRAX_FAST_LINES;

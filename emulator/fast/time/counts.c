@@ -52,9 +52,16 @@ void trax_fast_notify_refusals(const struct trax_tm *tm, const struct trax_fast_
       TRAX_FAST_REFUSED(LOSERS)
 #undef LOSERS
   };
+  struct trax_observer *const observer = tm->observer;
   for (unsigned i = 0; i < TRAX_FAST_REFUSALS; i++)
-    for (uint64_t rest = losers[i]; rest; rest &= rest - 1)
-      trax_tm_notify_charge(tm, trax_first(rest), refusal_causes[i], tm->now, 1);
+    for (uint64_t rest = losers[i]; rest; rest &= rest - 1) {
+      const unsigned tp = trax_first(rest);
+      if (observer->stretch)
+        trax_log_charge(observer, &observer->logs[tm->number * tm->tps + tp], trax_fast_next_of_stretch(tm, tp),
+                        refusal_causes[i], 0, 1);
+      else
+        trax_tm_notify_charge(tm, tp, refusal_causes[i], tm->now, 1);
+    }
 }
 
 /* Returns how many steps of the current burst have been issued. */
