@@ -392,7 +392,7 @@ static void test_messages(void **state) {
   expect(relocated, "its references are addresses, for a device that has it at 00002000");
   expect(used_reserve, "node 4: reserved words are not zero");
   expect(other_nodes, "nodes of an unknown layout, 77");
-  expect(next_nodes, "nodes of an unknown layout, 2");
+  expect(next_nodes, "nodes of an unknown layout, 5");
   expect(nan_uv, "triangle 6: a texture coordinate is not within 8192");
   expect(far_uv, "triangle 6: a texture coordinate is not within 8192");
   expect(no_uvs, "textures without texture coordinates");
