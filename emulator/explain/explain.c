@@ -2,10 +2,13 @@
 #include "explain/places.h"
 #include "explain/span.h"
 #include "explain/stories.h"
+#include "trax/compare.h"
 #include "trax/grow.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /* The charges of a thread since its latest issue. */
 struct trax_open_span {
@@ -254,6 +257,8 @@ trax_status trax_explain_begin(struct trax_explain **result, trax_machine *machi
   *result = NULL;
   if (!trax_explain_wanted(options))
     return TRAX_OK;
+  if (options->against && access(options->against, R_OK) != 0) /* rather than after the run */
+    return trax_fail(error, "%s: %s", options->against, strerror(errno));
   struct trax_explain *explain = calloc(1, sizeof *explain);
   if (!explain)
     return trax_fail(error, "out of memory");
@@ -317,6 +322,8 @@ trax_status trax_explain_end(struct trax_explain *explain, trax_error *error) {
     for (unsigned k = 0; k < TRAX_READER_FILES && ended == TRAX_OK && !explain->out_of_memory; k++)
       note_failure(&status, write_file(reader, &reader->kind->files[k], &reason), &reason, error);
   }
+  if (status == TRAX_OK && explain->options.explore && explain->options.against)
+    status = trax_compare_add(explain->options.against, explain->options.explore, NULL, error);
   if (explain->out_of_memory && status == TRAX_OK)
     status = trax_fail(error, "out of memory: the explanation of the run is incomplete and not written");
   trax_explain_discard(explain);

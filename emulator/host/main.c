@@ -1,4 +1,3 @@
-#define _GNU_SOURCE /* memrchr */
 /* trax-sim: configure, load, run, report. */
 #include <errno.h>
 #include <inttypes.h>
@@ -15,6 +14,7 @@
 #include "host/png.h"
 #include "report/backtrace.h"
 #include "report/watchdog.h"
+#include "trax/compare.h"
 #include "trax/message.h"
 #include "trax/output.h"
 #include "trax/reads.h"
@@ -333,26 +333,14 @@ static int flush_standard_output(int result) {
   return reader_gone ? EXIT_SIGNAL + SIGPIPE : complain(&error);
 }
 
-/* trax-sim compare: the comparison is in Python, a part of trax-eval, which is beside this program. Returns if that
-   cannot be started. */
-static int compare(char **arguments) {
-  char path[PATH_MAX + sizeof "trax-eval"];
-  const ssize_t length = readlink("/proc/self/exe", path, PATH_MAX);
-  char *slash = length > 0 && length < PATH_MAX ? memrchr(path, '/', (size_t)length) : NULL;
-  if (slash) {
-    strcpy(slash + 1, "trax-eval");
-    execv(path, arguments);
-  }
-  trax_message("trax-sim", TRAX_MESSAGE_ERROR, "compare: %s cannot be started: %s (it needs Python 3)",
-               slash ? path : "trax-eval", strerror(errno));
-  return EXIT_ERROR;
-}
-
 int main(int count, char **arguments) {
   trax_error error;
   struct trax_options options;
-  if (count > 1 && strcmp(arguments[1], "compare") == 0)
-    return compare(arguments);
+  if (count > 1 && strcmp(arguments[1], "compare") == 0) {
+    trax_compare(arguments, &error);
+    trax_message("trax-sim", TRAX_MESSAGE_ERROR, "compare: %s", error.message);
+    return EXIT_ERROR;
+  }
   trax_reads_begin();
   const trax_parsed parsed = trax_options_parse(&options, count, arguments, &error);
   if (parsed == TRAX_PARSED_WRONG) {

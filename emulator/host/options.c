@@ -72,6 +72,8 @@ static const trax_option rows[] = {
 #define EXPLANATION(ID, NAME, VALUE, MEANING) {NAME, .argument = VALUE, OUTPUT(explain.ID), .meaning = MEANING},
     TRAX_EXPLAIN_FILES(EXPLANATION)
 #undef EXPLANATION
+    {"explore-against", .argument = "FILE", ONCE(explain.against), .file = TRAX_OPTION_INPUT,
+     .meaning = "let the page also show the differences to the run of FILE, from --stats or --explore"},
     {"source-folder", .argument = "FOLDER", .parse = trax_parse_source_folder,
      .meaning = "let the page contain the sources in FOLDER, too (repeatable)"},
     {"item-buffer", .argument = "SYMBOL", ONCE(explain.item_buffer),

@@ -148,6 +148,8 @@ static const trax_option rows[] = {
                 "unless the program counts its rays anyway"},
     {"explore", .argument = "FILE.html", OUTPUT(explain.explore, NULL),
      .meaning = "writes a page that explains the whole run, pixel by pixel too, for a browser"},
+    {"explore-against", .argument = "FILE", FIELD(explain.against), .file = TRAX_OPTION_INPUT,
+     .meaning = "lets that page also show the differences to the run of FILE, from --stats or --explore"},
     {"pixel", .argument = "X,Y", PARSED(take_pixel, pixels),
      .meaning = "prints the story of a pixel: its rays, functions, lines, waits and time line; also for the\n"
                 "page of --explore (repeatable)"},

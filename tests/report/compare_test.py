@@ -17,6 +17,7 @@ import struct
 import subprocess
 import sys
 import tempfile
+import time
 import types
 import unittest
 import zlib
@@ -33,6 +34,7 @@ sys.path.insert(0, str(DATA))
 from command.main import main  # noqa: E402
 from compare.difference import compare, flat  # noqa: E402
 from compare.figures import SECTIONS, Figures  # noqa: E402
+from compare.page import without  # noqa: E402
 from compare.runs import HOST, Run, read_folded  # noqa: E402
 from compare.text import is_empty, print_comparison  # noqa: E402
 from trax_eval.tools import Tools  # noqa: E402
@@ -105,6 +107,42 @@ def plain(comparison):
     comparison = copy.deepcopy(comparison)
     comparison["cycles"]["relative"] = comparison["warnings"] = comparison["missing"] = None
     return comparison
+
+
+class Against(Scratch):
+    """--explore-against."""
+    def setUp(self):
+        super().setUp()
+        self.page, self.plain = pathlib.Path(self.made.name) / "b.html", (self.folder / "b.html").read_bytes()
+
+    def render(self, *words, status=0):
+        done = subprocess.run([
+            BIN / "trax-render", SOURCE / "tests/render/box.obj", "--view", SOURCE / "tests/render/box.view", "--size",
+            "48x27", "--mark-rays", "--cache", "cache", *CHIPS["b"], "-o", self.page.with_suffix(".png"), "-q", *words
+        ], cwd=self.folder, capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, status, done.stderr)
+        return done.stderr
+
+    def test_run(self):
+        self.render("--explore", self.page, "--explore-against", "a.json")
+        found = self.page.read_bytes()
+        self.assertEqual(without(found.decode()), self.plain.decode())
+        self.page.write_bytes(self.plain)
+        for _ in range(2):  # the second replaces the first
+            self.command("--add", "a.json", self.page)
+            self.assertEqual(self.page.read_bytes(), found)
+
+    def test_errors(self):
+        said = self.render("--explore", self.page, "--explore-against", "missing.json", status=1)
+        self.assertIn("missing.json: No such file", said)
+        self.assertIn("needs --explore", self.render("--explore-against", "a.json", status=1))
+        self.assertEqual(os.listdir(self.made.name), [])
+        bad = self.page.with_name("bad.json")
+        bad.write_text("[]")
+        said = self.render("--explore", self.page, "--explore-against", bad, status=1)
+        self.assertIn(f"b.html: the differences to {bad} are missing: trax-sim: error: {bad}: is", said)
+        self.assertEqual(self.page.read_bytes(), self.plain)
+        self.assertIn("needs a page", self.command("--add", "a.json", "b.json", status=1).stderr)
 
 
 class Properties(Scratch):
@@ -442,13 +480,32 @@ class Page(PageTests, Scratch):
         for name, words in (("two", ("../a.json", "../b.json")), ("folders", ("a", "b"))):
             subprocess.run([BIN / "trax-sim", "compare", *words, "--html", f"{name}.html"], cwd=folder, check=True,
                            stdout=subprocess.DEVNULL)
-        cls.pages = {name: folder / f"{name}.html" for name in ("two", "folders")}
+        shutil.copy(cls.folder / "b.html", folder / "against.html")
+        subprocess.run([BIN / "trax-sim", "compare", "--add", "../a.json", "against.html"], cwd=folder, check=True)
+        cls.pages = {name: folder / f"{name}.html" for name in ("two", "folders", "against")}
         cls.browser = Browser(find_chromium())
         cls.addClassCleanup(cls.browser.close)
 
+    def test_added(self):
+        """The section of --explore-against, in the page of the run."""
+        found = compare(self.runs["a"], self.runs["b"], FIGURES)[0]
+        self.load("against")
+        for name in ("causes", "functions", "lines"):
+            rows = self.cells(f"against-{name}-table")
+            self.assertEqual([row[0] for row in rows], [row["name"] for row in found[name]])
+        self.assertEqual(self.browser.run("document.querySelectorAll('#against-pictures img').length"), 1)
+        self.assertEqual(self.browser.run("document.querySelector('nav a').textContent"), "Differences")
+        self.assertGreater(self.browser.run("document.querySelectorAll('#causes-table tbody tr').length"), 5)
+        ids = self.browser.run("Array.from(document.querySelectorAll('[id]'), one => one.id)")
+        self.assertEqual(len(ids), len(set(ids)))
+        self.is_quiet()
+
     def load(self, name):
         super().load(name)
-        self.assertEqual(self.browser.run("document.documentElement.dataset.ready"), "yes")
+        until = time.monotonic() + 60
+        while self.browser.run("document.documentElement.dataset.ready") != "yes":  # --explore unpacks its data
+            self.assertLess(time.monotonic(), until, self.browser.messages)
+            time.sleep(0.05)
 
     def unfold(self):
         self.browser.run("for (const one of document.querySelectorAll('details')) one.open = true")

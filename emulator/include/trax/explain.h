@@ -57,6 +57,8 @@ struct trax_explain_options {
   const uint32_t *story_places;
   unsigned story_count;
   const char *story;
+  /* The statistics or the page of another run: the page also has the differences to it (trax/compare.h). NULL: none. */
+  const char *against;
   /* The page's title (NULL: the program's name), and the parts of buffers that its tables list as objects. */
   const char *title;
   const struct trax_explore_part *parts;

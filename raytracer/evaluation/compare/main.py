@@ -11,7 +11,7 @@ from trax_eval.util import Parser, Problem, check_files
 
 from .difference import compare
 from .figures import Figures
-from .page import page
+from .page import add_to_page, page
 from .runs import Run, runs_of
 from .text import print_comparison, print_folders
 
@@ -25,6 +25,7 @@ NAME.folded (--profile-folded), NAME.csv (--ray-kinds) and NAME.png.
 
   --json               print the comparison as JSON
   --html FILE          write it as a page for a browser
+  --add                add it to B, a page of --explore, as trax-sim --explore-against A does
   --picture FILE       write where the pictures differ, as a PNG
   --cost-picture FILE  write where the pixels' thread-cycles differ: orange where B takes more, blue where it takes less
   --all                print all rows of all tables
@@ -40,7 +41,7 @@ def new_parser():
     parser.add_argument("b")
     for name in ("html", "picture", "cost-picture"):
         parser.add_argument(f"--{name}")
-    for name in ("json", "all", "help"):
+    for name in ("json", "all", "add", "help"):
         parser.add_argument(f"--{name}", action="store_true")
     return parser
 
@@ -51,6 +52,10 @@ def parse(arguments):
     for path in (options.a, options.b):
         if not os.path.exists(path):
             raise Problem(f"{path}: {os.strerror(2)}")
+    if options.add and (outputs or options.json or options.all):
+        raise Problem("--add excludes other outputs")
+    if options.add and pathlib.Path(options.b).suffix.lower() not in (".html", ".htm"):
+        raise Problem(f"{options.b}: --add needs a page of --explore")
     check_files([options.a, options.b], outputs)
     return options
 
@@ -87,6 +92,16 @@ def write(path, data):
         raise Problem(f"{path}: {error.strerror}") from error
 
 
+def add(options, result, pictures, data):
+    """Adds the comparison to B, the only file that is both read and written."""
+    text = pathlib.Path(options.b).read_bytes().decode(errors="surrogateescape")
+    made = add_to_page(text, pathlib.Path(options.a).name, result, pictures, data)
+    try:
+        write_output(options.b, made.encode(errors="surrogateescape"))
+    except OSError as error:
+        raise Problem(f"{options.b}: {error.strerror}") from error
+
+
 def main(arguments, tools, data):
     if "--help" in arguments or "-h" in arguments:
         print(HELP, end="")
@@ -102,6 +117,9 @@ def main(arguments, tools, data):
             raise Problem("--picture and --cost-picture are for two runs, not for folders")
     else:
         result, pictures = compare(Run(options.a), Run(options.b), figures)
+    if options.add:
+        add(options, result, pictures, data)
+        return 0
     for path, name in ((options.picture, "pixels"), (options.cost_picture, "cost")):
         if path is not None and name not in pictures:
             reason = result["missing"].get("picture" if name == "pixels" else "costs", "they do not differ")

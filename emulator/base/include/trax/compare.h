@@ -1,0 +1,19 @@
+/* trax-eval compares runs (docs/compare.md). It is beside the program that is running. */
+#ifndef TRAX_COMPARE_H
+#define TRAX_COMPARE_H
+
+#include "trax/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Becomes trax-eval with these arguments, and returns only with an error. */
+trax_status trax_compare(char **arguments, trax_error *error);
+/* Adds the differences to the run of `other`, a file of --stats or a page, to a page of --explore. */
+trax_status trax_compare_add(const char *other, const char *page, const volatile int *interrupt, trax_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
