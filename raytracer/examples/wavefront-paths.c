@@ -4,8 +4,9 @@
    rays of all paths, trace them, and shade them. A pixel takes its samples one after the other, so every sum is in the
    same order, and the picture is the general program's in every bit.
 
-     clang --target=trax -std=c17 -O3 -mstack=global -mstack-size=2k -DQUEUES=4 -I raytracer/include
-     trax-render SCENE --paths 4 --samples 4 --program wavefront-paths.elf   (compare with --no-specialise) */
+     clang --target=trax -std=c17 -O3 -DTRAX_TREE_DEPTH=TRAX_SCENE_DEFAULT_DEPTH -DQUEUES=4 -I raytracer/include
+       raytracer/examples/wavefront-paths.c -o wavefront-paths.elf
+     trax-render SCENE --paths 4 --program wavefront-paths.elf   (compare with --no-specialise) */
 #define TILE_BITS 6
 #include "../device/path.h"
 #include "stages.h"

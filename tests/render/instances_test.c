@@ -6,6 +6,7 @@
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 #include <zlib.h>
@@ -354,10 +355,35 @@ static void test_sealed_changes(void **state) {
   trax_scene_release(&scene);
 }
 
+/* What follows from the matrix and the mesh is computed again, to the last bit. */
+static void test_derived_words(void **state) {
+  (void)state;
+  static const size_t derived[] = {
+      offsetof(struct trax_instance, to_object),    offsetof(struct trax_instance, to_object[2][2]),
+      offsetof(struct trax_instance, root),         offsetof(struct trax_instance, stretch),
+      offsetof(struct trax_instance, flags),        offsetof(struct trax_instance, spread),
+      offsetof(struct trax_instance, first_number), offsetof(struct trax_instance, reserved)};
+  struct trax_scene scene = {0};
+  build_crowd(&scene);
+  struct trax_scene_header *header = scene.bytes;
+  for (size_t i = 0; i < sizeof derived / sizeof *derived; i++) {
+    uint32_t *word = (uint32_t *)(void *)((char *)scene.instances + derived[i]);
+    trax_error error = {.message = ""};
+    *word ^= 1;
+    header->checksum = 0;
+    header->checksum = (uint32_t)crc32_z(0, scene.bytes, scene.size);
+    assert_int_equal(trax_scene_check(NULL, scene.bytes, scene.size, "scene", &error), TRAX_ERROR);
+    assert_non_null(strstr(error.message, "instance 0: "));
+    *word ^= 1;
+  }
+  trax_scene_release(&scene);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_families), cmocka_unit_test(test_inside),       cmocka_unit_test(test_far_mesh),
-      cmocka_unit_test(test_ties),     cmocka_unit_test(test_lamp_nowhere), cmocka_unit_test(test_sealed_changes),
+      cmocka_unit_test(test_families),      cmocka_unit_test(test_inside),       cmocka_unit_test(test_far_mesh),
+      cmocka_unit_test(test_ties),          cmocka_unit_test(test_lamp_nowhere), cmocka_unit_test(test_sealed_changes),
+      cmocka_unit_test(test_derived_words),
   };
   return cmocka_run_group_tests_name("instances", tests, NULL, NULL);
 }
