@@ -62,7 +62,7 @@ static trax_status improve(struct built_node **root, unsigned max_depth, struct 
   if ((*root)->triangle_count || (*root)->height > max_depth || options->passes == 0)
     return TRAX_OK;
   const size_t most = 2 * (size_t)(*root)->below; /* a binary tree over n leaves has 2n - 1 nodes */
-  struct scene_links links = {.nodes = aligned_alloc(64, most * sizeof *links.nodes), .max_depth = max_depth};
+  struct scene_links links = {.nodes = scene_allocate(most * sizeof *links.nodes), .max_depth = max_depth};
   struct built_node **of = malloc(most * sizeof(struct built_node *));
   trax_status result = links.nodes && of ? TRAX_OK : scene_out_of_memory(error, "BVH");
   if (result == TRAX_OK) {

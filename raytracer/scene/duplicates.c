@@ -5,18 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-struct place {
-  uint64_t hash;
-  uint32_t triangle;
-};
-
-static int compare_places(const void *a, const void *b) {
-  const struct place *left = a, *right = b;
-  if (left->hash != right->hash)
-    return left->hash < right->hash ? -1 : 1;
-  return left->triangle < right->triangle ? -1 : left->triangle > right->triangle;
-}
-
 static void corners(float out[9], const struct trax_mesh *mesh, uint32_t triangle) {
   for (int corner = 0; corner < 3; corner++)
     memcpy(out + 3 * corner, mesh->vertices[mesh->triangles[triangle].vertices[corner]], 3 * sizeof *out);
@@ -45,33 +33,31 @@ static bool same_place(const struct trax_mesh *mesh, uint32_t a, uint32_t b) {
 trax_status scene_find_duplicates(struct scene_duplicates *duplicates, const struct trax_mesh *mesh,
                                   trax_error *error) {
   const uint32_t count = mesh->triangle_count;
-  struct place *places = malloc((count + (size_t)1) * sizeof *places);
+  size_t size = 16; /* of the table: more than half of it stays empty */
+  while (size <= 2 * (size_t)count)
+    size *= 2;
+  uint32_t *table = malloc(size * sizeof *table); /* the last triangle at each place */
   uint32_t *first = malloc((count + (size_t)1) * sizeof *first), *after = malloc((count + (size_t)1) * sizeof *after);
   *duplicates = (struct scene_duplicates){first, after, false};
-  if (!places || !first || !after) {
-    free(places);
+  if (!table || !first || !after) {
+    free(table);
     scene_duplicates_release(duplicates);
     return scene_out_of_memory(error, "BVH");
   }
-  for (uint32_t i = 0; i < count; i++)
-    places[i] = (struct place){hash_of(mesh, i), i};
-  qsort(places, count, sizeof *places, compare_places);
-  for (uint32_t begin = 0, end; begin < count; begin = end) {
-    for (end = begin + 1; end < count && places[end].hash == places[begin].hash;)
-      end++;
-    for (uint32_t i = begin; i < end; i++) {
-      uint32_t triangle = places[i].triangle;
-      first[triangle] = triangle, after[triangle] = SCENE_NO_DUPLICATE;
-      for (uint32_t before = i; before-- > begin;) /* nearly always the previous one, or none */
-        if (same_place(mesh, triangle, places[before].triangle)) {
-          first[triangle] = first[places[before].triangle];
-          after[places[before].triangle] = triangle;
-          duplicates->any = true;
-          break;
-        }
+  memset(table, 0xFF, size * sizeof *table);
+  for (uint32_t i = 0; i < count; i++) {
+    size_t at = hash_of(mesh, i) & (size - 1);
+    while (table[at] != SCENE_NO_DUPLICATE && !same_place(mesh, i, table[at]))
+      at = (at + 1) & (size - 1);
+    first[i] = i, after[i] = SCENE_NO_DUPLICATE;
+    if (table[at] != SCENE_NO_DUPLICATE) {
+      first[i] = first[table[at]];
+      after[table[at]] = i;
+      duplicates->any = true;
     }
+    table[at] = i;
   }
-  free(places);
+  free(table);
   return TRAX_OK;
 }
 

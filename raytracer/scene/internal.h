@@ -125,6 +125,12 @@ trax_status scene_add_image(struct scene_textures *textures, const struct scene_
                             const char *name, trax_error *error);
 void scene_textures_release(struct scene_textures *textures);
 
+/* --- pages.c --- */
+
+/* Memory for large arrays that are read at random: whole lines of the host's cache, and large pages if there are any.
+   To be freed. */
+void *scene_allocate(size_t size);
+
 /* --- attributes.c --- */
 
 /* Extends *array, an array of the mesh, to `count` records. New records are zero. */

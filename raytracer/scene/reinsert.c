@@ -24,9 +24,12 @@ static void choose_foci(struct foci *foci, const struct scene_links *links) {
     const double area = scene_half_area(node->box.min, node->box.max);
     if (area > 0 && area * FOCUS_STEP <= last) {
       for (int axis = 0; axis < 3; axis++) {
-        foci->min[axis][foci->count] = node->box.min[axis];
-        foci->max[axis][foci->count] = node->box.max[axis];
+        foci->min[axis][foci->count] = foci->coarse_min[axis][foci->count] = node->box.min[axis];
+        foci->max[axis][foci->count] = foci->coarse_max[axis][foci->count] = node->box.max[axis];
       }
+      const bool is_moderate = area > 0x1p-80 && area < 0x1p80;
+      foci->coarse_scale[foci->count] = is_moderate ? (float)(1 / area) : 0;
+      foci->underflow += is_moderate ? 0x1p-140 / area : __builtin_inf();
       foci->scale[foci->count++] = 1 / area;
       last = area;
     }
@@ -40,17 +43,21 @@ static void choose_foci(struct foci *foci, const struct scene_links *links) {
 struct improver {
   struct scene_links *links;
   struct foci foci;
-  uint32_t *changed; /* the last round in which a node changed; NULL: one thread only */
-  uint32_t round;
+  /* The nodes that changed in this round, a bit each, and a list of the words that have some; NULL: one thread only. */
+  uint64_t *changed;
+  uint32_t *changed_words, changed_count;
 };
 
-static void mark(const struct improver *improver, uint32_t node) {
-  if (improver->changed && node != SCENE_NO_LINK)
-    improver->changed[node] = improver->round;
+static void mark(struct improver *improver, uint32_t node) {
+  if (!improver->changed || node == SCENE_NO_LINK)
+    return;
+  if (improver->changed[node / 64] == 0)
+    improver->changed_words[improver->changed_count++] = node / 64;
+  improver->changed[node / 64] |= (uint64_t)1 << node % 64;
 }
 
 /* Refits the box and height of a node. Returns whether they changed. */
-static bool refit_node(const struct improver *improver, uint32_t index) {
+static bool refit_node(struct improver *improver, uint32_t index) {
   struct scene_link *node = &improver->links->nodes[index];
   const struct scene_link *a = &improver->links->nodes[node->child[0]], *b = &improver->links->nodes[node->child[1]];
   const struct scene_box box = join_boxes(&a->box, &b->box);
@@ -68,13 +75,13 @@ static bool refit_node(const struct improver *improver, uint32_t index) {
 }
 
 /* Refits from here up to the root, or to the first node that stays as it is. */
-static void refit_from(const struct improver *improver, uint32_t index) {
+static void refit_from(struct improver *improver, uint32_t index) {
   while (index != SCENE_NO_LINK && refit_node(improver, index))
     index = improver->links->nodes[index].parent;
 }
 
 /* Makes `index` the child of old's parent, or the root if old is that. */
-static void take_place_of(const struct improver *improver, uint32_t index, uint32_t old) {
+static void take_place_of(struct improver *improver, uint32_t index, uint32_t old) {
   struct scene_links *links = improver->links;
   const uint32_t parent = links->nodes[old].parent;
   links->nodes[index].parent = parent;
@@ -87,7 +94,7 @@ static void take_place_of(const struct improver *improver, uint32_t index, uint3
 }
 
 /* Removes the part with its parent, whose other child takes the parent's place, and inserts it beside `place`. */
-static void reinsert(const struct improver *improver, uint32_t part, uint32_t place) {
+static void reinsert(struct improver *improver, uint32_t part, uint32_t place) {
   struct scene_link *nodes = improver->links->nodes;
   const uint32_t parent = nodes[part].parent, beside = nodes[parent].child[nodes[parent].child[0] == part];
   if (place != beside) {
@@ -200,12 +207,10 @@ static void search_some(struct scene_worker *worker, void *pointer) {
 }
 
 static bool has_changed(const struct improver *improver, const struct search *search, const struct found *found) {
-  uint32_t newest = 0;
-  for (size_t i = found->first; i < found->end; i++) {
-    const uint32_t changed = improver->changed[search->read[i]];
-    newest = changed > newest ? changed : newest;
-  }
-  return newest == improver->round;
+  uint64_t any = 0;
+  for (size_t i = found->first; i < found->end && improver->changed_count; i++)
+    any |= improver->changed[search->read[i] / 64] >> search->read[i] % 64;
+  return any & 1;
 }
 
 /* False when out of memory. */
@@ -213,7 +218,8 @@ static bool work_round(struct round *round, struct scene_crew *crew) {
   struct improver *improver = round->improver;
   const unsigned threads = scene_crew_size(crew);
   round->next = 0;
-  improver->round++;
+  while (improver->changed_count)
+    improver->changed[improver->changed_words[--improver->changed_count]] = 0;
   for (unsigned i = 0; i < threads; i++)
     round->searches[i].read_count = 0;
   for (unsigned i = 1; i < threads; i++) /* any worker takes one, so all are ready before */
@@ -269,18 +275,20 @@ trax_status scene_reinsert(struct scene_links *links, unsigned passes, struct sc
   struct improver improver = {.links = links};
   const unsigned threads = scene_crew_size(crew);
   const bool several = threads > 1;
+  const size_t words = links->count / 64 + 1;
   uint32_t *ranked = malloc(2 * (size_t)links->count * sizeof *ranked);
   uint64_t *keys = malloc(2 * (size_t)links->count * sizeof *keys);
   struct search *searches = calloc(threads, sizeof *searches);
   struct round *round = malloc(sizeof *round);
-  improver.changed = several ? calloc(links->count, sizeof *improver.changed) : NULL;
+  improver.changed = several ? calloc(words, sizeof *improver.changed) : NULL;
+  improver.changed_words = several ? malloc(words * sizeof *improver.changed_words) : NULL;
   choose_foci(&improver.foci, links);
   if (improver.foci.count == 0) /* all triangles are on one line */
     passes = 0;
   for (uint32_t i = 0; i < links->count; i++)
     links->nodes[i].visits = visits_of(&improver.foci, &links->nodes[i].box);
   trax_status result = TRAX_OK;
-  if (!ranked || !keys || !searches || !round || (several && !improver.changed))
+  if (!ranked || !keys || !searches || !round || (several && (!improver.changed || !improver.changed_words)))
     result = scene_out_of_memory(error, "BVH");
   else {
     for (unsigned i = 0; i < threads; i++)
@@ -293,6 +301,6 @@ trax_status scene_reinsert(struct scene_links *links, unsigned passes, struct sc
   }
   for (unsigned i = 0; searches && i < threads; i++)
     free(searches[i].read);
-  free(improver.changed), free(round), free(searches), free(keys), free(ranked);
+  free(improver.changed), free(improver.changed_words), free(round), free(searches), free(keys), free(ranked);
   return result;
 }

@@ -31,48 +31,166 @@ static struct place pop(struct search *search) {
   return least;
 }
 
-/* --- the tree without the part --- */
+/* --- the nodes that a search depends on --- */
 
-static bool note(struct search *search, uint32_t node) {
-  if (!search->records)
+/* Makes room for those of one search. False when out of memory. */
+static bool reserve(struct search *search) {
+  enum { MOST_OF_ONE = 2 * MOST_LOOKED_AT + 2 * TRAX_SCENE_MAX_DEPTH + 8 };
+  if (!search->records || search->read_capacity - search->read_count >= MOST_OF_ONE)
     return true;
-  if (search->read_count == search->read_capacity) {
-    const size_t capacity = 2 * search->read_capacity + 256;
-    uint32_t *read = realloc(search->read, capacity * sizeof *read);
-    if (!read)
-      return false;
-    search->read = read, search->read_capacity = capacity;
-  }
-  search->read[search->read_count++] = node;
+  const size_t capacity = 2 * search->read_capacity + MOST_OF_ONE;
+  uint32_t *read = realloc(search->read, capacity * sizeof *read);
+  if (!read)
+    return false;
+  search->read = read, search->read_capacity = capacity;
   return true;
 }
 
-/* Takes the part out. False when out of memory. */
-static bool take_out(struct search *search, uint32_t part) {
-  const struct scene_link *nodes = search->links->nodes;
-  search->part = &nodes[part];
-  search->parent = nodes[part].parent;
-  const struct scene_link *parent = &nodes[search->parent];
-  search->beside = parent->child[parent->child[0] == part];
-  search->depth = 0;
-  for (uint32_t node = parent->parent; node != SCENE_NO_LINK; node = nodes[node].parent)
-    search->depth++;
-  if (!note(search, part) || !note(search, search->parent) || !note(search, search->beside))
-    return false;
+static inline void note(struct search *search, uint32_t node) {
+  if (search->records)
+    search->read[search->read_count++] = node;
+}
+
+static void note_part(struct search *search, uint32_t part) {
+  note(search, part);
+  note(search, search->parent);
+  note(search, search->beside);
+}
+
+static inline uint32_t other_child(const struct scene_link *node, uint32_t child) {
+  return node->child[node->child[0] == child];
+}
+
+/* The cost of the part if it is inserted beside a node: of a new node over both, and of the growth of the nodes above.
+   least: that growth. */
+static inline double cost_beside(const struct search *search, const struct scene_box *box, double least) {
+  const struct scene_box both = join_boxes(&search->part->box, box);
+  return least + visits_of(search->foci, &both);
+}
+
+/* --- whether there is a better place --- */
+
+/* A lower bound of the expected visits to a node around both boxes, in binary32: rounding and underflow together take
+   less than the two constants. */
+static inline double least_visits(const struct foci *foci, __m128 part_min, __m128 part_max,
+                                  const struct scene_box *box) {
+  const __m128 low = _mm_min_ps(part_min, _mm_loadu_ps(box->min)), high = _mm_max_ps(part_max, _mm_loadu_ps(box->max));
+  const __m128 min[3] = {_mm_shuffle_ps(low, low, 0x00), _mm_shuffle_ps(low, low, 0x55),
+                         _mm_shuffle_ps(low, low, 0xAA)};
+  const __m128 max[3] = {_mm_shuffle_ps(high, high, 0x00), _mm_shuffle_ps(high, high, 0x55),
+                         _mm_shuffle_ps(high, high, 0xAA)};
+  __m128 sum = _mm_setzero_ps();
+  for (int i = 0; i < foci->count; i += 4) {
+    __m128 size[3];
+    for (int axis = 0; axis < 3; axis++)
+      size[axis] = _mm_sub_ps(_mm_min_ps(max[axis], _mm_load_ps(&foci->coarse_max[axis][i])),
+                              _mm_max_ps(min[axis], _mm_load_ps(&foci->coarse_min[axis][i])));
+    const __m128 inside = _mm_cmpge_ps(_mm_min_ps(size[0], _mm_min_ps(size[1], size[2])), _mm_setzero_ps());
+    const __m128 area = _mm_add_ps(_mm_mul_ps(size[0], _mm_add_ps(size[1], size[2])), _mm_mul_ps(size[1], size[2]));
+    sum = _mm_add_ps(sum, _mm_and_ps(_mm_mul_ps(_mm_load_ps(&foci->coarse_scale[i]), area), inside));
+  }
+  sum = _mm_add_ps(sum, _mm_movehl_ps(sum, sum));
+  sum = _mm_add_ss(sum, _mm_shuffle_ps(sum, sum, 0x55));
+  return (double)_mm_cvtss_f32(sum) * (1 - 0x1p-19) - foci->underflow;
+}
+
+static inline bool contains(const struct scene_box *box, const struct scene_box *part) {
+  bool all = true;
+  for (int axis = 0; axis < 3; axis++)
+    all &= (box->min[axis] <= part->min[axis]) & (box->max[axis] >= part->max[axis]);
+  return all;
+}
+
+/* False: no place costs less than the part's own. True for nearly all parts that have a better one, and for few others:
+   as its limit does not fall meanwhile, the order in which nodes are looked at does not matter, and lower bounds do. */
+static bool may_gain(struct search *search) {
+  const struct scene_link *nodes = search->links->nodes, *part = search->part;
+  struct place *queue = search->queue;
+  uint32_t first = 0, end = 0; /* first in, first out: nodes are in the cache when they are looked at */
+  /* The nodes above whose boxes are smaller without the part, from below. */
+  struct {
+    struct scene_box box;
+    uint32_t other; /* the child that is not on the way */
+  } open[TRAX_SCENE_MAX_DEPTH + 1];
+  uint32_t open_count = 0, from = search->parent, node = nodes[from].parent;
   struct scene_box below = nodes[search->beside].box;
-  uint32_t height = nodes[search->beside].height, from = search->parent, node = parent->parent;
+  for (; node != SCENE_NO_LINK; from = node, node = nodes[node].parent) {
+    const uint32_t other = other_child(&nodes[node], from);
+    note(search, node);
+    note(search, other);
+    below = join_boxes(&below, &nodes[other].box);
+    if (contains(&below, &part->box))
+      break;
+    open[open_count].box = below;
+    open[open_count++].other = other;
+  }
+  const struct scene_link *whole = node != SCENE_NO_LINK ? &nodes[node] : NULL;
+  double least = 0, least_of[TRAX_SCENE_MAX_DEPTH + 1], cheapest = whole ? whole->visits : __builtin_inf();
+  for (uint32_t i = open_count; i-- > 0;) {
+    const double cost = cost_beside(search, &open[i].box, least);
+    cheapest = cost < cheapest ? cost : cheapest;
+    least = cost - visits_of(search->foci, &open[i].box);
+    least_of[i] = least;
+  }
+  const struct scene_link *beside = &nodes[search->beside];
+  const double own = part->visits, limit = cost_beside(search, &beside->box, least);
+  if (cheapest < limit)
+    return true;
+  if (!(own < limit))
+    return false;
+  for (; node != SCENE_NO_LINK; from = node, node = nodes[node].parent) {
+    note(search, node);
+    const uint32_t other = other_child(&nodes[node], from);
+    __builtin_prefetch(&nodes[other]);
+    queue[end++] = (struct place){0, other, 0};
+  }
+  for (uint32_t i = open_count; i-- > 0 && least_of[i] + own < limit;)
+    queue[end++] = (struct place){least_of[i], open[i].other, 0};
+  least = limit - beside->visits;
+  for (int c = 0; c < 2 && beside->child[0] != SCENE_NO_LINK && least + own < limit; c++) {
+    __builtin_prefetch(&nodes[beside->child[c]]);
+    queue[end++] = (struct place){least, beside->child[c], 0};
+  }
+  const __m128 part_min = _mm_loadu_ps(part->box.min), part_max = _mm_loadu_ps(part->box.max);
+  while (first < end) {
+    const struct place place = queue[first++];
+    const struct scene_link *link = &nodes[place.node];
+    if (first > MOST_LOOKED_AT - TRAX_SCENE_MAX_DEPTH)
+      return true;
+    note(search, place.node);
+    const double cost = place.least + least_visits(search->foci, part_min, part_max, &link->box);
+    if (cost < limit)
+      return true;
+    const double further = cost - link->visits > place.least ? cost - link->visits : place.least;
+    for (int c = 0; c < 2 && link->child[0] != SCENE_NO_LINK && further + own < limit; c++) {
+      __builtin_prefetch(&nodes[link->child[c]]);
+      queue[end++] = (struct place){further, link->child[c], 0};
+    }
+  }
+  return false;
+}
+
+/* --- the best place --- */
+
+/* Takes the part out. */
+static void take_out(struct search *search) {
+  const struct scene_link *nodes = search->links->nodes;
+  const uint32_t last = nodes[search->parent].parent;
+  search->depth = 0;
+  for (uint32_t node = last; node != SCENE_NO_LINK; node = nodes[node].parent)
+    search->depth++;
+  struct scene_box below = nodes[search->beside].box;
+  uint32_t height = nodes[search->beside].height, from = search->parent, node = last;
   bool same = false;
   for (uint32_t i = search->depth; i-- > 0; from = node, node = nodes[node].parent) {
     const struct scene_link *link = &nodes[node];
     struct above *above = &search->above[i];
     *above = (struct above){node, link->height, link->box, link->visits};
-    if (!note(search, node))
-      return false;
+    note(search, node);
     if (same)
       continue;
-    const uint32_t other = link->child[link->child[0] == from];
-    if (!note(search, other))
-      return false;
+    const uint32_t other = other_child(link, from);
+    note(search, other);
     const struct scene_box box = join_boxes(&below, &nodes[other].box);
     above->height = 1 + (height > nodes[other].height ? height : nodes[other].height);
     bool moved = false;
@@ -83,53 +201,14 @@ static bool take_out(struct search *search, uint32_t part) {
     same = !moved && above->height == link->height;
     below = above->box, height = above->height;
   }
-  return true;
 }
 
-/* The cost of the part if it is inserted beside a node: of a new node over both, and of the growth of the nodes above.
-   least: that growth. */
-static inline double cost_beside(const struct search *search, const struct scene_box *box, double least) {
-  const struct scene_box both = join_boxes(&search->part->box, box);
-  return least + visits_of(search->foci, &both);
-}
-
-/* Whether some place costs less than the part's own. As the limit does not fall meanwhile, the order in which the nodes
-   are looked at does not matter. Also true if there are too many to be sure. */
-static bool may_gain(struct search *search, const double *least, double limit) {
-  const struct scene_link *nodes = search->links->nodes;
-  const double own = search->part->visits;
-  struct place *queue = search->queue;
-  uint32_t first = 0, end = 0; /* first in, first out: nodes are in the cache when they are looked at */
-  for (uint32_t i = 0; i <= search->depth && least[i + 1] + own < limit; i++) {
-    /* The other children of the nodes above, and those of the sibling. */
-    const struct scene_link *node = &nodes[i < search->depth ? search->above[i].node : search->beside];
-    const uint32_t skipped = i == search->depth      ? SCENE_NO_LINK
-                             : i + 1 < search->depth ? search->above[i + 1].node
-                                                     : search->parent;
-    for (int c = 0; c < 2 && node->child[0] != SCENE_NO_LINK; c++)
-      if (node->child[c] != skipped) {
-        __builtin_prefetch(&nodes[node->child[c]]);
-        queue[end++] = (struct place){least[i + 1], node->child[c], 0};
-      }
-  }
-  while (first < end) {
-    const struct place place = queue[first++];
-    const struct scene_link *node = &nodes[place.node];
-    if (first > MOST_LOOKED_AT - TRAX_SCENE_MAX_DEPTH || !note(search, place.node))
-      return true;
-    const bool leaf = node->child[0] == SCENE_NO_LINK;
-    if (leaf && place.least + node->visits >= limit)
-      continue;
-    const double cost = cost_beside(search, &node->box, place.least);
-    if (cost < limit)
-      return true;
-    const double below = cost - node->visits;
-    for (int c = 0; c < 2 && !leaf && below + own < limit; c++) {
-      __builtin_prefetch(&nodes[node->child[c]]);
-      queue[end++] = (struct place){below, node->child[c], 0};
-    }
-  }
-  return false;
+/* The cost of the place that the part has. */
+static double own_cost(const struct search *search) {
+  double least = 0;
+  for (uint32_t i = 0; i < search->depth; i++)
+    least = cost_beside(search, &search->above[i].box, least) - search->above[i].visits;
+  return cost_beside(search, &search->links->nodes[search->beside].box, least);
 }
 
 /* Branch and bound: below a node, the part costs at least the growth of the boxes above and a node of its own size. */
@@ -151,8 +230,7 @@ static uint32_t find_best(struct search *search, double best_cost) {
     const uint32_t height = own_height > search->part->height ? own_height : search->part->height;
     if (cost < best_cost && place.depth + 1 + height <= search->links->max_depth)
       best_cost = cost, best = place.node;
-    if (!note(search, place.node))
-      return SCENE_NO_LINK;
+    note(search, place.node);
     if (node->child[0] == SCENE_NO_LINK)
       continue;
     const double below = cost - (changed ? above->visits : node->visits);
@@ -165,21 +243,18 @@ static uint32_t find_best(struct search *search, double best_cost) {
 }
 
 uint32_t scene_find_place(struct search *search, uint32_t part) {
-  double least[TRAX_SCENE_MAX_DEPTH + 3], limit;
-  bool cheaper = false;
-  if (!take_out(search, part))
+  const struct scene_link *nodes = search->links->nodes;
+  if (!reserve(search))
     return SCENE_NO_LINK;
-  /* least[i]: of the node at depth i on the way to the sibling; the sibling's cost is the limit. */
-  double costs[TRAX_SCENE_MAX_DEPTH + 1];
-  least[0] = 0;
-  for (uint32_t i = 0; i < search->depth; i++) {
-    costs[i] = cost_beside(search, &search->above[i].box, least[i]);
-    least[i + 1] = costs[i] - search->above[i].visits;
-  }
-  const struct scene_link *beside = &search->links->nodes[search->beside];
-  limit = cost_beside(search, &beside->box, least[search->depth]);
-  least[search->depth + 1] = limit - beside->visits;
-  for (uint32_t i = 0; i < search->depth; i++)
-    cheaper |= costs[i] < limit;
-  return cheaper || may_gain(search, least, limit) ? find_best(search, limit) : search->beside;
+  search->part = &nodes[part];
+  search->parent = nodes[part].parent;
+  search->beside = other_child(&nodes[search->parent], part);
+  const size_t first = search->read_count;
+  note_part(search, part);
+  if (!may_gain(search))
+    return search->beside;
+  search->read_count = first; /* the best place is another one or not, whatever that has read */
+  note_part(search, part);
+  take_out(search);
+  return find_best(search, own_cost(search));
 }
