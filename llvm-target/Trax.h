@@ -22,6 +22,8 @@ FunctionPass *createTraxLowerFloatsPass();
 FunctionPass *createTraxLowerVAArgPass();
 /// Writes integer divisions out, by the units that the machine has.
 FunctionPass *createTraxDivisionPass();
+/// Lets pointers step in loops around others.
+FunctionPass *createTraxLoopsPass();
 /// Lets phis take values that branches have compared with constants.
 FunctionPass *createTraxBranchesPass();
 
@@ -39,6 +41,7 @@ void expandTraxLongJmp(MachineInstr &MI, const TargetInstrInfo &TII);
 void initializeTraxBranchesPass(PassRegistry &);
 void initializeTraxDAGToDAGISelLegacyPass(PassRegistry &);
 void initializeTraxDivisionPass(PassRegistry &);
+void initializeTraxLoopsPass(PassRegistry &);
 void initializeTraxLowerAtomicsPass(PassRegistry &);
 void initializeTraxLowerFloatsPass(PassRegistry &);
 void initializeTraxLowerVAArgPass(PassRegistry &);

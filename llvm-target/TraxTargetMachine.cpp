@@ -23,6 +23,7 @@ void LLVMInitializeTraxTarget() {
   initializeTraxBranchesPass(PR);
   initializeTraxDAGToDAGISelLegacyPass(PR);
   initializeTraxDivisionPass(PR);
+  initializeTraxLoopsPass(PR);
   initializeTraxLowerAtomicsPass(PR);
   initializeTraxLowerFloatsPass(PR);
   initializeTraxLowerVAArgPass(PR);
@@ -86,6 +87,8 @@ public:
     addPass(createAtomicExpandLegacyPass());
     addPass(createTraxLowerAtomicsPass());
     TargetPassConfig::addIRPasses();
+    if (getOptLevel() == CodeGenOptLevel::Default)
+      addPass(createTraxLoopsPass());
   }
 
   void addCodeGenPrepare() override {
