@@ -325,10 +325,11 @@ struct scene_wide {
   uint32_t count, entries; /* entries: as header.max_depth */
 };
 
-/* Makes them from a tree of which they are the largest part. position: of the tree's inner nodes (struct scene_order);
-   the wide nodes have the same order, if the layout leaves it open. */
+/* Makes them from a binary tree. */
 trax_status scene_widen(struct scene_wide *wide, const struct scene_tree *tree, enum trax_node_layout layout,
                         trax_error *error);
+/* Decides on their places, unless the layout has. position: of the tree's inner nodes (struct scene_order), whose order
+   the wide nodes keep. */
 void scene_place_wide(struct scene_wide *wide, const struct scene_tree *tree, const uint32_t *position);
 void scene_wide_release(struct scene_wide *wide);
 
