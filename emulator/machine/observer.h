@@ -87,8 +87,8 @@ struct trax_stretch {
   struct trax_piece *piece; /* [pieces] */
   size_t pieces;
   uint32_t next_pc; /* of the last instruction */
-  /* Of a trap its operand, and of an instruction that writes r2, the stack pointer, the value: such an instruction, and
-     a jal or jalr that writes a register, is a stretch of its own. */
+  /* Of a trap its operand, and of an instruction that writes r2, the stack pointer, the value. Such an instruction, a
+     jalr, and a jal that writes a register each are a stretch of their own. */
   uint32_t result;
 };
 
@@ -113,8 +113,8 @@ struct trax_observer {
 /* For engines: adds a charge before the instruction `at` to a log. */
 static inline void trax_log_charge(struct trax_observer *observer, struct trax_thread_log *log, unsigned at,
                                    trax_cause cause, unsigned rd, uint64_t cycles) {
-  struct trax_charged *latest = log->charged + log->charged_count - 1;
-  if (log->charged_count && latest->at == at && latest->cause == cause && latest->rd == rd &&
+  struct trax_charged *latest = log->charged_count ? &log->charged[log->charged_count - 1] : NULL;
+  if (latest && latest->at == at && latest->cause == cause && latest->rd == rd &&
       latest->cycles + cycles <= UINT32_MAX) {
     latest->cycles += (uint32_t)cycles;
     return;

@@ -105,7 +105,9 @@ static void record_stretch(void *context, const struct trax_stretch *stretch) {
     log->charged[i].at -= (uint8_t)at;
   for (size_t i = accessed; i < log->accessed_count; i++)
     log->accessed[i].at -= (uint8_t)at;
-  memmove(log->charged, log->charged + charged, (log->charged_count -= charged) * sizeof *log->charged);
+  log->charged_count -= charged;
+  if (log->charged_count)
+    memmove(log->charged, log->charged + charged, log->charged_count * sizeof *log->charged);
   memmove(log->accessed, log->accessed + accessed, (log->accessed_count -= accessed) * sizeof *log->accessed);
 }
 

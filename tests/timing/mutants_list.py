@@ -523,6 +523,12 @@ MUTANTS = [
     ("fast/chip.c", "  if (chip->alone) /* bursts may have stored */\n    trax_fast_roll_back(chip);", ""),
     ("fast/chip.c", "return !increments;", "return true;"),
     ("fast/chip.c", "transfer < until ? transfer : until", "until"),
+    # --- Stretches ---
+    ("fast/function/blocks.c", "  tm->told[number] = 0;", "  (void)0;"),
+    ("fast/observe.c", "&& !log_of(tm, number)->accessed_count)", ")"),
+    ("fast/observe.c", "tm->serial_hits || tm->chip->alone ? 0 : tm->load_hits", "~(uint64_t)0"),
+    ("fast/time/issue.h", "trax_fast_tell_steps(tm, number, last + 1, tp->resume_pc);",
+     "trax_fast_tell_steps(tm, number, last, tp->resume_pc);"),
     # --- Output ---
     ("fast/epochs.c", "  trax_transfer_log_discard(&chip->transfers);\n  epochs->printed_count = 0;",
      "  trax_transfer_log_discard(&chip->transfers);"),

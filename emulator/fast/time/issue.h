@@ -64,7 +64,7 @@ static uint32_t next_pc(const struct trax_tm *tm, unsigned number) {
   return next > tm->heads.last[number] ? tp->resume_pc : tm->chip->program.timing[trax_fast_index(tp, next)].pc;
 }
 
-/* Tells the observer of a slow head that has been issued; one of stretches is told when they end. */
+/* Tells the observer of a slow head that has been issued; one of stretches when the burst has ended. */
 static void tell_slow(struct trax_tm *tm, unsigned number, uint32_t pc, const struct trax_decoded *inst) {
   const struct trax_tp *tp = &tm->tp[number];
   const bool at_issue = tm->executes_at_issue >> number & 1;
