@@ -213,6 +213,16 @@ static bool takes_arguments(const char *program) {
   return takes;
 }
 
+/* Names what is wrong: the program, if that is no image, or an argument that it does not take. */
+static void refuse_argument(const char *program, const char *argument, trax_error *error) {
+  trax_image *image = NULL;
+  if (!trax_manifest_is(program) && !(image = trax_image_open(program, error)))
+    return;
+  trax_fail(error, "'%s' follows %s, whose main has no parameters: it takes no arguments", argument, program);
+  if (image)
+    trax_image_close(image);
+}
+
 trax_parsed trax_options_parse(struct trax_options *options, int count, char **arguments, trax_error *error) {
   *options = (struct trax_options){0};
   trax_engine_find(NULL, &options->engine, error);
@@ -227,8 +237,7 @@ trax_parsed trax_options_parse(struct trax_options *options, int count, char **a
   if (parsed != TRAX_PARSED_RUN)
     return parsed;
   if (options->program && !options->arguments && count > 0)
-    trax_fail(error, "'%s' follows %s, whose main has no parameters: it takes no arguments", arguments[0],
-              options->program);
+    refuse_argument(options->program, arguments[0], error);
   else if (!options->program && !options->print_config)
     trax_fail(error, "no program is given");
   else if (take_manifest(options, error) == TRAX_OK && trax_options_check_conflicts(options, error) == TRAX_OK &&

@@ -27,9 +27,10 @@ static void choose_foci(struct foci *foci, const struct scene_links *links) {
         foci->min[axis][foci->count] = foci->coarse_min[axis][foci->count] = node->box.min[axis];
         foci->max[axis][foci->count] = foci->coarse_max[axis][foci->count] = node->box.max[axis];
       }
-      const bool is_moderate = area > 0x1p-80 && area < 0x1p80;
-      foci->coarse_scale[foci->count] = is_moderate ? (float)(1 / area) : 0;
-      foci->underflow += is_moderate ? 0x1p-140 / area : __builtin_inf();
+      if (area > 0x1p-80 && area < 0x1p80) { /* else zero, a bound that is of no use but true */
+        foci->coarse_scale[foci->count] = (float)(1 / area);
+        foci->underflow += 0x1p-140 / area;
+      }
       foci->scale[foci->count++] = 1 / area;
       last = area;
     }

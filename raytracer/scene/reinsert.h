@@ -13,7 +13,7 @@ struct foci {
   double min[3][MOST_FOCI], max[3][MOST_FOCI];
   double scale[MOST_FOCI]; /* the reciprocal of a box's half area */
   float coarse_min[3][MOST_FOCI], coarse_max[3][MOST_FOCI], coarse_scale[MOST_FOCI];
-  double underflow; /* the most that underflow takes from a sum in binary32; infinite: that is of no use */
+  double underflow; /* the most that underflow takes from a sum in binary32 */
   int count;
 } __attribute__((aligned(16)));
 

@@ -251,6 +251,7 @@ refuse "unknown option --sats; did you mean --stats?" --sats x.json hello.elf
 refuse "unknown option --entirely-different" --entirely-different hello.elf
 refuse "unknown option -v" -v hello.elf
 refuse "'exit3.elf' follows hello.elf, whose main has no parameters: it takes no arguments" hello.elf exit3.elf
+refuse "missing.elf: cannot be read: No such file or directory" missing.elf word
 refuse "--stats needs FILE" hello.elf --stats
 refuse "--stats: the value is empty" hello.elf --stats=
 refuse "--stats is given twice" --stats a.json --stats b.json hello.elf

@@ -7,6 +7,7 @@ import io
 import itertools
 import json
 import pathlib
+import random
 import re
 import sys
 import tempfile
@@ -415,6 +416,32 @@ class DocsTest(unittest.TestCase):
         self.assertEqual([row[:5] for row in rows_of("\n".join(table.lines(False)))],
                          [["program", "scene", "workload", "estimates", "intervals that hold the exact figure"],
                           ["era", "dragon", "", "1", "1"], ["era", "dragon", "occlusion", "1", "1"]])
+
+    def test_chips_front(self):
+        """A chip is on a front unless another one costs no more and has as many rays."""
+        document, costs = example.complete(), {"area": 3, "power": 4, "bandwidth": 5}
+        numbers = random.Random(35)
+        for chip in example.CHIPS:
+            rate, values = numbers.randint(5, 60), [numbers.randint(1, 9) for _ in costs]
+            for scene in example.SCENES:
+                run = example.run("ours", scene, chip, experiments=("rays", ), value=rate)
+                run["workload"], run["values"] = "primary-shadow", {**run["values"], "area_units": values[0]}
+                run["stats"]["energy"] = {"average_power": values[1]}
+                run["stats"]["memory"]["bandwidth_gbps"] = values[2]
+                document["runs"].append({**run, "key": f"front-{run['key']}"})
+        document["sweeps"].append({"name": "rays"})
+        self.page.write_text(page_of("chips-front", "plot chips-front"))
+        self.assertEqual(self.docs(self.results(document), self.page), (0, ""))
+        rows = rows_of(self.page.read_text())[1:]
+        self.assertEqual(sorted(row[0] for row in rows), sorted(example.CHIPS))
+        for row in rows:
+            # Of two chips with the same figures the first is on the front.
+            place = {name: (float(row[column]), -float(row[2]), rows.index(row)) for name, column in costs.items()}
+            on = [name for name, column in costs.items()
+                  if not any(other is not row and float(other[2]) >= float(row[2])
+                             and (float(other[column]), -float(other[2]), rows.index(other)) < place[name]
+                             for other in rows)]
+            self.assertEqual([name for name in row[8].split(", ") if name], on, row)
 
     def test_missing(self):
         """A mean with a run that is not there is not a mean of the others."""

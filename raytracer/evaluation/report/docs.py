@@ -20,7 +20,7 @@ import sys
 
 from trax_eval.util import Problem, check_files, complain, write_file
 
-from . import choices, estimates, rays, simd, tables
+from . import choices, estimates, fronts, rays, simd, tables
 from .charts import all_figures, sweep_figure
 from .claims import UNKNOWN, claims
 from .data import compact, merged, read_data, results_of, without
@@ -68,7 +68,8 @@ class Builder:
         self.add([
             self.claims, lambda: tables.described(results, paper), lambda: tables.hardware(results, paper),
             lambda: rays.kinds_table(results), lambda: choices.table(results, paper),
-            lambda: simd.best_table(results), lambda: simd.kinds_table(results)
+            lambda: simd.best_table(results), lambda: simd.kinds_table(results),
+            lambda: fronts.chips_table(results, paper)
         ], None, {})
 
     def claims(self):
@@ -101,7 +102,7 @@ class Builder:
                     return figure, sweep, dict(self.results.asked)
         self.results.asked.clear()
         for figure in itertools.chain(rays.figures(self.results, self.paper), simd.figures(self.results),
-                                      all_figures(self.results, self.paper)):
+                                      fronts.figures(self.results, self.paper), all_figures(self.results, self.paper)):
             if figure.identity == name and not figure.empty():
                 return figure, None, dict(self.results.asked)
             self.results.asked.clear()
