@@ -105,7 +105,7 @@ def special(number, words, option, ending):
         places += [f"device{ending}", f"far{ending}"]
     except PermissionError:
         pass  # only root makes devices
-    if words[0] == "clang":
+    if words[0] == "clang" and not os.environ.get("TRAX_WHOLE"):
         places = [places[number % len(places)], places[(number + 2) % len(places)]]
     for path in places:
         before, got = kind_of(path), []
