@@ -6,13 +6,15 @@ Usage: files_test.py BIN VERSION
 
 import json
 import os
+import pathlib
 import shutil
 import struct
 import subprocess
 import sys
 import tempfile
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+sys.path[:0] = [os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", name) for name in ("", "evaluation")]
+from inside import Inside  # noqa: E402
 from png_files import png_of  # noqa: E402
 from common import BIN, TEST_BIN, accepted, end, fail, refused  # noqa: E402
 
@@ -267,8 +269,10 @@ def evaluation():
         refused(INPUT, "trax-eval", "-q", f"./{name}", ".", "-o", "other/out")
         os.remove(name)
     write("results.json", "{}")
-    for name in ["results.json", *spellings("results.json")]:
-        refused(INPUT, "trax-eval", "report", "results.json", "-o", name)
+    refused(INPUT, "trax-eval", "report", "results.json", "-o", "results.json")
+    inside = Inside(pathlib.Path(BIN).resolve())
+    for name in spellings("results.json"):
+        refused(INPUT, inside, "report", "results.json", "-o", name)
     for words in (["small.json", ".", "-o", ""], ["report", "results.json", "-o", ""]):
         refused("is empty", "trax-eval", *words)
 

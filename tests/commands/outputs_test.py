@@ -87,8 +87,9 @@ def kind_of(path):
     return stat.S_IFMT(status.st_mode), status.st_ino, status.st_rdev
 
 
-def special(words, option, ending):
-    """What is no regular file is what it was, and the output has gone through it."""
+def special(number, words, option, ending):
+    """What is no regular file is what it was, and the output has gone through it. The compiler's outputs, which all go
+    one way, take two kinds each by turns."""
     shown = f"{' '.join(words)} {' '.join(option('X'))}"
     for path in ("link", "dangling", "fifo", "device", "far"):
         if os.path.lexists(path + ending):
@@ -104,6 +105,8 @@ def special(words, option, ending):
         places += [f"device{ending}", f"far{ending}"]
     except PermissionError:
         pass  # only root makes devices
+    if words[0] == "clang" and not os.environ.get("TRAX_WHOLE"):
+        places = [places[number % len(places)], places[(number + 2) % len(places)]]
     for path in places:
         before, got = kind_of(path), []
         reader = threading.Thread(target=lambda: got.append(contents(path)), daemon=True)
@@ -116,7 +119,8 @@ def special(words, option, ending):
             reader.join(20)
             if not got or not got[0]:
                 fail(f"{shown}: nothing came through the pipe")
-    if contents("target") == b"old" or not os.path.exists("absent"):
+    if any(path.startswith("link") and contents("target") == b"old" or
+           path.startswith("dangling") and not os.path.exists("absent") for path in places):
         fail(f"{shown}: nothing was written through a link")
     write("absent", "")
     os.remove("absent")
@@ -226,8 +230,8 @@ with tempfile.TemporaryDirectory() as directory:
     os.chdir(directory)
     os.environ["XDG_CACHE_HOME"] = f"{directory}/cache"
     prepare()
-    for each in outputs():
-        special(*each)
+    for number, each in enumerate(outputs()):
+        special(number, *each)
         full(*each)
     for part in (failures, inputs, closed):
         part()

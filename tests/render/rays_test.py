@@ -122,8 +122,8 @@ def corner_occlusion():
 
 def compare_occlusion():
     """With everything else that a picture may have: the same bits from all three programs, and Embree's picture."""
-    for parts, words in ((0, []), (63, []), (63, ["--samples", "4",
-                                                  "--smooth"]), (63, ["--one-sided", "--float", "--seed", "7"])):
+    for parts, words in ((0, []), (63, ["--samples", "4", "--smooth"]),
+                         (63, ["--one-sided", "--float", "--seed", "7"])):
         call("../tests/bin/render-gallery", "made", parts)
         words = [
             "made/gallery.trax", *words, "--occlusion", "4", "--ambient", "0.6", "--occlusion-reach", "0.3", "--size",

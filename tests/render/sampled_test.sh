@@ -56,8 +56,8 @@ done
 
 # --- one queue for all TMs, and more queues than TMs
 for queues in 1 5; do
-  render exact --size 320x180 --config 2x32 --queues $queues
-  render some --size 320x180 --config 2x32 --queues $queues --sampled --sample-fraction 0.2
+  render exact --size 240x136 --config 2x32 --queues $queues
+  render some --size 240x136 --config 2x32 --queues $queues --sampled --sample-fraction 0.2
   is "$(number some.json cycles) / $(number exact.json cycles) < 1.1 && $(number some.json cycles) / $(number exact.json cycles) > 0.9" ||
     fail "$queues queues: far off: $(number some.json cycles) for $(number exact.json cycles)"
   [ "$(number some.json queues)" = $queues ] || fail "$queues queues: $(number some.json queues)"
@@ -89,8 +89,8 @@ is "$(number fine.json cycles_high) <= 1.030001 * $(number fine.json cycles)" ||
 
 # --- another order of pixels; a program that counts them nowhere
 if [ -e "$bin/../lib/trax/trax-era.elf" ]; then
-  render exact --size 320x180 --config 1x32 --program "$bin/../lib/trax/trax-era.elf"
-  render some --size 320x180 --config 1x32 --program "$bin/../lib/trax/trax-era.elf" --sampled --sample-fraction 0.2
+  render exact --size 240x136 --config 1x32 --program "$bin/../lib/trax/trax-era.elf"
+  render some --size 240x136 --config 1x32 --program "$bin/../lib/trax/trax-era.elf" --sampled --sample-fraction 0.2
   is "$(number some.json cycles) / $(number exact.json cycles) < 1.1 && $(number some.json cycles) / $(number exact.json cycles) > 0.9" ||
     fail "era: far off: $(number some.json cycles) for $(number exact.json cycles)"
   [ "$(number some.json rays)" = "$(number exact.json rays)" ] || fail "era: $(number some.json rays) rays, not $(number exact.json rays)"

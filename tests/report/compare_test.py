@@ -52,7 +52,7 @@ def setUpModule():
     for name, chip in CHIPS.items():
         subprocess.run([
             BIN / "trax-render", SOURCE / "tests/render/box.obj", "--view", SOURCE / "tests/render/box.view", "--size",
-            "48x27", "--mark-rays", "--cache", "cache", *chip, "--explore", f"{name}.html", "--stats", f"{name}.json",
+            "48x27", "--mark-rays", *chip, "--explore", f"{name}.html", "--stats", f"{name}.json",
             "-o", f"{name}.png", "-q"
         ], cwd=Scratch.folder, check=True)
     Scratch.runs = {name: Run(Scratch.folder / f"{name}.json") for name in CHIPS}
@@ -196,7 +196,7 @@ class Properties(Scratch):
 
     def test_random_statistics(self):
         chance = random.Random(35)
-        for _ in range(60 if WHOLE else 20):
+        for _ in range(60 if WHOLE else 10):
             pair = []
             for name in ("x.json", "y.json"):
                 stats = copy.deepcopy(self.runs["a"].stats)
@@ -216,7 +216,7 @@ class Properties(Scratch):
         chance, original = random.Random(36), json.loads((self.folder / "a.json").read_text())
         names = [name for name, _ in flat(original) if name not in HOST]
         few = [name for name in names if not name.startswith("tms.")]
-        for name in (few if WHOLE else chance.sample(few, 60)) + chance.sample(names, 15):
+        for name in (few if WHOLE else chance.sample(few, 30)) + chance.sample(names, 10):
             stats = copy.deepcopy(original)
             *way, last = (int(part) if part.isdecimal() else part for part in name.split("."))
             owner = stats

@@ -31,7 +31,7 @@ HOSTILE = "<img src=x onerror=alert(1)> & </script>.obj".replace("/", "\u2044")
 def render(folder, *words, check=True, mesh=None):
     command = [
         BIN / "trax-render", mesh or SOURCE / "tests/render/box.obj", "--view", SOURCE / "tests/render/box.view",
-        "--size", f"{WIDTH}x{HEIGHT}", *([] if "--program" in words else ["--cache", folder / "cache"]), "-q", *words
+        "--size", f"{WIDTH}x{HEIGHT}", "-q", *words
     ]
     return subprocess.run(command, cwd=folder, check=check, capture_output=not check, text=True)
 

@@ -140,12 +140,12 @@ def main():
     options.bin = os.path.abspath(options.bin)
     begin, failures, runs = time.monotonic(), [], 0
     with tempfile.TemporaryDirectory() as folder:
-        programs = build(options.bin, os.path.join(folder, "programs"))
         short = build(options.bin, os.path.join(folder, "short"), rounds=1)
+        programs = short if options.short else build(options.bin, os.path.join(folder, "programs"))
         print(f"{'machine':<27}" + "".join(f"{name:>13}" for name, _ in programs) + f"{'random':>8}")
         for number, (machine, chip, keys) in enumerate(MACHINES):
             cells, left_out = [], {name for name, _ in C_PROGRAMS[1:]} - {C_PROGRAMS[1 + number % 3][0]}
-            for name, path in short if options.short or chip[0] * chip[1] > 1000 else programs:
+            for name, path in short if chip[0] * chip[1] > 1000 else programs:
                 large, in_assembly = chip[0] * chip[1] > 1000, name in dict(ASSEMBLY)
                 if options.short and (large and not in_assembly or in_assembly and number % 3 != 1 or
                                       name in left_out):

@@ -309,12 +309,7 @@ static void as_asked(void **state) {
 static void large_sizes(void **state) {
   (void)state;
   struct run exact = exact_run();
-  const uint32_t sizes[][2] = {{UINT32_MAX, 0},
-                               {UINT32_MAX, 128},
-                               {64, UINT32_MAX},
-                               {UINT32_MAX, UINT32_MAX},
-                               {UINT32_MAX - 7, UINT32_MAX - 7},
-                               {64, UINT32_MAX - ITEMS}};
+  const uint32_t sizes[][2] = {{UINT32_MAX, 0}, {UINT32_MAX - 7, UINT32_MAX - 7}, {64, UINT32_MAX - ITEMS}};
   for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
     trax_slot_sampling asked = some;
     asked.unit = sizes[i][0];
