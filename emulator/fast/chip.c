@@ -43,7 +43,7 @@ static enum trax_advance run_cycle(struct trax_chip *chip, uint64_t *t) {
   bool faulted = false;
   for (uint32_t i = 0; i < chip->tms; i++)
     if (chip->tm[i].next_cycle <= *t) {
-      chip->variant->cycle(chip, i, *t);
+      chip->variant->cycle(&chip->tm[i], *t);
       faulted |= chip->tm[i].fault.kind != TRAX_FAULT_NONE;
     }
   trax_memory_cycle(&chip->memory, chip->tm, &chip->machine->space, *t);
@@ -122,7 +122,7 @@ static enum trax_advance advance(void *context, uint64_t *t, uint64_t until) {
     if (chip->end)
       break;
     *t = *t < until ? *t : until;
-    chip->machine->fast_path.single_cycles += chip->tms > 1 && !chip->alone ? *t - before : 0;
+    chip->single_cycles += chip->tms > 1 && !chip->alone ? *t - before : 0;
   }
   if (*t >= until)
     commit(chip); /* a watch may see memory and output */
@@ -134,10 +134,6 @@ static enum trax_advance advance(void *context, uint64_t *t, uint64_t until) {
 }
 
 /* --- between cycles --- */
-
-static void collect(void *context) {
-  trax_fast_collect(context);
-}
 
 static void settle(void *context, uint64_t t) {
   struct trax_chip *chip = context;
@@ -151,10 +147,7 @@ static void settle(void *context, uint64_t t) {
     trax_fast_settle_rays(&chip->tm[i]);
     chip->tm[i].stats->queue_peak = chip->tm[i].queue.peak;
   }
-}
-
-static void export_state(void *context) {
-  trax_fast_roll_back(context);
+  trax_fast_report(chip, t);
 }
 
 static void import_state(void *context, uint64_t t) {
@@ -205,7 +198,7 @@ static uint32_t queued(const void *context, uint32_t tm, uint64_t t) {
   {                                                                                                                    \
     .name = NAME, .meaning = MEANING, .is_possible = IS_POSSIBLE, .is_timed = true, .is_observed = true,               \
     .counts_rays = true, .create = create, .destroy = trax_chip_destroy, .advance = advance, .commit = commit,         \
-    .collect = collect, .settle = settle, .export_state = export_state, .import_state = import_state,                  \
+    .collect = trax_fast_collect, .settle = settle, .export_state = trax_fast_roll_back, .import_state = import_state, \
     .thread = thread, .set_pc = set_pc, .progressed = progressed, .queued = queued, .visit = trax_state_visit,         \
     .check = trax_state_check                                                                                          \
   }

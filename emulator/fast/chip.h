@@ -33,7 +33,9 @@ struct trax_chip {
   /* One thread is left, and no increment is under way: nobody else accesses memory, so that bursts may store. */
   bool alone;
   struct trax_epochs *epochs; /* if its TMs run ahead of each other; else NULL */
-  uint64_t end;                 /* when all threads have ended: the cycle in which the last transfer is over; else 0 */
+  /* For the report, if there are several TMs: cycles outside epochs, and of these before a stop; epochs given up. */
+  uint64_t single_cycles, short_epochs, conflicts;
+  uint64_t end; /* when all threads have ended: the cycle in which the last transfer is over; else 0 */
 };
 
 /* Returns the number of threads that have not ended. */
@@ -48,9 +50,11 @@ trax_status trax_chip_create(struct trax_run *run, const struct trax_fast_varian
 void trax_chip_destroy(void *chip); /* may be NULL */
 
 /* Adds the instructions executed since the latest call to the TMs' statistics, with those that have not been issued. */
-void trax_fast_collect(struct trax_chip *chip);
+void trax_fast_collect(void *chip);
 /* Completes statistics and charges for the cycles that are over. */
 void trax_fast_settle(struct trax_chip *chip);
+/* Reports how often the run of so many cycles left the fast path. */
+void trax_fast_report(const struct trax_chip *chip, uint64_t cycles);
 /* With trax_tm.ray_counts: counts the cycles of rays after the issue of a trap, and up to now, for a TM that has been
    settled. */
 void trax_fast_count_rays(struct trax_tm *tm, unsigned number, int32_t code, uint32_t value);

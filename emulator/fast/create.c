@@ -21,18 +21,11 @@ static void *create_aligned(size_t count, size_t size) {
   return array ? memset(array, 0, bytes) : NULL;
 }
 
-static void prepare_units(struct trax_fast_units *unit, const struct trax_shared_unit *first,
-                          const struct trax_shared_unit *second) {
-  const struct trax_shared_kind *const kinds[2] = {&first->kind, &second->kind};
-  unit->group_size = first->kind.group_size;
-  unit->even = 64 % unit->group_size == 0 && kinds[1]->group_size == unit->group_size && kinds[0]->per_group == 1 &&
-               kinds[1]->per_group == 1;
-  for (unsigned kind = 0; kind < 2; kind++) {
-    unit->uneven[kind].groups = kinds[kind]->groups;
-    unit->uneven[kind].per_group = kinds[kind]->per_group;
-    for (uint32_t i = 0; i < kinds[kind]->groups; i++)
-      unit->uneven[kind].group[i] = trax_group_mask(i, kinds[kind]->group_size);
-  }
+static void prepare_units(struct trax_fast_units *unit, const struct trax_shared_kind *first,
+                          const struct trax_shared_kind *second) {
+  unit->group_size = first->group_size;
+  unit->even = 64 % unit->group_size == 0 && second->group_size == unit->group_size && first->per_group == 1 &&
+               second->per_group == 1;
   for (uint32_t i = unit->group_size - 1; unit->even && i < 64; i += unit->group_size)
     unit->top |= (uint64_t)1 << i;
   unit->below_top = ~unit->top;
@@ -70,8 +63,7 @@ static bool create_units(struct trax_tm *tm) {
   for (trax_shared unit = 0; unit < TRAX_SHARED_COUNT; unit++)
     if (!trax_shared_unit_create(&tm->unit[unit], unit, tm->config))
       return false;
-  prepare_units(&tm->fp, &tm->unit[TRAX_SHARED_FP_ADD], &tm->unit[TRAX_SHARED_FP_MUL]);
-  prepare_units(&tm->int_mul, &tm->unit[TRAX_SHARED_INT_MUL], &tm->unit[TRAX_SHARED_INT_MUL]);
+  prepare_units(&tm->fp, &tm->unit[TRAX_SHARED_FP_ADD].kind, &tm->unit[TRAX_SHARED_FP_MUL].kind);
   return true;
 }
 

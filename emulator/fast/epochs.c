@@ -1,12 +1,12 @@
 #include "fast/epochs.h"
 
 #include "fast/chip.h"
-#include "fast/pool.h"
 #include "fast/schedule.h"
 #include "fast/state.h"
 #include "fast/store_buffer.h"
 #include "fast/time/variant.h"
 #include "trax/grow.h"
+#include "trax/pool.h"
 
 #include <assert.h>
 #include <stdlib.h>
@@ -327,7 +327,7 @@ bool trax_epochs_advance(struct trax_epochs *epochs, uint64_t *t, uint64_t until
     until = epochs->cautious_from;
   const bool cautious = *t >= epochs->cautious_from && *t < epochs->cautious_until;
   if (cautious || until - *t < LEAST_EPOCH) {
-    chip->machine->fast_path.short_epochs += !cautious;
+    chip->short_epochs += !cautious;
     trax_epochs_commit(epochs); /* writes outside epochs are not recorded, and so cannot be undone */
     return false;
   }
@@ -360,7 +360,7 @@ bool trax_epochs_advance(struct trax_epochs *epochs, uint64_t *t, uint64_t until
     return true;
   }
   roll_back(epochs);
-  chip->machine->fast_path.conflicts++;
+  chip->conflicts++;
   epochs->cautious_from = *t; /* the epochs up to this one will give the same results again */
   epochs->cautious_until = epochs->end + epochs->pause;
   if (epochs->pause < LONGEST_PAUSE)
@@ -375,7 +375,6 @@ trax_status trax_epochs_create(struct trax_chip *chip, unsigned threads, trax_er
     threads = trax_host_processors();
   if (threads > chip->tms)
     threads = chip->tms;
-  chip->machine->fast_path.no_epochs = length < LEAST_EPOCH;
   if (chip->tms < 2 || length < LEAST_EPOCH || chip->machine->observer)
     return TRAX_OK;
   struct trax_epochs *epochs = chip->epochs = calloc(1, sizeof *epochs);

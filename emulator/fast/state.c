@@ -117,7 +117,6 @@ static void visit_tm(const struct visitor *visitor, struct trax_tm *tm) {
   for (unsigned i = 0; i < TRAX_SHARED_COUNT; i++)
     visit_unit(visitor, &tm->unit[i]);
   VISIT_ALL(trax_fast_units, &tm->fp, 1);
-  VISIT_ALL(trax_fast_units, &tm->int_mul, 1);
   VISIT_NUMBERS(trax_fast_lanes, tm->fetch_rr_masks, (size_t)tm->icaches * tm->vectors);
   for (uint32_t i = 0; i < tm->icaches; i++)
     visit_icache(visitor, &tm->icache[i], tm->tps);

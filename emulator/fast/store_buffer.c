@@ -25,7 +25,7 @@ static bool grow(struct trax_store_buffer *buffer, void **array, size_t count, s
   return enough;
 }
 
-static void record_write(struct trax_store_buffer *buffer, struct trax_store_buffer_write write) {
+void trax_store_buffer_record(struct trax_store_buffer *buffer, struct trax_store_buffer_write write) {
   if (grow(buffer, (void **)&buffer->writes, buffer->write_count, &buffer->write_capacity, sizeof *buffer->writes))
     buffer->writes[buffer->write_count++] = write;
 }
@@ -51,7 +51,7 @@ uint32_t trax_store_buffer_load(struct trax_store_buffer *buffer, const struct t
 
 void trax_store_buffer_store(struct trax_store_buffer *buffer, uint64_t t, uint32_t address, uint32_t value,
                              unsigned bytes) {
-  record_write(buffer, (struct trax_store_buffer_write){t, address, value, bytes});
+  trax_store_buffer_record(buffer, (struct trax_store_buffer_write){t, address, value, bytes});
   struct trax_store_buffer_word *own =
       (struct trax_store_buffer_word *)trax_map_put(&buffer->words, sizeof *own, address & ~3u, 0);
   if (!own) {
@@ -62,14 +62,6 @@ void trax_store_buffer_store(struct trax_store_buffer *buffer, uint64_t t, uint3
   const uint32_t mask = (bytes < 4 ? (1u << 8 * bytes) - 1 : ~0u) << shift;
   own->entry.value = (own->entry.value & ~mask) | (value << shift & mask);
   own->mask |= mask;
-}
-
-void trax_store_buffer_increment(struct trax_store_buffer *buffer, uint64_t t, uint32_t address) {
-  record_write(buffer, (struct trax_store_buffer_write){.cycle = t, .address = address});
-}
-
-void trax_store_buffer_print(struct trax_store_buffer *buffer, uint64_t t, uint32_t character) {
-  record_write(buffer, (struct trax_store_buffer_write){.cycle = t, .value = character, .bytes = TRAX_PRINT});
 }
 
 void trax_store_buffer_request(struct trax_store_buffer *buffer, uint64_t t) {

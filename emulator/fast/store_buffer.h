@@ -45,10 +45,8 @@ uint32_t trax_store_buffer_load(struct trax_store_buffer *buffer, const struct t
                                 unsigned bytes);
 void trax_store_buffer_store(struct trax_store_buffer *buffer, uint64_t t, uint32_t address, uint32_t value,
                              unsigned bytes);
-/* Records the issue of an atomic increment. */
-void trax_store_buffer_increment(struct trax_store_buffer *buffer, uint64_t t, uint32_t address);
-/* Records a character that the program prints. */
-void trax_store_buffer_print(struct trax_store_buffer *buffer, uint64_t t, uint32_t character);
+/* Records the issue of an atomic increment, or a character that the program prints. */
+void trax_store_buffer_record(struct trax_store_buffer *buffer, struct trax_store_buffer_write write);
 /* Records a request, which has taken a place in the memory queue. */
 void trax_store_buffer_request(struct trax_store_buffer *buffer, uint64_t t);
 

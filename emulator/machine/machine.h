@@ -5,10 +5,10 @@
 
 #include "machine/address_space.h"
 #include "machine/config.h"
-#include "machine/fast_path.h"
 #include "machine/fault.h"
 #include "machine/host_call.h"
 #include "machine/observer.h"
+#include "machine/slow_paths.h"
 #include "machine/stats.h"
 #include "machine/transfers.h"
 #include "trax/emulator.h"
@@ -50,7 +50,7 @@ struct trax_machine {
   int32_t *exit_statuses;         /* [threads] */
   struct trax_ray_cycles *ray_cycles; /* NULL: not counted (machine/ray_cycles.h) */
 
-  struct trax_fast_path fast_path; /* statistics of the fast engine itself, not of the simulated machine */
+  struct trax_slow_paths slow_paths;
 
   struct trax_run *run; /* from the beginning to the end of a run; else NULL */
   void (*run_destroy)(struct trax_machine *machine);

@@ -385,7 +385,7 @@ void trax_stats_print(const trax_machine *machine, FILE *out) {
   print_shares(machine, out);
   print_group(machine, out, "Beyond the TMs", TRAX_GROUP_MEMORY, !machine->config.l2.bytes);
   print_channels(machine, out);
-  trax_fast_path_print(machine, out);
+  trax_slow_paths_print(machine, out);
   fprintf(out, "\nConfiguration\n");
   trax_config_print(&machine->config, out);
 }

@@ -57,7 +57,7 @@ struct json_t *trax_config_json(const struct trax_config *config);
 /* The share of the cycles in which a channel's bus was busy. */
 double trax_stats_channel_utilisation(const trax_machine *machine, uint32_t channel);
 
-/* Prints which parts of a run left the fast engine's fast path, and why. */
-void trax_fast_path_print(const struct trax_machine *machine, FILE *out);
+/* Prints the slow paths of a run, if its engine reports them. */
+void trax_slow_paths_print(const struct trax_machine *machine, FILE *out);
 
 #endif

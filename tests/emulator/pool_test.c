@@ -1,4 +1,4 @@
-/* The pool of host threads (emulator/fast/pool.h): all work is done once a round, and who waits for long sleeps. */
+/* The pool of host threads (trax/pool.h): all work is done once a round, and who waits for long sleeps. */
 #define _POSIX_C_SOURCE 200809L
 #include <setjmp.h>
 #include <stdarg.h>
@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "fast/pool.h"
+#include "trax/pool.h"
 
 #include <dirent.h>
 #include <stdatomic.h>

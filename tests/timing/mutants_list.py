@@ -135,9 +135,9 @@ MUTANTS = [
     ("fast/time/masks.h",
      "const trax_fast_pair among = preferred | (requesters & ~((have - (have >> to_first)) | have));",
      "const trax_fast_pair among = (preferred & ~have) | requesters;"),
-    ("fast/time/masks.h", "(group & ~(winner | (winner - 1)))", "(group & ~(winner - 1))"),
-    ("fast/time/masks.h", "for (uint32_t unit = units->uneven[kind].per_group; unit && all; unit--) {",
-     "for (uint32_t unit = 1; unit && all; unit--) {"),
+    ("fast/time/grant.h", "trax_arbiter_grant(&unit->arbiter[group], all, kind->per_group)",
+     "trax_arbiter_grant(&unit->arbiter[group], all, 1)"),
+    ("fast/time/alone.c", "    trax_arbiter_to_back(&unit->arbiter[group], number);", "    (void)unit;"),
     ("fast/time/cycle.c", "for (uint32_t port = 0; port < ports; port++)",
      "for (uint32_t port = 0; port < ports && port < 1; port++)"),
     # --- steps 1 and 2 ---
@@ -148,10 +148,10 @@ MUTANTS = [
     ("fast/time/cycle.c", "tm->busy_registers[number] &= ~waits;", "tm->busy_registers[number] = 0;"),
     ("fast/time/cycle.c", "if (inst->resource == TRAX_RESOURCE_END || ", "if ("),
     # --- steps 3 and 4 ---
-    ("fast/time/cycle.c", "const unsigned pointer = tm->queue_arbiter;", "const unsigned pointer = 0;"),
-    ("fast/time/cycle.c", "won & tm->load_hits & ~tm->executes_at_issue;", "won & tm->load_hits;"),
-    ("fast/time/cycle.c", "if (!tm->serial_hits && !tm->chip->alone)", "if (!tm->chip->alone)"),
-    ("fast/time/cycle.c", "if (!tm->serial_hits && !tm->chip->alone)", "if (!tm->serial_hits)"),
+    ("fast/time/grant.h", "const unsigned pointer = tm->queue_arbiter;", "const unsigned pointer = 0;"),
+    ("fast/time/grant.h", "won & tm->load_hits & ~tm->executes_at_issue;", "won & tm->load_hits;"),
+    ("fast/time/grant.h", "if (!tm->serial_hits && !tm->chip->alone)", "if (!tm->chip->alone)"),
+    ("fast/time/grant.h", "if (!tm->serial_hits && !tm->chip->alone)", "if (!tm->serial_hits)"),
     # Whether the next load's line is resident: after arrivals, evictions and fences.
     ("fast/time/cycle.c", "    trax_fast_find_line(tm, trax_first(rest));", "    (void)tm;"),
     ("fast/time/cycle.c", "uint32_t set_mask = tags->set_mask << tags->line_shift;",
@@ -180,9 +180,9 @@ MUTANTS = [
     ("fast/tm/tp.c", "address <= tp->run_end && address + bytes >= tp->run_begin",
      "address <= tp->run_end && address + bytes > tp->run_begin"),
     ("fast/tm/dcache.c", "trax_arbiter_to_back(&tm->queue_arbiter, number);", ""),
-    ("fast/time/cycle.c", "trax_fast_head_timing(tm, trax_first(winner))->decoded->op",
+    ("fast/time/grant.h", "trax_fast_head_timing(tm, trax_first(winner))->decoded->op",
      "trax_fast_head_timing(tm, trax_first(all))->decoded->op"),
-    ("fast/time/cycle.c", "if (free_from[i] <= t)", "if (free_from[i] <= t + 1)"),
+    ("fast/time/grant.h", "if (free_from[i] <= t)", "if (free_from[i] <= t + 1)"),
     ("fast/memory/memory.c", "channel->free_from.cycle >= t ? channel->free_from : (struct trax_instant){t, 0}",
      "(struct trax_instant){t, 0}"),
     ("fast/memory/memory.c", "return channel->free_from.cycle <= t;",
@@ -221,12 +221,12 @@ MUTANTS = [
     ("machine/text.c", "(trax_group_b(flags) - 1) & 15 : 0", "(trax_group_b(flags) - 2) & 15 : 0"),
     ("machine/text.c", "if (trax_lacks_unit(inst.op, config))", "if (0)"),
     # The special units have one round robin.
-    ("fast/time/cycle.c", "trax_arbiter_grant(&unit->arbiter[group], all & ~winners, 1)",
+    ("fast/time/grant.h", "trax_arbiter_grant(&unit->arbiter[group], all & ~winners, 1)",
      "trax_arbiter_grant(&(trax_arbiter){unit->arbiter[group]}, all & ~winners, 1)"),
     # When a TM goes back, so do they.
     ("fast/state.c", "unit->free_from, trax_shared_unit_count(unit));", "unit->free_from, 0);"),
     # As many operations are accepted as units are free.
-    ("fast/time/cycle.c", "i < kind->per_group && all & ~winners;",
+    ("fast/time/grant.h", "i < kind->per_group && all & ~winners;",
      "i < kind->per_group && i < 1 && all & ~winners;"),
     # The winner goes to the back.
     ("fast/tm/arbiter.h", "(uint8_t)((winner + 1) & 63)",
@@ -319,13 +319,13 @@ MUTANTS = [
     ("fast/time/cycle.c", "pc % 4 ? TRAX_FAULT_MISALIGNED_PC : TRAX_FAULT_EXECUTE",
      "TRAX_FAULT_EXECUTE"),
     # Losers of integer multipliers are charged.
-    ("fast/time/cycle.c", "refused->unit[TRAX_SHARED_INT_MUL] = requesters & ~won;",
-     "refused->unit[TRAX_SHARED_INT_MUL] = requesters & ~won & ~(requesters & -requesters);"),
+    ("fast/time/grant.h", "return requesters & ~winners;",
+     "return requesters & ~winners & ~(requesters & -requesters);"),
     # A refused access is charged to the queue.
-    ("fast/time/cycle.c", "trax_tm_charge(tm, number, refused);\n    return false;",
+    ("fast/time/grant.h", "trax_tm_charge(tm, number, refused);\n    return false;",
      "return false;"),
     # Carries of the counters of conflicts.
-    ("fast/time/cycle.c", "(*(SUM)&one_) | (either_ & other_)",
+    ("fast/time/masks.h", "(*(SUM)&one_) | (either_ & other_)",
      "(*(SUM)&one_)"),
     # Round robin of banks.
     ("fast/time/masks.h", "-(*(WINNERS) + *(WINNERS)) |",
@@ -506,14 +506,14 @@ MUTANTS = [
     # --- Line fills ---
     ("fast/tm/dcache.c", "(*end > t ? *end : t) + config->dcache.fill_cycles", "t + config->dcache.fill_cycles"),
     ("fast/tm/dcache.c", "i < words && i < dcache->banks; i++", "i < dcache->banks; i++"),
-    ("fast/time/cycle.c", "tm->dcache.fills_end[bank] > t", "tm->dcache.fills_end[bank] > t + 1"),
+    ("fast/time/grant.h", "tm->dcache.fills_end[bank] > t", "tm->dcache.fills_end[bank] > t + 1"),
     ("reference/data_cache.c", "filling ? -1 : ", "filling && !filling ? -1 : "),
     # --- One TP, one thread ---
     ("fast/time/alone.c", "used.data_banks |= (uint64_t)1 << (step >> TRAX_STEP_BANK_SHIFT & 63);", ";"),
     ("fast/time/alone.c", "used.fetch_banks |= (uint64_t)1 << (step >> TRAX_STEP_FETCH_SHIFT);", ";"),
     ("fast/time/alone.c", "used.kinds |= 1u << (kind >> 1);", ";"),
-    ("fast/time/alone.c", "completion < end)\n    end =", "completion < end)\n    end +="),
-    ("fast/time/alone.c", "if (t + trax_first(rotated) < end)", "if (0)"),
+    ("fast/tm/tm.c", "completion < end)\n    end =", "completion < end)\n    end +="),
+    ("fast/tm/tm.c", "if (t + trax_first(rotated) < end)", "if (0)"),
     ("fast/time/alone.c", "    last = tm->heads.check_at[number];", "    last = tm->heads.last[number];"),
     ("fast/time/alone.c", "tm->dcache.all_fills_end > t ||", "0 ||"),
     ("fast/time/alone.c", "(tp->run_begin != tp->run_end && !trax_tp_combines(", "(0 && !trax_tp_combines("),

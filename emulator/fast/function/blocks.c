@@ -68,7 +68,8 @@ static void roll_back_tp(struct trax_chip *chip, struct trax_tm *tm, unsigned nu
   tm->told[number] = 0;
 }
 
-void trax_fast_roll_back(struct trax_chip *chip) {
+void trax_fast_roll_back(void *context) {
+  struct trax_chip *chip = context;
   for (uint32_t i = 0; i < chip->tms; i++)
     for (unsigned tp = 0; tp < chip->tm[i].tps; tp++)
       roll_back_tp(chip, &chip->tm[i], tp);

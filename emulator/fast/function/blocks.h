@@ -50,6 +50,6 @@ void trax_fast_roll_back_readers(struct trax_tm *tm, uint32_t address);
 /* Records the loads of all bursts from WRITTEN blocks in the TM's store buffer, at the beginning of an epoch. */
 void trax_fast_record_readers(struct trax_tm *tm);
 /* Rolls every TP back to what it has issued; all heads execute at issue then. */
-void trax_fast_roll_back(struct trax_chip *chip);
+void trax_fast_roll_back(void *chip);
 
 #endif

@@ -2,12 +2,11 @@
 #ifndef TRAX_FAST_PROGRAM_H
 #define TRAX_FAST_PROGRAM_H
 
-#include "machine/fast_path.h"
 #include "machine/text.h"
 #include "machine/units.h"
 #include "translate/burst.h"
 
-enum { TRAX_FAST_LINES = TRAX_KNOWN_LINES + 1 /* entries of `resident`; the last one stands for all further lines */ };
+enum { TRAX_FAST_LINES = 1024 /* entries of `resident`; the last one stands for all further lines */ };
 
 /* The first kind of shared units that TRAX_STEP_FURTHER encodes. */
 #define TRAX_FAST_FURTHER ((unsigned)TRAX_SHARED_SPECIAL + 1)

@@ -8,13 +8,14 @@ struct used {
   unsigned kinds; /* bits TRAX_STEP_KIND >> 1 */
 };
 
-static void pass_unit(struct trax_fast_units *units, unsigned kind, unsigned number) {
-  if (units->even && units->group_size == 1)
-    return;
-  for (uint32_t i = 0; i < units->uneven[kind].groups; i++) {
-    const uint64_t group = units->uneven[kind].group[i];
-    if (group >> number & 1)
-      units->rr_masks[kind] = (units->rr_masks[kind] & ~group) | (group & (~(uint64_t)1 << number));
+static void pass_unit(struct trax_tm *tm, trax_shared which, unsigned number) {
+  struct trax_shared_unit *unit = &tm->unit[which];
+  const unsigned group = number / unit->kind.group_size;
+  if (which < TRAX_SHARED_INT_MUL && tm->fp.even) {
+    const uint64_t mask = trax_group_mask(group, tm->fp.group_size);
+    tm->fp.rr_masks[which] = (tm->fp.rr_masks[which] & ~mask) | (mask & (~(uint64_t)1 << number));
+  } else {
+    trax_arbiter_to_back(&unit->arbiter[group], number);
   }
 }
 
@@ -31,25 +32,9 @@ static void pass_arbiters(struct trax_tm *tm, unsigned number, const struct used
     set_fetch_rr_mask(tm, tm->icache_of[number], trax_first(rest), behind);
   for (uint64_t rest = used->data_banks; rest; rest &= rest - 1)
     ((uint64_t *)tm->data_bank_rr_masks)[trax_first(rest)] = behind;
-  if (used->kinds >> (TRAX_STEP_FP_ADD >> 1) & 1)
-    pass_unit(&tm->fp, 0, number);
-  if (used->kinds >> (TRAX_STEP_FP_MUL >> 1) & 1)
-    pass_unit(&tm->fp, 1, number);
-  if (used->kinds >> (TRAX_STEP_INT_MUL >> 1) & 1)
-    pass_unit(&tm->int_mul, 0, number);
-}
-
-/* Returns the first cycle from t on with an arrival or a wake-up, `end` if it comes first. */
-static uint64_t quiet_until(const struct trax_tm *tm, uint64_t t, uint64_t end) {
-  if (tm->queue.started && trax_queue_oldest(&tm->queue)->completion < end)
-    end = trax_queue_oldest(&tm->queue)->completion;
-  if (tm->wheel_occupied) {
-    const unsigned slot = t % TRAX_WHEEL; /* rotated so that bit 0 is cycle t */
-    const uint64_t rotated = slot ? tm->wheel_occupied >> slot | tm->wheel_occupied << (64 - slot) : tm->wheel_occupied;
-    if (t + trax_first(rotated) < end)
-      end = t + trax_first(rotated);
-  }
-  return end;
+  for (trax_shared unit = TRAX_SHARED_FP_ADD; unit <= TRAX_SHARED_INT_MUL; unit++)
+    if (used->kinds >> ((TRAX_STEP_FP_ADD >> 1) + unit) & 1)
+      pass_unit(tm, unit, number);
 }
 
 /* Serves a slow step if it is a store of the burst that needs no place in the memory queue. */
@@ -73,7 +58,7 @@ bool trax_fast_run_alone(struct trax_tm *tm, uint64_t t, uint64_t end) {
   if (((tm->holding | tm->executes_at_issue) >> number & 1) || tm->recheck || tm->serial_hits || tm->observer ||
       tm->dcache.all_fills_end > t || tm->ended >> number & 1)
     return false;
-  end = quiet_until(tm, t, end);
+  end = trax_tm_quiet_until(tm, t, end);
   unsigned at = tm->heads.at[number], last = tm->heads.last[number], load = tm->heads.load[number];
   if (((tm->busy | tm->uncertain) >> number & 1) && tm->heads.check_at[number] < last)
     last = tm->heads.check_at[number];

@@ -4,7 +4,8 @@
 
 #include <string.h>
 
-void trax_fast_collect(struct trax_chip *chip) {
+void trax_fast_collect(void *context) {
+  struct trax_chip *chip = context;
   for (uint32_t i = 0; i < chip->tms; i++) {
     struct trax_tm *tm = &chip->tm[i];
     int64_t count = 0;
@@ -117,25 +118,6 @@ static void count_unissued(struct trax_tm *tm, int64_t sign) {
       }
 }
 
-/* Reports how often the run left the fast path. */
-static void report_fast_path(const struct trax_chip *chip) {
-  struct trax_fast_path *path = &chip->machine->fast_path;
-  const struct trax_tm *first = &chip->tm[0]; /* all TMs are configured alike */
-  path->known = true;
-  path->text_lines = chip->program.lines;
-  path->observed = chip->burst == 1;
-  path->general_fetch = !first->simple_fetch;
-  path->uneven_units = !first->fp.even;
-  path->many_data_banks = first->data_banks > 2 * TRAX_FAST_LANES;
-  path->serial_hits = first->serial_hits;
-  path->looked_up = path->single_hits = path->at_issue = 0;
-  for (uint32_t i = 0; i < chip->tms; i++) {
-    path->looked_up += chip->tm[i].looked_up;
-    path->single_hits += chip->tm[i].single_hits;
-    path->at_issue += chip->tm[i].at_issue;
-  }
-}
-
 void trax_fast_settle(struct trax_chip *chip) {
   for (uint32_t i = 0; i < chip->tms; i++) {
     struct trax_tm *tm = &chip->tm[i];
@@ -145,7 +127,6 @@ void trax_fast_settle(struct trax_chip *chip) {
     count_unissued(tm, -1);
   }
   trax_fast_collect(chip);
-  report_fast_path(chip);
   for (uint32_t i = 0; i < chip->tms; i++) {
     count_local(chip->tm[i].stats);
     count_unissued(&chip->tm[i], 1);

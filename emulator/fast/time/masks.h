@@ -116,49 +116,72 @@ static inline bool trax_fast_count(struct trax_fast_refusal_counts *counts, cons
   return ++counts->logged == TRAX_FAST_LOG;
 }
 
-/* Shared units of two kinds. `even`: both kinds have the same groups, one unit for each, and the groups' size
-   divides 64. Then all groups are arbitrated at once. */
+/* As many counters as a vector of the host has: larger vectors would go through memory in parts. */
+enum { TRAX_FAST_PART = TRAX_FAST_VECTOR / 8 };
+typedef uint64_t trax_fast_counters __attribute__((vector_size(8 * TRAX_FAST_PART), may_alias));
+
+/* Adds two terms to a bit of each counter, a full adder; returns the carries to the next bit. */
+#define TRAX_FAST_ADD_TWO(SUM, ONE, OTHER)                                                                             \
+  (__extension__({                                                                                                     \
+    const trax_fast_counters one_ = (ONE), either_ = *(SUM) ^ one_, other_ = (OTHER);                                  \
+    const trax_fast_counters carry_ = (*(SUM)&one_) | (either_ & other_);                                              \
+    *(SUM) = either_ ^ other_;                                                                                         \
+    carry_;                                                                                                            \
+  }))
+
+static inline bool trax_fast_is_any(const trax_fast_counters *some) {
+  uint64_t any = 0;
+  for (unsigned i = 0; i < TRAX_FAST_PART; i++)
+    any |= (*some)[i];
+  return any != 0;
+}
+
+/* Adds the log to the planes of the counters from `first` on. */
+static __attribute__((unused)) void trax_fast_count_part(struct trax_fast_refusal_counts *counts, unsigned first) {
+  const trax_fast_counters none = {0};
+  trax_fast_counters log[TRAX_FAST_LOG], carry = none;
+  unsigned count = TRAX_FAST_LOG; /* number of terms of the current bit, at the beginning of the log */
+  for (unsigned i = 0; i < count; i++)
+    log[i] = *(const trax_fast_counters *)&counts->log[i][first];
+  for (unsigned bit = 0; bit < TRAX_FAST_LOG_BITS; bit++) {
+    trax_fast_counters sum = log[0];
+    count /= 2;
+    for (unsigned i = 0; i < count; i++)
+      log[i] = TRAX_FAST_ADD_TWO(&sum, log[2 * i + 1], log[2 * i + 2]);
+    carry = TRAX_FAST_ADD_TWO((trax_fast_counters *)&counts->planes[bit][first], sum, carry);
+  }
+  for (unsigned bit = TRAX_FAST_LOG_BITS; bit < 64 && trax_fast_is_any(&carry); bit++)
+    carry = TRAX_FAST_ADD_TWO((trax_fast_counters *)&counts->planes[bit][first], carry, none);
+}
+
+static __attribute__((unused)) void trax_fast_count_log(struct trax_fast_refusal_counts *counts) {
+  if (counts->logged < TRAX_FAST_LOG)
+    memset(counts->log[counts->logged], 0, (TRAX_FAST_LOG - counts->logged) * sizeof *counts->log);
+  for (unsigned first = 0; first < TRAX_FAST_COUNTERS; first += TRAX_FAST_PART)
+    trax_fast_count_part(counts, first);
+  counts->logged = 0;
+}
+
+/* The adders and multipliers. `even`: both kinds have the same groups, one unit for each, and the groups' size divides
+   64. Then all groups are arbitrated at once; otherwise their units are like those of other kinds (tm/unit.h). */
 typedef uint64_t trax_fast_pair __attribute__((vector_size(16)));
 
-#define TRAX_FAST_UNITS_STATE(X, S) X(S, trax_fast_pair, rr_masks, ) /* of all groups */
+#define TRAX_FAST_UNITS_STATE(X, S) X(S, trax_fast_pair, rr_masks, ) /* of all groups; only if `even` */
 struct trax_fast_units {
   uint32_t group_size;
   bool even;
   uint64_t top, below_top; /* if `even`: the last bit of each group, and the other bits */
   TRAX_FAST_UNITS_STATE(TRAX_FIELD, )
-  struct {
-    uint32_t groups, per_group;
-    uint64_t group[64];
-  } uneven[2];
 };
-
-static inline uint64_t trax_fast_grant_unevenly(struct trax_fast_units *units, unsigned kind, uint64_t requesters) {
-  uint64_t winners = 0, rr_mask = units->rr_masks[kind];
-  for (uint32_t i = 0; i < units->uneven[kind].groups; i++) {
-    const uint64_t group = units->uneven[kind].group[i];
-    uint64_t all = requesters & group;
-    for (uint32_t unit = units->uneven[kind].per_group; unit && all; unit--) {
-      const uint64_t preferred = all & rr_mask, among = preferred ? preferred : all, winner = among & -among;
-      winners |= winner;
-      all ^= winner;
-      rr_mask = (rr_mask & ~group) | (group & ~(winner | (winner - 1)));
-    }
-  }
-  units->rr_masks[kind] = rr_mask;
-  return winners;
-}
 
 /* Returns the last bits of the groups in which x has a bit. */
 static inline trax_fast_pair trax_fast_groups_of(const struct trax_fast_units *units, trax_fast_pair x) {
   return (((x & units->below_top) + units->below_top) | x) & units->top;
 }
 
-/* Returns the winner of each group. If `even`, this is TRAX_FAST_ARBITRATE for all groups at once. */
+/* Returns the winner of each group, by TRAX_FAST_ARBITRATE for all groups at once. Requires `even`. */
 static inline __attribute__((always_inline)) trax_fast_pair trax_fast_grant_units(struct trax_fast_units *units,
                                                                                   trax_fast_pair requesters) {
-  if (!units->even)
-    return (trax_fast_pair){trax_fast_grant_unevenly(units, 0, requesters[0]),
-                            trax_fast_grant_unevenly(units, 1, requesters[1])};
   if (units->group_size == 1)
     return requesters;
   if (units->group_size == 8) {

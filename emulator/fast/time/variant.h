@@ -7,13 +7,14 @@
 #include <stdint.h>
 
 struct trax_chip;
+struct trax_tm;
 struct trax_fast_refusal_counts;
 
 enum { TRAX_FAST_INTERLEAVED = 2 }; /* the most TMs that run_epoch interleaves */
 
 struct trax_fast_variant {
   /* Simulates a cycle of a TM, arrivals included, and sets its next_cycle. */
-  void (*cycle)(struct trax_chip *chip, uint32_t tm, uint64_t t);
+  void (*cycle)(struct trax_tm *tm, uint64_t t);
   /* Simulates an epoch (epochs.h): all cycles before `end` of the `count` TMs from `first` on, at most
      TRAX_FAST_INTERLEAVED. A TM that stops or faults is left at that cycle. */
   void (*run_epoch)(struct trax_chip *chip, uint32_t first, uint32_t count, uint64_t end);

@@ -92,18 +92,19 @@ static inline struct trax_request *trax_queue_first_waiting(const struct trax_qu
   return &queue->requests[index < queue->depth ? index : index - queue->depth];
 }
 
+/* Whether place `index` of a ring is one of the first `count` from the oldest one on. */
+static inline bool trax_queue_is_among(const struct trax_queue *queue, uint32_t index, uint32_t count) {
+  return (index < queue->oldest ? index + queue->depth : index) - queue->oldest < count;
+}
+
 /* Whether place `index` is taken. */
 static inline bool trax_queue_is_taken(const struct trax_queue *queue, uint32_t index) {
-  if (queue->heap)
-    return queue->requests[index].bytes != 0;
-  return (index < queue->oldest ? index + queue->depth : index) - queue->oldest < queue->count;
+  return queue->heap ? queue->requests[index].bytes != 0 : trax_queue_is_among(queue, index, queue->count);
 }
 
 /* Whether the taken place `index` has a request that has started. */
 static inline bool trax_queue_is_started(const struct trax_queue *queue, uint32_t index) {
-  if (queue->heap)
-    return queue->requests[index].completion != 0;
-  return (index < queue->oldest ? index + queue->depth : index) - queue->oldest < queue->started;
+  return queue->heap ? queue->requests[index].completion != 0 : trax_queue_is_among(queue, index, queue->started);
 }
 
 /* Frees the place of the request that arrives next. */

@@ -229,18 +229,20 @@ trax_cause trax_tm_serve(struct trax_tm *tm, unsigned number, uint64_t t) {
   return serve_others(tm, number, t) ? TRAX_CAUSE_ISSUED : TRAX_CAUSE_MEMORY_QUEUE;
 }
 
-uint64_t trax_tm_next_cycle(const struct trax_tm *tm, uint64_t t) {
-  if (tm->awake)
-    return t + 1;
-  uint64_t next = TRAX_NEVER;
-  if (tm->wheel_occupied) { /* rotated so that bit 0 is cycle t + 1 */
-    const unsigned slot = (t + 1) % TRAX_WHEEL;
-    const uint64_t rotated = slot ? tm->wheel_occupied >> slot | tm->wheel_occupied << (64 - slot) : tm->wheel_occupied;
-    next = t + 1 + trax_first(rotated);
+uint64_t trax_tm_quiet_until(const struct trax_tm *tm, uint64_t t, uint64_t end) {
+  if (tm->queue.started && trax_queue_oldest(&tm->queue)->completion < end)
+    end = trax_queue_oldest(&tm->queue)->completion;
+  if (tm->wheel_occupied) { /* rotated so that bit 0 is cycle t */
+    const unsigned slot = t % TRAX_WHEEL;
+    const uint64_t rotated = tm->wheel_occupied >> slot | tm->wheel_occupied << (-slot & 63);
+    if (t + trax_first(rotated) < end)
+      end = t + trax_first(rotated);
   }
-  if (tm->queue.started && trax_queue_oldest(&tm->queue)->completion < next)
-    next = trax_queue_oldest(&tm->queue)->completion;
-  return next;
+  return end;
+}
+
+uint64_t trax_tm_next_cycle(const struct trax_tm *tm, uint64_t t) {
+  return tm->awake ? t + 1 : trax_tm_quiet_until(tm, t + 1, TRAX_NEVER);
 }
 
 void trax_tm_settle(struct trax_tm *tm, uint64_t t) {

@@ -85,13 +85,12 @@ struct trax_tm {
   uint64_t *resident_lines;             /* [icaches]: the same as bits, for programs of at most 64 lines; else 0 */
   uint8_t icache_of[TRAX_MAX_TPS_PER_TM];
 
-  struct trax_fast_units fp;      /* adders, multipliers */
-  struct trax_fast_units int_mul; /* integer multipliers; the second kind is not used */
+  struct trax_fast_units fp;
   struct trax_dcache dcache;
   struct trax_queue queue;
   /* [TP]: the words of WRITTEN blocks from which its burst has loaded, as bits of trax_fast_word_bit; 0: none. */
   _Alignas(64) uint64_t watched[TRAX_MAX_TPS_PER_TM];
-  uint64_t looked_up, single_hits, at_issue; /* counters of machine/fast_path.h */
+  uint64_t looked_up, single_hits, at_issue; /* fetches, hits and instructions that were slow */
   struct trax_fast_refusal_counts refusal_counts;
   struct trax_shared_unit unit[TRAX_SHARED_COUNT];
   struct trax_fault fault; /* of the current cycle, of the lowest TP with one */
@@ -153,6 +152,8 @@ trax_cause trax_tm_serve(struct trax_tm *tm, unsigned tp, uint64_t t);
 /* Notifies the observer, which must exist, of the instruction that TP `tp` has just issued at pc. */
 void trax_tm_notify_issue(struct trax_tm *tm, unsigned tp, uint32_t pc, const struct trax_decoded *inst,
                           uint32_t next_pc);
+/* Returns the first cycle from t on, before `end`, with an arrival or a TP that wakes; else `end`. */
+uint64_t trax_tm_quiet_until(const struct trax_tm *tm, uint64_t t, uint64_t end);
 /* Returns the first cycle after t in which anything can happen in the TM. */
 uint64_t trax_tm_next_cycle(const struct trax_tm *tm, uint64_t t);
 

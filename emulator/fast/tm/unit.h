@@ -1,5 +1,5 @@
-/* Units that TPs share (docs/timing.md, "Units"). The kinds with special code have masks instead of arbiters
-   (time/masks.h). */
+/* Units that TPs share (docs/timing.md, "Units"). Adders and multipliers have masks instead of arbiters if these give
+   the same (time/masks.h). */
 #ifndef TRAX_FAST_UNIT_H
 #define TRAX_FAST_UNIT_H
 

@@ -1,7 +1,5 @@
 #define _GNU_SOURCE
-#include "fast/pool.h"
-
-#include "machine/machine.h"
+#include "trax/pool.h"
 
 #include <pthread.h>
 #include <sched.h>

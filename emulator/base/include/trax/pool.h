@@ -1,8 +1,8 @@
 /* A pool of host threads that process the same items again and again, in rounds. */
-#ifndef TRAX_FAST_POOL_H
-#define TRAX_FAST_POOL_H
+#ifndef TRAX_POOL_H
+#define TRAX_POOL_H
 
-#include "trax/emulator.h"
+#include "trax/status.h"
 
 #include <stdint.h>
 

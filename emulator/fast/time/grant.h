@@ -1,0 +1,199 @@
+/* Steps 3 and 4: units, banks and the memory queue are granted. Included by cycle.c. */
+#ifndef TRAX_FAST_GRANT_H
+#define TRAX_FAST_GRANT_H
+
+#include "fast/time/head.h"
+
+#define ALWAYS_INLINE inline __attribute__((always_inline))
+
+static inline unsigned count_bits(uint64_t mask) {
+  return (unsigned)__builtin_popcountll(mask);
+}
+
+/* Grants the banks of the data cache and returns the winners; bit: the planes of the banks' numbers. */
+static ALWAYS_INLINE uint64_t grant_banks(struct trax_tm *tm, const bool wide, uint64_t requesters, uint64_t *bit) {
+  const trax_fast_lanes none = {0}, even = {~(uint64_t)0, 0, ~(uint64_t)0, 0},
+                        lower = {~(uint64_t)0, ~(uint64_t)0, 0, 0};
+  /* Lane i: the TPs whose bank number has i in its lowest two bits. */
+  const trax_fast_lanes by_low_bits = ((none + bit[0]) ^ even) & ((none + bit[1]) ^ lower);
+  trax_fast_lanes winner;
+  if (__builtin_expect(tm->data_banks <= 2 * TRAX_FAST_LANES, true)) {
+    const trax_fast_lanes first = by_low_bits & (none + (requesters & ~bit[2]));
+    TRAX_FAST_ARBITRATE(trax_fast_lanes, &tm->data_bank_rr_masks[0], first, &winner);
+    if (tm->data_banks > TRAX_FAST_LANES) {
+      const trax_fast_lanes second = by_low_bits & (none + (requesters & bit[2]));
+      trax_fast_lanes other;
+      TRAX_FAST_ARBITRATE(trax_fast_lanes, &tm->data_bank_rr_masks[1], second, &other);
+      winner |= other;
+    }
+  } else {
+    winner = none;
+    trax_fast_transpose(&tm->heads, wide, TRAX_STEP_BANK_SHIFT + 3, 1, bit + 3);
+    trax_fast_transpose(&tm->heads, wide, TRAX_STEP_BANK_SHIFT + 4, 2, bit + 4);
+    for (uint32_t first = 0; first < tm->data_banks; first += TRAX_FAST_LANES) {
+      uint64_t requesting = requesters;
+      for (uint32_t k = 2; k < tm->data_bank_bits; k++)
+        requesting &= first >> k & 1 ? bit[k] : ~bit[k];
+      const trax_fast_lanes four = by_low_bits & (none + requesting);
+      trax_fast_lanes other;
+      TRAX_FAST_ARBITRATE(trax_fast_lanes, &tm->data_bank_rr_masks[first / TRAX_FAST_LANES], four, &other);
+      winner |= other;
+    }
+  }
+  return trax_fast_any(&winner);
+}
+
+/* Returns those of the TPs whose bank is being filled; the bits are planes of the banks' numbers. (Passed one by one,
+   since an array of them must not leave grant().) */
+static __attribute__((noinline)) uint64_t in_filling_banks(struct trax_tm *tm, uint64_t requesters, uint64_t bit0,
+                                                           uint64_t bit1, uint64_t bit2, uint64_t t) {
+  uint64_t bit[TRAX_FAST_BANK_BITS] = {bit0, bit1, bit2};
+  uint64_t found = 0;
+  trax_fast_transpose(&tm->heads, tm->wide, TRAX_STEP_BANK_SHIFT + 3, 1, bit + 3);
+  trax_fast_transpose(&tm->heads, tm->wide, TRAX_STEP_BANK_SHIFT + 4, 2, bit + 4);
+  for (uint32_t bank = 0; bank < tm->data_banks; bank++)
+    if (tm->dcache.fills_end[bank] > t) {
+      uint64_t here = requesters;
+      for (uint32_t k = 0; k < tm->data_bank_bits; k++)
+        here &= bank >> k & 1 ? bit[k] : ~bit[k];
+      found |= here;
+    }
+  return found;
+}
+
+static bool load_hits(struct trax_tm *tm, unsigned number, uint64_t t) {
+  const uint32_t address = tm->heads.address[number];
+  if (!trax_cache_tags_use(&tm->dcache.tags, trax_line_of(&tm->dcache.tags, address)))
+    return false;
+  tm->stats->dcache_hits++;
+  tm->single_hits += tm->serial_hits;
+  const uint32_t latency = tm->config->dcache.hit_latency_cycles;
+  if (latency > 1) {
+    const unsigned rd = trax_fast_head_timing(tm, number)->decoded->rd;
+    trax_tp_set_usable(&tm->tp[number], rd, t + latency, TRAX_CAUSE_DATA_HIT);
+    trax_fast_set_busy(tm, number, rd);
+  }
+  return true;
+}
+
+static bool serve(struct trax_tm *tm, unsigned number, uint64_t t) {
+  if (!(tm->executes_at_issue >> number & 1) && !trax_fast_head_timing(tm, number)->decoded->is_store &&
+      load_hits(tm, number, t))
+    return true;
+  trax_fast_export_head(tm, number);
+  const trax_cause refused = trax_tm_serve(tm, number, t);
+  if (refused != TRAX_CAUSE_ISSUED) {
+    trax_tm_charge(tm, number, refused);
+    return false;
+  }
+  if (!tm->tp[number].inst->is_store)
+    trax_fast_set_busy(tm, number, tm->tp[number].inst->rd);
+  return true;
+}
+
+static uint64_t grant_queue(struct trax_tm *tm, uint64_t requesters, uint64_t t) {
+  const unsigned pointer = tm->queue_arbiter;
+  uint64_t granted = 0;
+  for (uint64_t rest = requesters >> pointer | requesters << (-pointer & 63); rest;
+       rest &= rest - 1) { /* bit 0: the pointer's TP */
+    const unsigned number = (trax_first(rest) + pointer) & 63;
+    granted |= (uint64_t)serve(tm, number, t) << number;
+  }
+  return granted;
+}
+
+/* Grants units of a kind to requesters, group by group; returns the losers. */
+static uint64_t refuse_any(struct trax_tm *tm, trax_shared which, uint64_t requesters, uint64_t t) {
+  struct trax_shared_unit *unit = &tm->unit[which];
+  const struct trax_shared_kind *const kind = &unit->kind;
+  uint64_t winners = 0, all;
+  for (uint64_t rest = requesters; rest; rest &= ~all) {
+    const unsigned group = trax_first(rest) / kind->group_size;
+    all = requesters & trax_group_mask(group, kind->group_size);
+    if (!unit->free_from) {
+      winners |= trax_arbiter_grant(&unit->arbiter[group], all, kind->per_group);
+      continue;
+    }
+    uint64_t *const free_from = &unit->free_from[(size_t)group * kind->per_group];
+    for (uint32_t i = 0; i < kind->per_group && all & ~winners; i++)
+      if (free_from[i] <= t) {
+        const uint64_t winner = trax_arbiter_grant(&unit->arbiter[group], all & ~winners, 1);
+        const trax_op op = (trax_op)trax_fast_head_timing(tm, trax_first(winner))->decoded->op;
+        free_from[i] = t + trax_timing_of(op, tm->config).interval;
+        winners |= winner;
+      }
+  }
+  return requesters & ~winners;
+}
+
+/* The same for adders and multipliers; returns the winners. */
+static ALWAYS_INLINE trax_fast_pair grant_fp(struct trax_tm *tm, trax_fast_pair requesters, uint64_t t) {
+  if (__builtin_expect(tm->fp.even, true))
+    return trax_fast_grant_units(&tm->fp, requesters);
+  const trax_fast_pair losers = {refuse_any(tm, TRAX_SHARED_FP_ADD, requesters[0], t),
+                                 refuse_any(tm, TRAX_SHARED_FP_MUL, requesters[1], t)};
+  return requesters & ~losers;
+}
+
+_Static_assert(TRAX_SHARED_COUNT - TRAX_FAST_FURTHER <= 8, "three bits of a step say which of them");
+
+/* Grants the kinds of units that steps encode by a number; bit: the planes of that number. Returns the winners. */
+static ALWAYS_INLINE uint64_t grant_further(struct trax_tm *tm, struct trax_fast_refused *refused, uint64_t requesters,
+                                            const uint64_t *bit, uint64_t t) {
+  uint64_t granted = 0;
+#pragma GCC unroll 8
+  for (unsigned unit = TRAX_FAST_FURTHER; unit < TRAX_SHARED_COUNT; unit++) {
+    uint64_t here = requesters;
+    for (unsigned k = 0; k < 3; k++)
+      here &= (unit - TRAX_FAST_FURTHER) >> k & 1 ? bit[k] : ~bit[k];
+    granted |= here ^ (refused->unit[unit] = refuse_any(tm, unit, here, t));
+  }
+  return granted;
+}
+
+/* Steps 3 and 4: returns the TPs that were granted all that they need. `slow` receives the TPs with slow heads, and
+   `banks` those that request a data bank. */
+static ALWAYS_INLINE uint64_t grant(struct trax_tm *tm, const bool wide, struct trax_fast_refused *refused,
+                                    uint64_t *slow, uint64_t *banks, uint64_t t) {
+  uint64_t bit[TRAX_STEP_BANK_SHIFT + TRAX_FAST_BANK_BITS];
+  trax_fast_transpose(&tm->heads, wide, 0, TRAX_STEP_BANK_SHIFT + 3, bit);
+  const uint64_t ready = tm->ready, ready_low = ready & ~bit[3];
+  const uint64_t further = (unsigned)TRAX_SHARED_COUNT > TRAX_FAST_FURTHER ? ready & bit[1] & bit[2] & bit[3] : 0;
+  const uint64_t ready_high = ready & bit[3] & ~further;
+  /* Bits 1 to 3 are the kind: see TRAX_STEP_FP_ADD and the following enumerators. */
+  uint64_t granted = ready_low & ~(bit[1] | bit[2]);
+  uint64_t requesters, won;
+  const trax_fast_pair fp_requesters = {ready_low & bit[1] & ~bit[2], ready_low & bit[2] & ~bit[1]};
+  const trax_fast_pair fp_won = grant_fp(tm, fp_requesters, t);
+  granted |= fp_won[0] | fp_won[1];
+  refused->unit[TRAX_SHARED_FP_ADD] = fp_requesters[0] & ~fp_won[0];
+  refused->unit[TRAX_SHARED_FP_MUL] = fp_requesters[1] & ~fp_won[1];
+  if ((requesters = ready_low & bit[1] & bit[2]))
+    granted |= requesters ^ (refused->unit[TRAX_SHARED_INT_MUL] = refuse_any(tm, TRAX_SHARED_INT_MUL, requesters, t));
+  if ((requesters = ready_high & bit[1]))
+    granted |= requesters ^ (refused->unit[TRAX_SHARED_SPECIAL] = refuse_any(tm, TRAX_SHARED_SPECIAL, requesters, t));
+  if (further)
+    granted |= grant_further(tm, refused, further, bit + TRAX_STEP_BANK_SHIFT, t);
+  uint64_t queue_requesters = ready_high & bit[2];
+  *banks = requesters = ready_high & ~(bit[1] | bit[2]);
+  if (requesters) {
+    uint64_t hits = 0, filling = 0;
+    if (__builtin_expect(tm->dcache.all_fills_end > t, false))
+      filling = in_filling_banks(tm, requesters, bit[TRAX_STEP_BANK_SHIFT], bit[TRAX_STEP_BANK_SHIFT + 1],
+                                 bit[TRAX_STEP_BANK_SHIFT + 2], t);
+    won = grant_banks(tm, wide, requesters & ~filling, bit + TRAX_STEP_BANK_SHIFT);
+    refused->bank = requesters & ~won;
+    if (!tm->serial_hits && !tm->chip->alone) /* else serve() handles them, and stores */
+      hits = won & tm->load_hits & ~tm->executes_at_issue;
+    tm->stats->dcache_hits += count_bits(hits);
+    granted |= hits;
+    queue_requesters |= won & ~hits;
+  }
+  if (queue_requesters)
+    granted |= grant_queue(tm, queue_requesters, t);
+  tm->ready &= ~granted;
+  *slow = bit[0];
+  return granted;
+}
+
+#endif
