@@ -1,6 +1,5 @@
-/* Checks a state that was read from a file (fast/state.h), which may be forged: numbers that index arrays are within
-   them, an element is in one list at most, and each TP in one state. What is wrong otherwise makes a wrong run, but one
-   that stays within its structures. */
+/* Checks a state that was read from a file (fast/state.h), which may be forged: indices are within their arrays, an
+   element is in one list at most, a TP in one state. With anything else that is wrong, the run stays within arrays. */
 #include "fast/state.h"
 
 #include "fast/memory/l2.h"
@@ -51,7 +50,7 @@ static void check_arbiters(struct checker *checker, const trax_arbiter *arbiter,
 
 /* --- lists of requests --- */
 
-enum { OF_TMS = 1, OF_L2 = 2 /* whose requests a list may have */ };
+enum { OF_TMS = 1, OF_L2 = 2 /* whose requests a list may have; OF_L2 alone: lines with an arrival */ };
 
 static uint8_t *lines_listed(const struct checker *checker) {
   return checker->listed + (size_t)checker->chip->tms * checker->chip->tm->queue.depth;
@@ -66,7 +65,8 @@ static bool mark(struct checker *checker, trax_request_id id, unsigned whose, co
   if (whose & OF_TMS && tm < chip->tms && place < depth && trax_queue_is_taken(&chip->tm[tm].queue, place) &&
       !trax_queue_is_started(&chip->tm[tm].queue, place))
     listed = &checker->listed[tm * depth + place];
-  else if (whose & OF_L2 && tm == TRAX_MAX_TMS && chip->memory.l2 && place < chip->memory.l2->mshr_limit)
+  else if (whose & OF_L2 && tm == TRAX_MAX_TMS && chip->memory.l2 && place < chip->memory.l2->mshr_limit &&
+           (whose != OF_L2 || chip->memory.l2->mshr[place].arrival != TRAX_NEVER))
     listed = &lines_listed(checker)[place];
   if (!expect(checker, listed && !*listed, "%s: request 0x%" PRIx32, which, id))
     return false;
