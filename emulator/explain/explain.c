@@ -8,6 +8,8 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 /* The charges of a thread since its latest issue. */
@@ -252,13 +254,25 @@ static trax_status check_window(const struct trax_explain *explain, trax_error *
   return TRAX_OK;
 }
 
+trax_status trax_explain_check_against(const struct trax_explain_options *options, trax_error *error) {
+  const char *end = options->explore ? strrchr(options->explore, '.') : NULL;
+  struct stat status;
+  if (!options->against)
+    return TRAX_OK;
+  if (!end || (strcasecmp(end, ".html") != 0 && strcasecmp(end, ".htm") != 0))
+    return trax_fail(error, "--explore-against needs --explore FILE.html");
+  if (stat(options->against, &status) != 0 || access(options->against, R_OK) != 0)
+    return trax_fail(error, "%s: %s", options->against, strerror(errno));
+  return S_ISDIR(status.st_mode) ? trax_fail(error, "%s: %s", options->against, strerror(EISDIR)) : TRAX_OK;
+}
+
 trax_status trax_explain_begin(struct trax_explain **result, trax_machine *machine,
                                const struct trax_explain_options *options, trax_error *error) {
   *result = NULL;
+  if (trax_explain_check_against(options, error) != TRAX_OK)
+    return TRAX_ERROR;
   if (!trax_explain_wanted(options))
     return TRAX_OK;
-  if (options->against && access(options->against, R_OK) != 0) /* rather than after the run */
-    return trax_fail(error, "%s: %s", options->against, strerror(errno));
   struct trax_explain *explain = calloc(1, sizeof *explain);
   if (!explain)
     return trax_fail(error, "out of memory");

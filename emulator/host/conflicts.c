@@ -45,8 +45,8 @@ static trax_status check_explain(const struct trax_options *options, trax_error 
     return trax_fail(error, "--window without --trace or --perfetto");
   if (explain->series_interval && !explain->series)
     return trax_fail(error, "--series-interval without --series");
-  if (explain->against && (!explain->explore || strcmp(explain->explore, "-") == 0))
-    return trax_fail(error, "--explore-against needs --explore FILE.html");
+  if (trax_explain_check_against(explain, error) != TRAX_OK)
+    return TRAX_ERROR;
   if (explain->source_folder_count && !explain->explore)
     return trax_fail(error, "--source-folder without --explore");
   if (explain->item_buffer && !explain->items && !explain->explore)

@@ -149,8 +149,8 @@ trax_status options_check(const struct options *options, trax_error *error) {
     if (options->pixels.at[i][0] >= options->frame.width || options->pixels.at[i][1] >= options->frame.height)
       return trax_fail(error, "--pixel %u,%u: the picture has %u x %u pixels, from 0,0", options->pixels.at[i][0],
                        options->pixels.at[i][1], options->frame.width, options->frame.height);
-  if (options->explain.against && (!options->explain.explore || strcmp(options->explain.explore, "-") == 0))
-    return trax_fail(error, "--explore-against needs --explore FILE.html");
+  if (trax_explain_check_against(&options->explain, error) != TRAX_OK)
+    return TRAX_ERROR;
   if (options->explain.source_folder_count && !options->explain.explore)
     return trax_fail(error, "--source-folder without --explore");
   if (options->frames > 1 &&

@@ -161,7 +161,7 @@ class Commands:
                 presets = json.loads((self.source / "CMakePresets.json").read_text())["configurePresets"]
                 self.checked += 1
                 return None if words[2] in {preset["name"] for preset in presets} else f"`{command}`: no such preset"
-            text = self.options_of(words[0])
+            text = self.evaluation if words[:2] == ["trax-sim", "compare"] else self.options_of(words[0])
         except Failure as failure:
             return f"`{command}`: {failure}"
         if text is None:

@@ -97,7 +97,10 @@ CASES = {
                                           twice="b"), "report": Case(["report.txt"],
                                                                      file_holds("report.txt", "Thread-cycles by cause"),
                                                                      bad=FILES, twice="b"),
-    "explore": Case(["out.txt"], file_holds("out.txt", "<!doctype html>"), bad=FILES, twice="b"), "source-folder": Case(
+    "explore": Case(["out.txt"], file_holds("out.txt", "<!doctype html>"), bad=FILES, twice="b"),
+    "explore-against": Case(["hello.json", "--explore", "out.html"], file_holds("out.html", "id=\"against\""),
+                            bad=("none", "closed"), twice="b"),
+    "source-folder": Case(
         [".", "--explore", "out.txt"], file_holds("out.txt", "<!doctype html>"),
         bad=("none", "hello.elf", "")), "profile": Case(["out.txt"], file_holds("out.txt", "outer|mix|_start|[0-9]"),
                                                         bad=FILES, twice="b"),
@@ -223,7 +226,7 @@ def try_option(name, argument, case):
         fail(f"status {status}, not {case.status}, of: {' '.join(words)} {case.program}", err)
     elif case.check and (wrong := case.check(out, err)):
         fail(f"{wrong}: {' '.join(words)} {case.program}", err)
-    for left in ("out.txt", "trace.txt", "stats.json", "report.txt", "symbols", "c.bin"):
+    for left in ("out.txt", "out.html", "trace.txt", "stats.json", "report.txt", "symbols", "c.bin"):
         if os.path.exists(left):
             os.remove(left)
     if not argument:
@@ -245,6 +248,7 @@ with tempfile.TemporaryDirectory() as directory:
     os.mkdir("closed")
     with open("in.bin", "w") as file:
         file.write("0123456789abcdef")
+    run("--stats", "hello.json", "hello.elf")
     options = listed()
     if len(options) < 30:
         fail(f"--help is not understood: {options}")

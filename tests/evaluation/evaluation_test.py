@@ -467,7 +467,7 @@ def test_refusals(evaluation, scratch):
 
 
 READING = {"trax-scene": ("tree", "tree-triangles", "tree-boxes", "refit"),
-           "trax-render": ("view", "environment")}  # options with files that are not refused
+           "trax-render": ("view", "environment", "explore-against")}  # options with files that are not refused
 
 
 def refuse_writing(evaluation, scratch, complete):

@@ -118,7 +118,7 @@ class Against(Scratch):
     def render(self, *words, status=0):
         done = subprocess.run([
             BIN / "trax-render", SOURCE / "tests/render/box.obj", "--view", SOURCE / "tests/render/box.view", "--size",
-            "48x27", "--mark-rays", "--cache", "cache", *CHIPS["b"], "-o", self.page.with_suffix(".png"), "-q", *words
+            "48x27", "--mark-rays", *CHIPS["b"], "-o", self.page.with_suffix(".png"), "-q", *words
         ], cwd=self.folder, capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, status, done.stderr)
         return done.stderr

@@ -82,6 +82,9 @@ trax_status trax_explain_add_source_folder(struct trax_explain_options *options,
 /* Whether the options want any explanation. */
 bool trax_explain_wanted(const struct trax_explain_options *options);
 
+/* Checks the page and the file of --explore-against, rather than after the run. */
+trax_status trax_explain_check_against(const struct trax_explain_options *options, trax_error *error);
+
 /* Copies the options, but not the objects to which they point. *explain is NULL on an error or if nothing is wanted. */
 trax_status trax_explain_begin(struct trax_explain **explain, trax_machine *machine,
                                const struct trax_explain_options *options, trax_error *error);
