@@ -125,11 +125,12 @@ def _against_chips(found, paper, identity, title, unit, name, scale=1):
             tip = f"{group.label}, {group.chip}: {number(scale * value)}"
             point = paper.threads(group.chip), scale * value, tip, group.label
             lines.setdefault((line, group.size), []).append(point)
-    series = []
-    for (line, _), points in lines.items():
+    series, known = [], [line for line, _ in lines]
+    for (line, size), points in lines.items():
         style, mark = styles[line]
+        label = points[0][3] + (", {}x{}".format(*size) if known.count(line) > 1 else "")
         if len(points) > 1:
-            series.append(Series(points[0][3], style, sorted(point[:3] for point in points), mark, line=False))
+            series.append(Series(label, style, sorted(point[:3] for point in points), mark, line=False))
     return Lines(identity, title, "threads", unit, series,
                  x_ticks=[(threads, str(threads)) for threads in (32, 64, 128, 256, 512)])
 
