@@ -1,8 +1,6 @@
 /* docs/timing.md, "Accounting", and the arbiter of its section "Words". */
 #include "reference/reference.h"
 
-#include <assert.h>
-
 int trax_ref_arbitrate(trax_ref_pointer *pointer, const bool *asks, uint32_t n) {
   for (uint32_t i = 0; i < n; i++) {
     const uint32_t position = *pointer + i < n ? *pointer + i : *pointer + i - n;
@@ -12,22 +10,6 @@ int trax_ref_arbitrate(trax_ref_pointer *pointer, const bool *asks, uint32_t n) 
     }
   }
   return -1;
-}
-
-static void charge(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t, trax_cause cause, unsigned rd) {
-  assert(!tp->charged);
-  tp->charged = true;
-  tm->machine->tp_stats[tm->number * tm->tps + tp->number].cycles[cause]++;
-  if (tm->machine->observer)
-    trax_ref_notify_charge(tm, tp, t, cause, rd);
-}
-
-void trax_ref_charge(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t, trax_cause cause) {
-  charge(tm, tp, t, cause, 0);
-}
-
-void trax_ref_charge_wait(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t, unsigned rd) {
-  charge(tm, tp, t, tp->scoreboard[rd].cause, rd);
 }
 
 void trax_ref_charge_idle(struct trax_ref_tm *tm, uint64_t t) {

@@ -1,13 +1,7 @@
 /* docs/timing.md, "Operands": step 2. */
 #include "reference/reference.h"
 
-void trax_ref_result(struct trax_ref_tp *tp, uint64_t cycle, trax_cause cause) {
-  if (trax_ref_is(tp, TRAX_WRITES_RD) && tp->inst.rd != 0) /* r0 is always usable */
-    tp->scoreboard[tp->inst.rd] = (struct trax_ref_register){.usable = cycle, .cause = cause};
-}
-
-/* Charges a TP for the first register that is not usable, and returns it; 0: there is none. */
-static unsigned wait_for_registers(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
+static unsigned wait_for_operands(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
   const struct {
     unsigned count, first;
   } operands[] = {{trax_group_a(trax_ref_info(tp)->flags), tp->inst.ra},
@@ -24,7 +18,7 @@ static unsigned wait_for_registers(struct trax_ref_tm *tm, struct trax_ref_tp *t
   return 0;
 }
 
-/* The same for a fence, which needs all registers. */
+/* A fence needs all registers. */
 static unsigned wait_for_all_registers(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
   for (unsigned rd = 1; rd < TRAX_NUM_REGISTERS; rd++)
     if (tp->scoreboard[rd].usable > t) {
@@ -38,15 +32,15 @@ bool trax_ref_is_illegal(const struct trax_ref_tm *tm, const struct trax_ref_tp 
   return tp->inst.op == TRAX_OP_ILLEGAL || trax_lacks_unit(tp->inst.op, tm->config);
 }
 
-unsigned trax_ref_check_registers(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
-  const unsigned waits_for = (tp->inst.op == TRAX_OP_FENCE ? wait_for_all_registers : wait_for_registers)(tm, tp, t);
-  if (trax_ref_active(tp) && trax_ref_accesses_memory(tp)) {
-    tp->address = tp->reg[tp->inst.ra] + (uint32_t)tp->inst.imm;
-    const trax_fault_kind kind = trax_ref_check_access(tm, tp);
-    if (kind)
-      trax_ref_fault(tm, tp, t, kind, tp->address);
-  }
-  return waits_for;
+unsigned trax_ref_wait_for_registers(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
+  return (tp->inst.op == TRAX_OP_FENCE ? wait_for_all_registers : wait_for_operands)(tm, tp, t);
+}
+
+void trax_ref_find_address(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
+  tp->address = tp->reg[tp->inst.ra] + (uint32_t)tp->inst.imm;
+  const trax_fault_kind kind = trax_ref_check_access(tm, tp);
+  if (kind)
+    trax_ref_fault(tm, tp, t, kind, tp->address);
 }
 
 void trax_ref_check_operands(struct trax_ref_tm *tm, uint64_t t) {
@@ -55,6 +49,8 @@ void trax_ref_check_operands(struct trax_ref_tm *tm, uint64_t t) {
     if (trax_ref_active(tp) && trax_ref_is_illegal(tm, tp))
       trax_ref_fault(tm, tp, t, TRAX_FAULT_ILLEGAL, 0);
     if (trax_ref_active(tp))
-      trax_ref_check_registers(tm, tp, t);
+      trax_ref_wait_for_registers(tm, tp, t);
+    if (trax_ref_active(tp) && trax_ref_accesses_memory(tp))
+      trax_ref_find_address(tm, tp, t);
   }
 }

@@ -13,6 +13,8 @@
 #include "machine/timing.h"
 #include "trax/isa.h"
 
+#include <assert.h>
+
 enum { MOST = 64 }; /* the configuration's limit of TMs, TPs of a TM, banks and units */
 
 #define UNKNOWN UINT64_MAX /* an arrival or completion whose cycle is not known yet */
@@ -225,11 +227,15 @@ uint32_t trax_ref_lines_drop(struct trax_ref_lines *lines);
 /* --- Operands: operands.c --- */
 void trax_ref_check_operands(struct trax_ref_tm *tm, uint64_t t);
 bool trax_ref_is_illegal(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp);
-/* The rest of step 2 of an active TP: its registers, then its access. Returns the register for which it waits; 0: none.
- */
-unsigned trax_ref_check_registers(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t);
-/* The destination register of the TP's instruction is usable from `cycle` on. */
-void trax_ref_result(struct trax_ref_tp *tp, uint64_t cycle, trax_cause cause);
+/* Charges a TP for the first register that is not usable, and returns it; 0: there is none. */
+unsigned trax_ref_wait_for_registers(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t);
+/* Computes the address of a memory access. A TP whose access is not allowed faults. */
+void trax_ref_find_address(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t);
+/* The destination register of the TP's instruction is usable from `cycle` on. r0 is always usable. */
+static inline void trax_ref_result(struct trax_ref_tp *tp, uint64_t cycle, trax_cause cause) {
+  if (trax_ref_is(tp, TRAX_WRITES_RD) && tp->inst.rd != 0)
+    tp->scoreboard[tp->inst.rd] = (struct trax_ref_register){.usable = cycle, .cause = cause};
+}
 
 /* --- Units: units.c --- */
 void trax_ref_grant_units(struct trax_ref_tm *tm, uint64_t t);
@@ -321,10 +327,26 @@ void trax_ref_notify_request(const struct trax_ref_chip *chip, const struct trax
 void trax_ref_notify_miss(const struct trax_ref_chip *chip, const struct trax_ref_miss *miss, uint64_t t);
 
 /* --- Accounting: accounting.c --- */
-/* Charges the TP for cycle t. At most one call per cycle. */
-void trax_ref_charge(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t, trax_cause cause);
+
+/* Charges the TP for cycle t. At most one call per cycle. rd: the register that it waits for; 0: none. */
+static inline void trax_ref_charge_of(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t, trax_cause cause,
+                                      unsigned rd) {
+  assert(!tp->charged);
+  tp->charged = true;
+  tm->machine->tp_stats[tm->number * tm->tps + tp->number].cycles[cause]++;
+  if (tm->machine->observer)
+    trax_ref_notify_charge(tm, tp, t, cause, rd);
+}
+
+static inline void trax_ref_charge(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t, trax_cause cause) {
+  trax_ref_charge_of(tm, tp, t, cause, 0);
+}
+
 /* Charges a TP that waits for a register. */
-void trax_ref_charge_wait(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t, unsigned rd);
+static inline void trax_ref_charge_wait(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t, unsigned rd) {
+  trax_ref_charge_of(tm, tp, t, tp->scoreboard[rd].cause, rd);
+}
+
 /* Charges the TPs that are idle because they have ended or are in a branch bubble. */
 void trax_ref_charge_idle(struct trax_ref_tm *tm, uint64_t t);
 

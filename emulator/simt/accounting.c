@@ -22,22 +22,15 @@ void trax_simt_charge(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint
   }
 }
 
-void trax_simt_charge_idle(struct trax_simt_tm *tm, uint64_t t) {
-  for (uint64_t awake = tm->awake; awake;) {
-    struct trax_simt_warp *warp = &tm->warp[trax_simt_take(&awake)];
-    warp->uncharged = warp->group;
-    if (warp->group & ~warp->running)
-      trax_simt_charge(tm, warp, warp->group & ~warp->running, t, TRAX_CAUSE_HALTED);
-    if (t >= warp->bubble_ends)
-      continue;
-    uint64_t in_bubble = 0;
-    for (uint64_t set = warp->uncharged; set;) {
-      const uint32_t lane = trax_simt_take(&set);
-      if (t < tm->ref->tp[lane].bubble_ends)
-        in_bubble |= trax_simt_bit(lane);
-    }
-    trax_simt_charge(tm, warp, in_bubble, t, TRAX_CAUSE_BRANCH);
+void trax_simt_charge_idle(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint64_t t) {
+  trax_simt_charge(tm, warp, warp->group & ~warp->running, t, TRAX_CAUSE_HALTED);
+  uint64_t in_bubble = 0;
+  for (uint64_t set = warp->uncharged; set;) {
+    const uint32_t lane = trax_simt_take(&set);
+    if (t < tm->ref->tp[lane].bubble_ends)
+      in_bubble |= trax_simt_bit(lane);
   }
+  trax_simt_charge(tm, warp, in_bubble, t, TRAX_CAUSE_BRANCH);
 }
 
 void trax_simt_charge_cycles(const struct trax_simt_tm *tm, uint32_t lane, trax_cause cause, uint64_t since,
@@ -81,29 +74,35 @@ void trax_simt_settle_rays(struct trax_simt_tm *tm) {
 
 /* Issues the instruction on the lanes of the warp that were granted all they asked for. */
 static void issue(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint64_t t) {
+  const uint32_t writes = warp->inst->decoded->rd == TRAX_NO_REGISTER ? 0 : 1u << warp->inst->decoded->rd;
+  const bool counts_rays = warp->inst->decoded->op == TRAX_OP_TRAP && tm->ref->machine->ray_cycles;
+  uint64_t issued = 0, ended = 0, bubble_ends = warp->bubble_ends;
   for (uint64_t set = warp->active; set;) {
-    struct trax_ref_tp *lane = &tm->ref->tp[trax_simt_take(&set)];
-    const uint64_t bit = trax_simt_bit(lane->number);
-    const uint32_t value = lane->reg[lane->inst.ra];
+    const uint32_t i = trax_simt_take(&set);
+    struct trax_ref_tp *lane = &tm->ref->tp[i];
+    const uint32_t value = counts_rays ? lane->reg[lane->inst.ra] : 0;
     trax_ref_issue_of(tm->ref, lane, t);
-    if (lane->inst.op == TRAX_OP_TRAP && tm->ref->machine->ray_cycles)
+    if (counts_rays)
       count_rays(tm, lane, value);
-    trax_simt_note_charge(warp, lane);
-    if (!lane->holds) {
-      warp->left &= ~bit;
-      tm->ref->stats->broadcast_loads += (tm->broadcast & bit) != 0;
-    }
-    if (lane->ended)
-      warp->running &= ~bit;
-    if (lane->bubble_ends > warp->bubble_ends)
-      warp->bubble_ends = lane->bubble_ends;
+    lane->charged = false; /* for the next cycle */
+    issued |= lane->holds ? 0 : trax_simt_bit(i);
+    ended |= lane->ended ? trax_simt_bit(i) : 0;
+    tm->lane[i].pending |= writes;
+    bubble_ends = lane->bubble_ends > bubble_ends ? lane->bubble_ends : bubble_ends;
   }
+  warp->bubble_ends = bubble_ends;
+  for (uint64_t set = tm->broadcast & issued; set; set &= set - 1)
+    tm->ref->stats->broadcast_loads++;
+  warp->uncharged &= ~warp->active;
+  warp->left &= ~issued;
+  warp->running &= ~ended;
   warp->active = 0;
 }
 
 void trax_simt_issue(struct trax_simt_tm *tm, uint64_t t) {
   for (uint64_t awake = tm->awake; awake;) {
-    struct trax_simt_warp *warp = &tm->warp[trax_simt_take(&awake)];
+    const uint32_t i = trax_simt_take(&awake);
+    struct trax_simt_warp *warp = &tm->warp[i];
     const bool is_held = warp->left;
     if (warp->active)
       issue(tm, warp, t);
@@ -111,5 +110,7 @@ void trax_simt_issue(struct trax_simt_tm *tm, uint64_t t) {
       trax_simt_charge(tm, warp, warp->uncharged, t, TRAX_CAUSE_LOCKSTEP);
     if (is_held && !warp->left)
       trax_simt_dissolve(tm, warp, t);
+    if (!trax_simt_is_busy(warp))
+      trax_simt_sleep(tm, i, t);
   }
 }

@@ -14,11 +14,6 @@ static uint32_t part_of_patience(const struct trax_simt_tm *tm) {
   return at_least_one(tm->ref->config->simt.patience / WAITS);
 }
 
-void trax_simt_place(struct trax_simt_tm *tm, uint32_t lane, int32_t calls) {
-  const uint32_t shallowness = (uint32_t)(tm->place[lane] >> 32) - (uint32_t)calls;
-  tm->place[lane] = tm->ref->tp[lane].ended ? NOWHERE : (uint64_t)shallowness << 32 | tm->ref->tp[lane].pc;
-}
-
 /* Gives the turn to the lane that has waited longest, if that is long enough. */
 static void give_turn(const struct trax_simt_tm *tm, struct trax_simt_warp *warp) {
   uint64_t running = warp->running;
@@ -79,43 +74,37 @@ static void gather(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint64_
 void trax_simt_choose(struct trax_simt_tm *tm, uint64_t t) {
   for (uint64_t awake = tm->awake; awake;) {
     struct trax_simt_warp *warp = &tm->warp[trax_simt_take(&awake)];
-    if (warp->group)
-      continue;
-    if (is_first(tm, warp))
+    if (!warp->group && is_first(tm, warp))
       warp->group = warp->stays;
-    else
+    else if (!warp->group)
       gather(tm, warp, choose_place(tm, warp), t);
+    warp->uncharged = warp->group;
+    if (t < warp->bubble_ends || warp->group & ~warp->running)
+      trax_simt_charge_idle(tm, warp, t);
   }
 }
 
-/* Whether threads wait for others with it. */
-static bool may_wait(const struct trax_decoded *inst) {
-  return inst->resource == TRAX_RESOURCE_FENCE || inst->is_atomic || (inst->is_nontemporal && !inst->is_store);
-}
-
-static int32_t deeper(const struct trax_decoded *inst) {
-  enum { RA = 1 };
-  if (inst->op == TRAX_OP_JAL || inst->op == TRAX_OP_JALR)
-    return inst->rd == RA ? 1 : inst->op == TRAX_OP_JALR && inst->rd == TRAX_NO_REGISTER && inst->ra == RA ? -1 : 0;
-  return 0;
+/* Notes where the lanes of a group are, and whether they stay a group. */
+static void place_group(struct trax_simt_tm *tm, struct trax_simt_warp *warp, int32_t calls, uint64_t t) {
+  const uint32_t pc = trax_simt_speaker(tm, warp->group)->pc;
+  bool is_split = calls || warp->group & ~warp->running;
+  for (uint64_t set = warp->group; set;) {
+    const uint32_t i = trax_simt_take(&set);
+    is_split |= tm->ref->tp[i].pc != pc;
+    tm->place[i] += (uint64_t)tm->ref->tp[i].pc - (uint32_t)tm->place[i] - ((uint64_t)(int64_t)calls << 32);
+    tm->last_issued[i] = warp->issued;
+    tm->lane[i].charged = t + 1;
+  }
+  for (uint64_t set = warp->group & ~warp->running; set;)
+    tm->place[trax_simt_take(&set)] = NOWHERE;
+  warp->stays = is_split ? 0 : warp->group;
 }
 
 void trax_simt_dissolve(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint64_t t) {
-  const bool waits = may_wait(warp->inst);
-  const uint32_t part = part_of_patience(tm), cost = waits ? part : 1;
-  const uint32_t of_turn = waits ? at_least_one(part / WAITS_OF_TURN) : 1;
-  const int32_t calls = deeper(warp->inst);
-  const uint32_t pc = trax_simt_speaker(tm, warp->group)->pc;
-  warp->issued += cost;
-  warp->stays = calls || warp->group & ~warp->running ? 0 : warp->group;
-  for (uint64_t set = warp->group; set;) {
-    const uint32_t lane = trax_simt_take(&set);
-    tm->last_issued[lane] = warp->issued;
-    trax_simt_place(tm, lane, calls);
-    if (tm->ref->tp[lane].pc != pc)
-      warp->stays = 0;
-    tm->lane[lane].charged = t + 1;
-  }
+  const bool is_wait = warp->inst->is_wait;
+  const uint32_t part = part_of_patience(tm), of_turn = is_wait ? at_least_one(part / WAITS_OF_TURN) : 1;
+  warp->issued += is_wait ? part : 1;
+  place_group(tm, warp, warp->inst->calls, t);
   warp->turns_left -= warp->turns_left < of_turn ? warp->turns_left : of_turn;
   warp->group = 0;
   warp->is_checked = warp->has_operands = false;

@@ -1,38 +1,23 @@
 /* docs/simt.md, "Fetch": step 1. */
 #include "simt/simt.h"
 
-/* Lanes of the group take the instruction that their first lane holds. */
-static void take(struct trax_simt_tm *tm, struct trax_simt_warp *warp) {
-  const struct trax_ref_tp *first = trax_simt_speaker(tm, warp->group);
-  if (!first->holds || warp->left)
-    return;
+/* The lanes of the group hold its instruction. */
+static void hold(struct trax_simt_tm *tm, struct trax_simt_warp *warp) {
   warp->left = warp->group;
-  for (uint64_t set = warp->group & (warp->group - 1); set;) {
+  for (uint64_t set = warp->group; set;) {
     struct trax_ref_tp *lane = &tm->ref->tp[trax_simt_take(&set)];
-    lane->inst = first->inst;
+    lane->inst = warp->inst->inst;
     lane->holds = true;
   }
 }
 
-/* The first lane of a group holds its instruction. */
-static void hold(const struct trax_simt_tm *tm, struct trax_ref_tp *first) {
-  const uint32_t place = (first->pc - tm->text->segments->begin) / 4;
-  if (place < tm->inst_count) {
-    first->inst = tm->inst[place];
-  } else {
-    uint32_t word = 0;
-    trax_ref_text(tm->ref, first->pc, &word);
-    first->inst = trax_decode(word);
-  }
-  first->holds = true;
-}
-
-/* The instruction at pc. Most are in the first segment. */
-static const struct trax_decoded *text_at(const struct trax_simt_tm *tm, uint32_t pc) {
-  const struct trax_text_segment *first = tm->text->segments;
-  if (tm->text->count && pc % 4 == 0 && pc >= first->begin && pc < first->end)
-    return &first->decoded[(pc - first->begin) / 4];
-  return trax_text_at(tm->text, pc);
+/* The warp's instruction at pc. Most are in the first segment. */
+static const struct trax_simt_inst *inst_at(struct trax_simt_tm *tm, uint32_t warp, uint32_t pc) {
+  const uint32_t place = (pc - tm->inst_begin) / 4;
+  if (pc % 4 == 0 && place < tm->inst_count)
+    return &tm->inst[place];
+  tm->fetched[warp].inst = trax_simt_decode_at(tm, pc);
+  return &tm->fetched[warp].inst;
 }
 
 static void fault_outside_text(struct trax_simt_tm *tm, struct trax_ref_tp *first, uint64_t t) {
@@ -44,16 +29,18 @@ static void fault_outside_text(struct trax_simt_tm *tm, struct trax_ref_tp *firs
 static uint64_t collect(struct trax_simt_tm *tm, uint64_t t) {
   uint64_t asks = 0;
   for (uint64_t awake = tm->awake; awake;) {
-    struct trax_simt_warp *warp = &tm->warp[trax_simt_take(&awake)];
+    const uint32_t i = trax_simt_take(&awake);
+    struct trax_simt_warp *warp = &tm->warp[i];
     if (warp->left)
       continue;
     struct trax_ref_tp *first = trax_simt_speaker(tm, warp->group);
-    take(tm, warp); /* its line may have arrived */
+    if (first->holds) /* its line has arrived */
+      hold(tm, warp);
     if (warp->left || first->awaits_line || warp->uncharged != warp->group)
       continue;
-    warp->inst = text_at(tm, first->pc);
-    tm->lane[first->number].bank = warp->inst->bank;
-    if (warp->inst->resource == TRAX_RESOURCE_NO_TEXT)
+    warp->inst = inst_at(tm, i, first->pc);
+    tm->lane[first->number].bank = warp->inst->decoded->bank;
+    if (warp->inst->decoded->resource == TRAX_RESOURCE_NO_TEXT)
       fault_outside_text(tm, first, t);
     if (!trax_simt_note_charge(warp, first))
       asks |= trax_simt_bit(first->number);
@@ -61,16 +48,7 @@ static uint64_t collect(struct trax_simt_tm *tm, uint64_t t) {
   return asks;
 }
 
-/* The lanes of the set that win a bank, for which all of them ask. `first`: of the n lanes of its cache. */
-static uint64_t grant_bank(const struct trax_simt_tm *tm, trax_ref_pointer *bank, uint64_t asks, uint32_t first,
-                           uint32_t n) {
-  uint64_t won = 0;
-  for (uint32_t port = 0; asks & ~won && port < tm->ref->config->icache.ports_per_bank; port++)
-    won |= trax_simt_arbitrate(bank, asks & ~won, first, n);
-  return won;
-}
-
-/* The lanes of the set that win their banks in the cache to which all of them belong. */
+/* The lanes of the set that win their banks in the cache to which all of them belong. `first`: of its n lanes. */
 static uint64_t grant_banks(struct trax_simt_tm *tm, struct trax_ref_icache *icache, uint64_t set, uint32_t first,
                             uint32_t n) {
   uint64_t asks[MOST], asked = 0, won = 0;
@@ -81,7 +59,11 @@ static uint64_t grant_banks(struct trax_simt_tm *tm, struct trax_ref_icache *ica
   }
   while (asked) {
     const uint32_t bank = trax_simt_take(&asked);
-    won |= grant_bank(tm, &icache->bank[bank], asks[bank], first, n);
+    for (uint32_t port = 0; asks[bank] && port < tm->ref->config->icache.ports_per_bank; port++) {
+      const uint64_t winner = trax_simt_arbitrate(&icache->bank[bank], asks[bank], first, n);
+      asks[bank] &= ~winner;
+      won |= winner;
+    }
   }
   return won;
 }
@@ -90,34 +72,51 @@ static uint64_t grant_banks(struct trax_simt_tm *tm, struct trax_ref_icache *ica
 static uint64_t grant_caches(struct trax_simt_tm *tm, uint64_t asks) {
   const uint32_t size = tm->ref->config->icache.tps_per_cache, tps = tm->ref->tps;
   uint64_t won = 0;
-  for (uint32_t first = 0; asks; first += size) {
-    const uint32_t n = first + size < tps ? size : tps - first;
+  while (asks) {
+    const struct trax_simt_lane *lane = &tm->lane[trax_simt_first(asks)];
+    struct trax_ref_icache *icache = &tm->ref->icache[lane->icache];
+    const uint32_t first = lane->icache * size, n = first + size < tps ? size : tps - first;
     const uint64_t set = asks & trax_simt_lanes(first, n);
-    won |= set ? grant_banks(tm, &tm->ref->icache[first / size], set, first, n) : 0;
+    const bool is_alone = !(set & (set - 1));
+    won |= is_alone ? trax_simt_arbitrate(&icache->bank[lane->bank], set, first, n)
+                    : grant_banks(tm, icache, set, first, n);
     asks &= ~set;
   }
   return won;
 }
 
+/* Looks up the line of a lane that won its bank. A line that was found stays while none arrives. */
+static bool look_up(struct trax_simt_tm *tm, uint32_t i, uint64_t t) {
+  struct trax_simt_fetched *fetched = &tm->fetched[tm->lane[i].warp];
+  const struct trax_ref_lines *lines = &tm->ref->icache[tm->lane[i].icache].lines;
+  const uint32_t line = tm->ref->tp[i].pc / lines->line_bytes;
+  if (line == fetched->line && lines->uses == fetched->arrivals) {
+    tm->ref->stats->icache_hits++;
+    return true;
+  }
+  if (!trax_ref_look_up(tm->ref, &tm->ref->tp[i], t))
+    return false;
+  fetched->line = line;
+  fetched->arrivals = lines->uses;
+  return true;
+}
+
 void trax_simt_fetch(struct trax_simt_tm *tm, uint64_t t) {
-  const uint64_t asks = collect(tm, t), won = grant_caches(tm, asks);
+  const uint64_t asks = collect(tm, t), won = asks ? grant_caches(tm, asks) : 0;
   for (uint64_t set = won; set;) {
-    struct trax_ref_tp *first = &tm->ref->tp[trax_simt_take(&set)];
-    if (trax_ref_look_up(tm->ref, first, t))
-      hold(tm, first);
+    const uint32_t i = trax_simt_take(&set);
+    if (look_up(tm, i, t))
+      hold(tm, &tm->warp[tm->lane[i].warp]);
   }
-  for (uint64_t awake = tm->awake; awake;) {
-    struct trax_simt_warp *warp = &tm->warp[trax_simt_take(&awake)];
-    if (warp->left)
-      continue;
-    take(tm, warp);
-    struct trax_ref_tp *first = trax_simt_speaker(tm, warp->group);
-    const uint64_t bit = trax_simt_bit(first->number);
-    if (first->awaits_line)
-      trax_simt_charge(tm, warp, warp->group, t, TRAX_CAUSE_ICACHE_MISS);
-    else if (asks & ~won & bit)
-      trax_simt_charge(tm, warp, warp->group, t, TRAX_CAUSE_ICACHE_BANK);
-    else if (trax_simt_note_charge(warp, first))
-      trax_simt_charge(tm, warp, warp->group, t, TRAX_CAUSE_MEMORY_QUEUE);
-  }
+  tm->lost_bank = asks & ~won;
+}
+
+void trax_simt_charge_fetch(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint64_t t) {
+  struct trax_ref_tp *first = trax_simt_speaker(tm, warp->group);
+  if (first->awaits_line)
+    trax_simt_charge(tm, warp, warp->group, t, TRAX_CAUSE_ICACHE_MISS);
+  else if (tm->lost_bank & trax_simt_bit(first->number))
+    trax_simt_charge(tm, warp, warp->group, t, TRAX_CAUSE_ICACHE_BANK);
+  else if (trax_simt_note_charge(warp, first))
+    trax_simt_charge(tm, warp, warp->group, t, TRAX_CAUSE_MEMORY_QUEUE);
 }

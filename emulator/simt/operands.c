@@ -1,60 +1,63 @@
 /* docs/simt.md, "Operands": step 2. */
 #include "simt/simt.h"
 
-/* Successive registers as a set. */
-static uint32_t registers(unsigned first, unsigned count) {
-  const uint64_t set = ((UINT64_C(1) << count) - 1) << first;
-  return (uint32_t)(set | set >> TRAX_NUM_REGISTERS);
+/* Whether a lane waits for a register of the set. */
+static bool waits(struct trax_simt_tm *tm, uint32_t lane, uint32_t needed, uint64_t t) {
+  uint32_t *const pending = &tm->lane[lane].pending;
+  for (uint32_t set = needed & *pending; set; set &= set - 1) {
+    if (tm->ref->tp[lane].scoreboard[__builtin_ctz(set)].usable > t)
+      return true;
+    *pending &= ~(set & -set);
+  }
+  return false;
 }
 
-/* The registers that an instruction needs, as a set. r0 is always usable. */
-static uint32_t needed_registers(const struct trax_decoded *inst) {
-  return registers(inst->wait_ra, inst->more_ra + 1u) | registers(inst->wait_rb, inst->more_rb + 1u) |
-         1u << inst->wait_rd;
-}
-
-static bool are_usable(const struct trax_ref_tp *lane, uint32_t registers, uint64_t t) {
-  for (; registers; registers &= registers - 1)
-    if (lane->scoreboard[__builtin_ctz(registers)].usable > t)
-      return false;
-  return true;
-}
-
-/* Checks a lane. False: it is refused. A lane that was accepted stays so, and another one waits for its
-   register.
-   needs: registers after whose check it is accepted; 0: there is more to check. */
-static bool check(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint32_t i, uint32_t needs, uint64_t t) {
+/* Checks a lane. False: it is refused. */
+static bool check(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint32_t i, uint64_t t) {
   struct trax_ref_tp *lane = &tm->ref->tp[i];
-  uint8_t *const waits_for = &tm->lane[i].waits_for;
-  if (warp->is_checked && !*waits_for)
-    return true;
-  if (warp->is_checked && lane->scoreboard[*waits_for].usable > t) {
-    trax_simt_charge(tm, warp, trax_simt_bit(i), t, lane->scoreboard[*waits_for].cause);
-    return false;
+  if (waits(tm, i, warp->inst->needs, t)) {
+    tm->lane[i].waits_for = (uint8_t)trax_ref_wait_for_registers(tm->ref, lane, t);
+  } else {
+    tm->lane[i].waits_for = 0;
+    if (warp->inst->decoded->resource != TRAX_RESOURCE_MEMORY)
+      return true;
+    trax_ref_find_address(tm->ref, lane, t);
   }
-  if (needs && are_usable(lane, needs, t)) {
-    *waits_for = 0;
-    return true;
-  }
-  *waits_for = (uint8_t)trax_ref_check_registers(tm->ref, lane, t);
   return !trax_simt_note_charge(warp, lane);
+}
+
+/* The same for one that has been checked. If it was accepted it stays so, and else it waits for its register. */
+static bool check_again(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint32_t i, uint64_t t) {
+  const uint8_t waits_for = tm->lane[i].waits_for;
+  if (!waits_for)
+    return true;
+  const struct trax_ref_register *reg = &tm->ref->tp[i].scoreboard[waits_for];
+  if (reg->usable <= t)
+    return check(tm, warp, i, t);
+  trax_simt_charge(tm, warp, trax_simt_bit(i), t, reg->cause);
+  return false;
+}
+
+static void fault(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint64_t t) {
+  for (uint64_t set = warp->left; set;) {
+    struct trax_ref_tp *lane = &tm->ref->tp[trax_simt_take(&set)];
+    trax_ref_fault(tm->ref, lane, t, TRAX_FAULT_ILLEGAL, 0);
+    trax_simt_note_charge(warp, lane);
+  }
 }
 
 /* Whether all lanes of the group are accepted. */
 static bool check_group(struct trax_simt_tm *tm, struct trax_simt_warp *warp, uint64_t t) {
-  const bool is_illegal = warp->inst->resource == TRAX_RESOURCE_ILLEGAL && !warp->is_checked;
-  const bool has_more = warp->inst->resource == TRAX_RESOURCE_MEMORY || warp->inst->resource == TRAX_RESOURCE_FENCE;
-  const uint32_t needs = has_more ? 0 : needed_registers(warp->inst);
   bool passes = true;
-  for (uint64_t set = warp->left; set;) {
-    const uint32_t i = trax_simt_take(&set);
-    if (is_illegal) {
-      trax_ref_fault(tm->ref, &tm->ref->tp[i], t, TRAX_FAULT_ILLEGAL, 0);
-      trax_simt_note_charge(warp, &tm->ref->tp[i]);
-      passes = false;
-    } else {
-      passes = check(tm, warp, i, needs, t) && passes;
-    }
+  if (warp->is_checked) {
+    for (uint64_t set = warp->left; set;)
+      passes &= check_again(tm, warp, trax_simt_take(&set), t);
+  } else if (warp->inst->decoded->resource != TRAX_RESOURCE_ILLEGAL) {
+    for (uint64_t set = warp->left; set;)
+      passes &= check(tm, warp, trax_simt_take(&set), t);
+  } else {
+    fault(tm, warp, t);
+    passes = false;
   }
   warp->is_checked = true;
   return passes;
@@ -62,9 +65,9 @@ static bool check_group(struct trax_simt_tm *tm, struct trax_simt_warp *warp, ui
 
 /* Notes what the active lanes ask for. */
 static void note_asks(struct trax_simt_tm *tm, const struct trax_simt_warp *warp, uint64_t bit) {
-  switch (warp->inst->resource) {
+  switch (warp->inst->decoded->resource) {
   case TRAX_RESOURCE_UNIT:
-    tm->for_units |= tm->refuses[warp->inst->unit] ? bit : 0;
+    tm->for_units |= tm->refuses[warp->inst->decoded->unit] ? bit : 0;
     break;
   case TRAX_RESOURCE_MEMORY:
     tm->for_memory |= bit;
@@ -82,7 +85,9 @@ void trax_simt_check_operands(struct trax_simt_tm *tm, uint64_t t) {
   for (uint64_t awake = tm->awake; awake;) {
     const uint32_t i = trax_simt_take(&awake);
     struct trax_simt_warp *warp = &tm->warp[i];
-    if (warp->left && !warp->has_operands)
+    if (!warp->left)
+      trax_simt_charge_fetch(tm, warp, t);
+    else if (!warp->has_operands)
       warp->has_operands = check_group(tm, warp, t);
     warp->active = warp->has_operands ? warp->left : 0;
     if (warp->active)

@@ -33,14 +33,15 @@ static uint64_t grant_group(struct trax_simt_tm *tm, trax_shared unit, const str
 void trax_simt_grant_units(struct trax_simt_tm *tm, uint64_t t) {
   if (!tm->for_units)
     return;
-  uint64_t asks[TRAX_SHARED_COUNT] = {0};
+  uint64_t asks[TRAX_SHARED_COUNT], units = 0;
   for (uint64_t warps = tm->for_units; warps;) {
     const struct trax_simt_warp *warp = &tm->warp[trax_simt_take(&warps)];
-    asks[warp->inst->unit] |= warp->active;
+    const trax_shared unit = warp->inst->decoded->unit;
+    asks[unit] = (units & trax_simt_bit(unit) ? asks[unit] : 0) | warp->active;
+    units |= trax_simt_bit(unit);
   }
-  for (trax_shared unit = 0; unit < TRAX_SHARED_COUNT; unit++) {
-    if (!asks[unit])
-      continue;
+  while (units) {
+    const trax_shared unit = trax_simt_take(&units);
     const struct trax_shared_kind *kind = &tm->ref->kind[unit];
     uint64_t lost = 0;
     for (uint64_t left = asks[unit]; left;) {
@@ -78,15 +79,17 @@ void trax_simt_grant_data_banks(struct trax_simt_tm *tm, uint64_t t) {
     return;
   const uint32_t banks = trax_ref_data_banks(tm->ref);
   uint64_t asks[MOST], asked = 0, lost = 0;
-  for (uint64_t warps = tm->for_memory; warps;)
-    for (uint64_t set = tm->warp[trax_simt_take(&warps)].active; set;) {
-      const struct trax_ref_tp *lane = &tm->ref->tp[trax_simt_take(&set)];
-      if (!trax_ref_asks_for_bank(lane))
+  for (uint64_t warps = tm->for_memory; warps;) {
+    const struct trax_simt_warp *warp = &tm->warp[trax_simt_take(&warps)];
+    const bool asks_for_banks = !warp->inst->decoded->is_nontemporal && !warp->inst->decoded->is_atomic;
+    for (uint64_t set = asks_for_banks ? warp->active : 0; set;) {
+      const uint32_t i = trax_simt_take(&set), address = tm->ref->tp[i].address, bank = address / 4 % banks;
+      if (address >= TRAX_LOCAL_BASE)
         continue;
-      const uint32_t bank = lane->address / 4 % banks;
-      asks[bank] = (asked & trax_simt_bit(bank) ? asks[bank] : 0) | trax_simt_bit(lane->number);
+      asks[bank] = (asked & trax_simt_bit(bank) ? asks[bank] : 0) | trax_simt_bit(i);
       asked |= trax_simt_bit(bank);
     }
+  }
   while (asked) {
     const uint32_t bank = trax_simt_take(&asked);
     if (t >= tm->ref->dcache_fills_end[bank]) {

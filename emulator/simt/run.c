@@ -13,9 +13,12 @@ static void create_tm(struct trax_simt_tm *tm, struct trax_ref_tm *ref, const st
   tm->warps = ref->tps / width;
   for (uint32_t i = 0; i < ref->tps; i++) {
     tm->warp[i / width].first = i / width * width;
+    tm->fetched[i / width].arrivals = TRAX_NEVER;
     tm->warp[i / width].running |= trax_simt_bit(i);
     tm->awake |= trax_simt_bit(i / width);
     tm->place[i] = TRAX_SIMT_SURFACE << 32 | ref->tp[i].pc;
+    tm->lane[i].warp = (uint8_t)(i / width);
+    tm->lane[i].icache = (uint8_t)(i / ref->config->icache.tps_per_cache);
   }
   tm->wakes = TRAX_NEVER;
   for (trax_shared unit = 0; unit < TRAX_SHARED_COUNT; unit++) {
@@ -39,26 +42,10 @@ static void look_ahead(struct trax_simt_chip *chip) {
     }
 }
 
-/* Decodes the first segment of the text. False: out of memory. */
-static bool decode(struct trax_simt_chip *chip, const struct trax_text *text) {
-  const uint32_t begin = text->count ? text->segments->begin : 0, end = text->count ? text->segments->end : 0;
-  chip->inst = calloc((end - begin) / 4 + 1, sizeof *chip->inst);
-  for (uint32_t pc = begin; chip->inst && pc < end; pc += 4) {
-    uint32_t word = 0;
-    trax_ref_text(chip->ref.tm, pc, &word);
-    chip->inst[(pc - begin) / 4] = trax_decode(word);
-  }
-  for (uint32_t i = 0; chip->inst && i < chip->ref.tms; i++) {
-    chip->tm[i].inst = chip->inst;
-    chip->tm[i].inst_count = (end - begin) / 4;
-  }
-  return chip->inst;
-}
-
 static trax_status create(struct trax_run *run, trax_error *error) {
   struct trax_simt_chip *chip = run->chip = calloc(1, sizeof *chip);
   if (!chip || !trax_ref_create(&chip->ref, run->machine, run->options->output) ||
-      !(chip->tm = calloc(chip->ref.tms, sizeof *chip->tm)) || !decode(chip, &run->text))
+      !(chip->tm = calloc(chip->ref.tms, sizeof *chip->tm)) || !trax_simt_decode(chip, &run->text))
     return trax_fail(error, "out of memory");
   for (uint32_t i = 0; i < chip->ref.tms; i++)
     create_tm(&chip->tm[i], &chip->ref.tm[i], &run->text);
@@ -79,14 +66,12 @@ static void destroy(void *context) {
 /* The steps of a TM. */
 static void steps(struct trax_simt_tm *tm, uint64_t t) {
   trax_simt_choose(tm, t);
-  trax_simt_charge_idle(tm, t);
   trax_simt_fetch(tm, t);
   trax_simt_check_operands(tm, t);
   trax_simt_grant_units(tm, t);
   trax_simt_grant_data_banks(tm, t);
   trax_simt_grant_places(tm, t);
   trax_simt_issue(tm, t);
-  trax_simt_sleep(tm, t);
 }
 
 /* The requests that arrive in cycle t. Returns the TMs that have any, as a set. */
@@ -103,10 +88,13 @@ static uint64_t arrivals(struct trax_simt_chip *chip, uint64_t t) {
 static void cycle(struct trax_simt_chip *chip, uint64_t t) {
   const uint64_t has_arrived = arrivals(chip, t);
   for (uint32_t i = 0; i < chip->ref.tms; i++) {
-    const uint32_t places = chip->ref.tm[i].places;
-    if (trax_simt_wake(&chip->tm[i], t, has_arrived >> i & 1))
-      steps(&chip->tm[i], t);
-    chip->is_waited_for |= chip->ref.tm[i].places > places;
+    struct trax_simt_tm *tm = &chip->tm[i];
+    const uint32_t places = tm->ref->places;
+    if (t >= tm->wakes || has_arrived >> i & 1)
+      trax_simt_wake(tm, t, has_arrived >> i & 1);
+    if (tm->awake)
+      steps(tm, t);
+    chip->is_waited_for |= tm->ref->places > places;
   }
   const bool is_waited_for = chip->is_waited_for;
   if (is_waited_for) {
@@ -192,7 +180,8 @@ static void set_pc(void *context, uint32_t number, uint32_t pc) {
   warp->group = warp->left = warp->stays = 0;
   warp->is_checked = warp->has_operands = false;
   tm->ref->tp[number % tps].pc = pc;
-  trax_simt_place(tm, number % tps, 0);
+  if (!tm->ref->tp[number % tps].ended)
+    tm->place[number % tps] = (tm->place[number % tps] >> 32 << 32) | pc;
 }
 
 static uint32_t queued(const void *context, uint32_t tm, uint64_t t) {

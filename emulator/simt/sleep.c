@@ -19,9 +19,7 @@ void trax_simt_charge_sleep(struct trax_simt_tm *tm, struct trax_simt_warp *warp
   warp->slept_from = t;
 }
 
-bool trax_simt_wake(struct trax_simt_tm *tm, uint64_t t, bool has_arrived) {
-  if (!has_arrived && t < tm->wakes)
-    return tm->awake;
+void trax_simt_wake(struct trax_simt_tm *tm, uint64_t t, bool has_arrived) {
   tm->wakes = TRAX_NEVER;
   for (uint32_t i = 0; i < tm->warps; i++) {
     struct trax_simt_warp *warp = &tm->warp[i];
@@ -34,15 +32,12 @@ bool trax_simt_wake(struct trax_simt_tm *tm, uint64_t t, bool has_arrived) {
       tm->wakes = warp->wakes;
     }
   }
-  return tm->awake;
 }
 
 /* The next cycle in which the warp has something to do, unless something arrives. */
 static uint64_t next_cycle(const struct trax_simt_tm *tm, const struct trax_simt_warp *warp, uint64_t t) {
   if (!warp->running)
     return TRAX_NEVER;
-  if (!warp->group || warp->has_operands)
-    return t + 1;
   if (!warp->left)
     return trax_simt_speaker(tm, warp->group)->awaits_line ? TRAX_NEVER : t + 1;
   uint64_t next = TRAX_NEVER;
@@ -55,16 +50,13 @@ static uint64_t next_cycle(const struct trax_simt_tm *tm, const struct trax_simt
   return next;
 }
 
-void trax_simt_sleep(struct trax_simt_tm *tm, uint64_t t) {
-  for (uint64_t awake = tm->awake; awake;) {
-    const uint32_t i = trax_simt_take(&awake);
-    struct trax_simt_warp *warp = &tm->warp[i];
-    warp->wakes = next_cycle(tm, warp, t);
-    if (warp->wakes == t + 1)
-      continue;
-    warp->slept_from = t + 1;
-    tm->awake &= ~trax_simt_bit(i);
-    if (warp->wakes < tm->wakes)
-      tm->wakes = warp->wakes;
-  }
+void trax_simt_sleep(struct trax_simt_tm *tm, uint32_t i, uint64_t t) {
+  struct trax_simt_warp *warp = &tm->warp[i];
+  warp->wakes = next_cycle(tm, warp, t);
+  if (warp->wakes == t + 1)
+    return;
+  warp->slept_from = t + 1;
+  tm->awake &= ~trax_simt_bit(i);
+  if (warp->wakes < tm->wakes)
+    tm->wakes = warp->wakes;
 }
