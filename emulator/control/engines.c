@@ -19,10 +19,8 @@ static const struct trax_engine *const engines[] = {
     &trax_fast_translated_engine,
     &trax_functional_interpreted_engine,
     &trax_functional_translated_engine,
-#ifdef TRAX_FAST_HAVE_V3
+#ifdef TRAX_FAST_HAVE_VARIANTS
     &trax_fast_avx2_engine,
-#endif
-#ifdef TRAX_FAST_HAVE_V4
     &trax_fast_avx512_engine,
 #endif
 };

@@ -6,29 +6,25 @@
 
 /* --- the variants --- */
 
-#ifdef TRAX_FAST_HAVE_V3
+#ifdef TRAX_FAST_HAVE_VARIANTS
 static bool has_avx2(void) {
   return __builtin_cpu_supports("x86-64-v3");
 }
-#endif
-#ifdef TRAX_FAST_HAVE_V4
+
 static bool has_avx512(void) {
   return __builtin_cpu_supports("x86-64-v4");
 }
 #endif
 
 static const struct trax_fast_variant *variant_of(const struct trax_engine *engine) {
-  const bool best =
-      engine == &trax_fast_engine || engine == &trax_fast_interpreted_engine || engine == &trax_fast_translated_engine;
-#ifdef TRAX_FAST_HAVE_V4
+#ifdef TRAX_FAST_HAVE_VARIANTS
+  const bool best = !engine->is_possible && engine != &trax_fast_any_engine;
   if (engine == &trax_fast_avx512_engine || (best && has_avx512()))
     return &trax_fast_variant_v4;
-#endif
-#ifdef TRAX_FAST_HAVE_V3
   if (engine == &trax_fast_avx2_engine || (best && has_avx2()))
     return &trax_fast_variant_v3;
 #endif
-  (void)best;
+  (void)engine;
   return &trax_fast_variant;
 }
 
@@ -207,9 +203,7 @@ const struct trax_engine trax_fast_engine = ENGINE("fast", "the default, for wha
 const struct trax_engine trax_fast_any_engine = ENGINE("fast-any", "the same for any host of the family", NULL);
 const struct trax_engine trax_fast_interpreted_engine = ENGINE("fast-interpreted", "without translation", NULL);
 const struct trax_engine trax_fast_translated_engine = ENGINE("fast-translated", "translation at once", NULL);
-#ifdef TRAX_FAST_HAVE_V3
+#ifdef TRAX_FAST_HAVE_VARIANTS
 const struct trax_engine trax_fast_avx2_engine = ENGINE("fast-avx2", "the same for AVX2", has_avx2);
-#endif
-#ifdef TRAX_FAST_HAVE_V4
 const struct trax_engine trax_fast_avx512_engine = ENGINE("fast-avx512", "the same for AVX-512", has_avx512);
 #endif

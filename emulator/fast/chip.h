@@ -85,11 +85,8 @@ void trax_fast_import(struct trax_chip *chip, uint64_t t);
 extern const struct trax_engine trax_fast_engine, trax_fast_any_engine;
 /* The best variant without translation, and, for tests, with all of it at once. */
 extern const struct trax_engine trax_fast_interpreted_engine, trax_fast_translated_engine;
-#ifdef TRAX_FAST_HAVE_V3
-extern const struct trax_engine trax_fast_avx2_engine;
-#endif
-#ifdef TRAX_FAST_HAVE_V4
-extern const struct trax_engine trax_fast_avx512_engine;
+#ifdef TRAX_FAST_HAVE_VARIANTS
+extern const struct trax_engine trax_fast_avx2_engine, trax_fast_avx512_engine;
 #endif
 
 #endif

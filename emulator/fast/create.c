@@ -39,10 +39,9 @@ static bool create_fetch(struct trax_tm *tm) {
   tm->vectors = (banks + TRAX_FAST_LANES - 1) / TRAX_FAST_LANES;
   tm->fetch_rr_masks = create_aligned((size_t)tm->icaches * tm->vectors, sizeof *tm->fetch_rr_masks);
   tm->resident = calloc(tm->icaches, sizeof *tm->resident);
-  tm->resident_lines = calloc(tm->icaches, sizeof *tm->resident_lines);
   for (unsigned i = 0; i < tm->tps; i++)
     tm->icache_of[i] = (uint8_t)(i / tps);
-  bool complete = tm->icache && tm->fetch_rr_masks && tm->resident && tm->resident_lines;
+  bool complete = tm->icache && tm->fetch_rr_masks && tm->resident;
   for (uint32_t i = 0; complete && i < tm->icaches; i++)
     complete = trax_icache_create(&tm->icache[i], i, tm);
   return complete;
@@ -117,7 +116,6 @@ static void destroy_tm(struct trax_tm *tm) {
   free(tm->count_deltas);
   free(tm->fetch_rr_masks);
   free(tm->resident);
-  free(tm->resident_lines);
 }
 
 /* Bursts are translated if a bank follows from bits of the address. With an observer of each issue they have one

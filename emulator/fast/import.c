@@ -6,17 +6,12 @@
 #include <string.h>
 
 static void find_resident_lines(struct trax_tm *tm) {
-  const struct trax_fast_program *program = &tm->chip->program;
   memset(tm->resident, 0, tm->icaches * sizeof *tm->resident);
   for (uint32_t i = 0; i < tm->icaches; i++) {
     const struct trax_cache_tags *tags = &tm->icache[i].tags;
-    for (size_t j = 0; j < program->count; j++) {
-      const struct trax_fast_section *section = &program->sections[j];
-      const uint32_t last_line = (section->begin + section->bytes) >> tags->line_shift;
-      for (uint32_t line = section->first_line, index = section->line; line <= last_line && index < TRAX_FAST_LINES - 1;
-           line++, index++)
-        trax_fast_set_resident(tm, i, index, trax_cache_tags_have(tags, line));
-    }
+    for (size_t place = 0; place < ((size_t)tags->set_mask + 1) * tags->ways; place++)
+      if (tags->lines[place])
+        trax_fast_set_resident(tm, i, tags->lines[place] - 1, true);
   }
 }
 

@@ -25,40 +25,12 @@ FIELDS(trax_request_list, TRAX_REQUEST_LIST_STATE);
 FIELDS(trax_waiting, TRAX_WAITING_STATE);
 FIELDS(trax_instant, TRAX_INSTANT_STATE);
 FIELDS(trax_channel, TRAX_CHANNEL_STATE);
-FIELDS(trax_memory, TRAX_MEMORY_STATE);
 FIELDS(trax_dram_request, TRAX_DRAM_REQUEST_STATE);
 FIELDS(trax_dram_bank, TRAX_DRAM_BANK_STATE);
 FIELDS(trax_dram_rank, TRAX_DRAM_RANK_STATE);
 FIELDS(trax_dram_channel, TRAX_DRAM_CHANNEL_STATE);
 FIELDS(trax_l2_mshr, TRAX_L2_MSHR_STATE);
 FIELDS(trax_l2, TRAX_L2_STATE);
-
-/* The statistics' counters have lists. These rows add the other fields; the assertions check that no field lacks a row.
- */
-#define ROW(S, TYPE, NAME) {#TYPE, #NAME, offsetof(struct S, NAME), sizeof(((struct S *)0)->NAME)},
-#define TM_ROW(ID, ...) ROW(trax_tm_stats, uint64_t, ID)
-#define MEMORY_ROW(ID, ...) ROW(trax_memory_stats, uint64_t, ID)
-#define ONE(...) +1
-static const struct trax_field trax_tp_stats_fields[] = {ROW(trax_tp_stats, uint64_t, cycles)};
-static const struct trax_field trax_tm_stats_fields[] = {
-    ROW(trax_tm_stats, uint64_t, cycles) ROW(trax_tm_stats, uint64_t, instructions) TRAX_TM_COUNTERS(TM_ROW)};
-static const struct trax_field trax_channel_stats_fields[] = {ROW(trax_channel_stats, uint64_t, transfers)
-                                                                  ROW(trax_channel_stats, uint64_t, bytes)};
-#define DRAM_ROW(ID, ...) ROW(trax_dram_stats, uint64_t, ID)
-static const struct trax_field trax_dram_stats_fields[] = {TRAX_DRAM_COUNTERS(DRAM_ROW)};
-static const struct trax_field trax_memory_stats_fields[] = {ROW(trax_memory_stats, struct trax_channel_stats, channel)
-                                                                 ROW(trax_memory_stats, struct trax_dram_stats, dram)
-                                                                     TRAX_MEMORY_COUNTERS(MEMORY_ROW)};
-_Static_assert(sizeof(struct trax_tp_stats) == TRAX_CAUSE_COUNT * sizeof(uint64_t), "a field has no row");
-_Static_assert(sizeof(struct trax_tm_stats) ==
-                   (TRAX_CAUSE_COUNT + TRAX_OP_COUNT TRAX_TM_COUNTERS(ONE)) * sizeof(uint64_t),
-               "a field has no row");
-_Static_assert(sizeof(struct trax_channel_stats) == 2 * sizeof(uint64_t), "a field has no row");
-_Static_assert(sizeof(struct trax_dram_stats) == (0 TRAX_DRAM_COUNTERS(ONE)) * sizeof(uint64_t), "a field has no row");
-_Static_assert(sizeof(struct trax_memory_stats) ==
-                   (2 * TRAX_MAX_CHANNELS TRAX_MEMORY_COUNTERS(ONE)) * sizeof(uint64_t) +
-                       sizeof(struct trax_dram_stats),
-               "a field has no row");
 
 /* --- sections --- */
 
@@ -76,6 +48,11 @@ _Static_assert(sizeof(struct trax_memory_stats) ==
 #define VISIT_NUMBERS(TYPE, POINTER, COUNT)                                                                            \
   VISIT(#POINTER, &(const struct trax_field){#TYPE, "", 0, sizeof(TYPE)}, 1, 1 ? (POINTER) : (TYPE *)NULL,             \
         sizeof(TYPE), COUNT)
+
+/* Visits an array of structures of statistics, each as one field: its counters are part of the layout's sources. */
+#define VISIT_COUNTERS(NAME, POINTER, COUNT)                                                                           \
+  VISIT(#NAME, &(const struct trax_field){"uint64_t", "", 0, sizeof(struct NAME)}, 1, POINTER, sizeof(struct NAME),    \
+        COUNT)
 
 /* Visits data that follow from the rest: they are part of a snapshot, but not of a checkpoint. */
 #define VISIT_DERIVED(POINTER, COUNT) VISIT(#POINTER, NULL, 0, POINTER, sizeof *(POINTER), COUNT)
@@ -122,15 +99,14 @@ static void visit_tm(const struct visitor *visitor, struct trax_tm *tm) {
     visit_icache(visitor, &tm->icache[i], tm->tps);
   visit_dcache(visitor, &tm->dcache, tm->tps);
   visit_queue(visitor, &tm->queue);
-  VISIT_ALL(trax_tm_stats, tm->stats, 1);
-  VISIT_ALL(trax_tp_stats, tm->tp_stats, tm->tps);
+  VISIT_COUNTERS(trax_tm_stats, tm->stats, 1);
+  VISIT_COUNTERS(trax_tp_stats, tm->tp_stats, tm->tps);
   VISIT_NUMBERS(int32_t, tm->exit_statuses, tm->tps);
   /* The program and the states of blocks are not visited: they stay valid after a roll back. */
   VISIT_DERIVED(tm->count_deltas, tm->chip->program.inst_count + 1);
   VISIT_DERIVED(tm->ray_counts, tm->ray_counts ? 1 : 0); /* no checkpoint has them */
   VISIT_DERIVED(tm->rays, tm->rays ? tm->tps : 0);
   VISIT_DERIVED(tm->resident, tm->icaches);
-  VISIT_DERIVED(tm->resident_lines, tm->icaches);
 }
 
 static void visit_l2(const struct visitor *visitor, struct trax_l2 *l2) {
@@ -138,7 +114,7 @@ static void visit_l2(const struct visitor *visitor, struct trax_l2 *l2) {
   VISIT_ALL(trax_waiting, l2->bank, l2->banks);
   VISIT_ALL(trax_l2_mshr, l2->mshr, l2->mshr_limit);
   VISIT_DERIVED(l2->line, l2->mshr_limit);
-  VISIT_NUMBERS(uint16_t, l2->used, l2->mshr_limit);
+  VISIT_DERIVED(l2->used, l2->mshr_limit);
   visit_tags(visitor, &l2->tags);
 }
 
@@ -155,11 +131,11 @@ static void visit_dram(const struct visitor *visitor, const struct trax_dram *dr
 }
 
 static void visit_memory(const struct visitor *visitor, struct trax_memory *memory) {
-  VISIT_ALL(trax_memory, memory, 1);
+  VISIT_DERIVED(memory, 1);
   VISIT_ALL(trax_channel, memory->channel, memory->channels);
   for (uint32_t i = 0; i < memory->channels; i++)
     VISIT_ALL(trax_waiting, memory->channel[i].waiting, memory->channel[i].waiting ? 1 : 0);
-  VISIT_ALL(trax_memory_stats, memory->stats, 1);
+  VISIT_COUNTERS(trax_memory_stats, memory->stats, 1);
   if (memory->dram)
     visit_dram(visitor, memory->dram);
   if (memory->l2)
@@ -171,8 +147,6 @@ void trax_state_visit(void *state, trax_section_visitor *visit, void *context) {
   const struct visitor the_visitor = {visit, context}, *visitor = &the_visitor;
   VISIT_NONE(trax_request_list);
   VISIT_NONE(trax_instant);
-  VISIT_NONE(trax_channel_stats);
-  VISIT_NONE(trax_dram_stats);
   for (uint32_t i = 0; i < chip->tms; i++)
     visit_tm(visitor, &chip->tm[i]);
   visit_memory(visitor, &chip->memory);

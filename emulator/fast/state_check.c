@@ -37,17 +37,6 @@ static void check_cycle(struct checker *checker, uint64_t cycle, const char *whi
   expect(checker, cycle < LAST_CYCLE, "%s: cycle %" PRIu64, which, cycle);
 }
 
-static void check_tags(struct checker *checker, const struct trax_cache_tags *tags, const char *which) {
-  for (size_t set = 0; set <= tags->set_mask; set++)
-    expect(checker, trax_cache_tags_next(tags, set) < tags->ways, "%s: set %zu goes on in way %u", which, set,
-           trax_cache_tags_next(tags, set));
-}
-
-static void check_arbiters(struct checker *checker, const trax_arbiter *arbiter, size_t count, const char *which) {
-  for (size_t i = 0; i < count; i++)
-    expect(checker, arbiter[i] < 64, "%s %zu: the pointer is %u", which, i, arbiter[i]);
-}
-
 /* --- lists of requests --- */
 
 enum { OF_TMS = 1, OF_L2 = 2 /* whose requests a list may have; OF_L2 alone: lines with an arrival */ };
@@ -82,7 +71,6 @@ static void check_list(struct checker *checker, const struct trax_request_list *
 }
 
 static void check_waiting(struct checker *checker, const struct trax_waiting *waiting, const char *which) {
-  check_arbiters(checker, &waiting->arbiter, 1, which);
   for (unsigned tm = 0; tm < TRAX_MAX_TMS; tm++)
     check_list(checker, &waiting->list[tm], OF_TMS, which);
 }
@@ -90,22 +78,18 @@ static void check_waiting(struct checker *checker, const struct trax_waiting *wa
 /* --- memory --- */
 
 static void check_l2(struct checker *checker, const struct trax_l2 *l2) {
-  uint8_t seen[1 << TRAX_REQUEST_BITS] = {0};
-  check_tags(checker, &l2->tags, "second-level cache");
-  expect(checker, l2->used_count <= l2->mshr_limit, "second-level cache: %" PRIu32 " lines are on their way",
-         l2->used_count);
   for (uint32_t i = 0; i < l2->banks; i++)
     check_waiting(checker, &l2->bank[i], "bank of the second-level cache");
   for (unsigned i = 0; i < TRAX_MAX_CHANNELS; i++)
     check_list(checker, &l2->arriving[i], OF_L2, "coming line");
-  for (uint32_t i = 0; i < l2->mshr_limit; i++)
-    if (expect(checker, l2->used[i] < l2->mshr_limit && !seen[l2->used[i]]++,
-               "second-level cache: miss register %u is %" PRIu32, l2->used[i], i))
-      expect(checker, lines_listed(checker)[l2->used[i]] == (i < l2->used_count),
-             "second-level cache: miss register %u is in no list, or without a line", l2->used[i]);
-  for (uint32_t i = 0; i < l2->used_count && !checker->failed; i++) {
-    const struct trax_l2_mshr *mshr = &l2->mshr[l2->used[i]];
-    expect(checker, mshr->request.kind == TRAX_REQUEST_DATA_LINE && mshr->request.bytes == l2->line_cost,
+  for (uint32_t i = 0; i < l2->mshr_limit && !checker->failed; i++) {
+    const struct trax_l2_mshr *mshr = &l2->mshr[i];
+    const uint32_t bytes = mshr->request.bytes;
+    expect(checker, bytes ? bytes == l2->line_cost && lines_listed(checker)[i] : !lines_listed(checker)[i],
+           "second-level cache: miss register %" PRIu32 " is in no list, or without a line", i);
+    if (!bytes)
+      continue;
+    expect(checker, mshr->request.kind == TRAX_REQUEST_DATA_LINE,
            "second-level cache: the request for line %" PRIu32 " is none", i);
     check_cycle(checker, mshr->arrival == TRAX_NEVER ? 0 : mshr->arrival, "line of the second-level cache");
     check_list(checker, &mshr->waiters, OF_TMS, "line of the second-level cache");
@@ -129,7 +113,6 @@ static void check_dram(struct checker *checker, uint32_t number) {
 
 static void check_memory(struct checker *checker) {
   const struct trax_memory *memory = &checker->chip->memory;
-  check_arbiters(checker, &memory->arbiter, 1, "memory controller");
   for (uint32_t i = 0; i < memory->channels; i++) {
     check_cycle(checker, memory->channel[i].free_from.cycle, "channel");
     check_cycle(checker, memory->channel[i].unit_free_from, "increment unit");
@@ -171,7 +154,6 @@ static void check_queue(struct checker *checker, const struct trax_tm *tm) {
 static void check_dcache(struct checker *checker, const struct trax_tm *tm) {
   const struct trax_dcache *dcache = &tm->dcache;
   const uint32_t waiters = tm->tps * TRAX_NUM_REGISTERS;
-  check_tags(checker, &dcache->tags, "data cache");
   expect(checker, dcache->mshr_count <= dcache->mshr_limit, "TM %u: %" PRIu32 " miss registers", tm->number,
          dcache->mshr_count);
   for (uint32_t i = 0; i < dcache->mshr_count && !checker->failed; i++)
@@ -196,7 +178,6 @@ static void check_states(struct checker *checker, const struct trax_tm *tm) {
     ADD(tm->wheel[slot]);
   for (uint32_t i = 0; i < tm->icaches; i++) {
     const struct trax_icache *icache = &tm->icache[i];
-    check_tags(checker, &icache->tags, "instruction cache");
     good &= icache->pending_count <= tm->tps;
     for (uint32_t j = 0; good && j < icache->pending_count; j++) {
       good &= icache->pending[j].waiting != 0;
@@ -237,12 +218,9 @@ static void check_tm(struct checker *checker, const struct trax_tm *tm) {
   check_states(checker, tm);
   for (unsigned i = 0; i < tm->tps; i++)
     check_tp(checker, tm, i);
-  for (unsigned i = 0; i < TRAX_SHARED_COUNT; i++) {
-    check_arbiters(checker, tm->unit[i].arbiter, 64, "unit");
+  for (unsigned i = 0; i < TRAX_SHARED_COUNT; i++)
     for (size_t j = 0; j < trax_shared_unit_count(&tm->unit[i]); j++)
       check_cycle(checker, tm->unit[i].free_from[j], "unit");
-  }
-  check_arbiters(checker, &tm->queue_arbiter, 1, "memory queue");
 }
 
 const char *trax_state_check(void *state, uint64_t t, char text[128]) {

@@ -304,6 +304,7 @@ static void damage_layout(const struct trax_config *config, const uint32_t *prog
    within its structures. */
 static const char *const free_names[] = {
     "trax_tm.progressed",
+    "trax_tm.queue_arbiter",
     "trax_tm.data_bank_rr_masks",
     "trax_tm.fetch_rr_masks16",
     "trax_fast_units.rr_masks",
@@ -315,6 +316,9 @@ static const char *const free_names[] = {
     "trax_tp.local",
     "trax_icache_pending.line",
     "tags->lines.",
+    "tags->next.",
+    "trax_shared_unit.arbiter",
+    "trax_waiting.arbiter",
     "trax_mshr.line",
     "trax_mshr.passing",
     "trax_dcache.all_fills_end",

@@ -148,7 +148,7 @@ MUTANTS = [
     ("fast/time/cycle.c", "tm->busy_registers[number] &= ~waits;", "tm->busy_registers[number] = 0;"),
     ("fast/time/cycle.c", "if (inst->resource == TRAX_RESOURCE_END || ", "if ("),
     # --- steps 3 and 4 ---
-    ("fast/time/grant.h", "const unsigned pointer = tm->queue_arbiter;", "const unsigned pointer = 0;"),
+    ("fast/time/grant.h", "const unsigned pointer = tm->queue_arbiter % 64;", "const unsigned pointer = 0;"),
     ("fast/time/grant.h", "won & tm->load_hits & ~tm->executes_at_issue;", "won & tm->load_hits;"),
     ("fast/time/grant.h", "if (!tm->serial_hits && !tm->chip->alone)", "if (!tm->chip->alone)"),
     ("fast/time/grant.h", "if (!tm->serial_hits && !tm->chip->alone)", "if (!tm->serial_hits)"),
@@ -256,8 +256,8 @@ MUTANTS = [
     ("fast/tm/icache.c", "tm->holding |= icache->pending[i].waiting;",
      "tm->holding |= icache->pending[i].waiting & -icache->pending[i].waiting;"),
     # Round robin over the TMs.
-    ("fast/memory/memory.c", "trax_arbiter_to_back(&memory->arbiter, tm->number);",
-     "(void)0;"),
+    ("fast/memory/memory.c", "  trax_arbiter_to_back(&waiting->arbiter, number);\n",
+     ""),
     # A transfer takes bytes / B cycles.
     ("fast/memory/memory.c", "begin.units + request->bytes * memory->units_per_byte",
      "begin.units + (request->bytes + 3) / 4 * 4 * memory->units_per_byte"),
@@ -355,16 +355,17 @@ MUTANTS = [
     ("fast/time/head.c", "tp->jumps -= next != index + 1;",
      "(void)next;"),
     # A line that was replaced is not there.
-    ("fast/time/head.c", "trax_fast_set_resident(tm, number, (uint32_t)evicted_index, false);",
-     "(void)evicted_index;"),
+    ("fast/time/head.c", "trax_fast_set_resident(tm, number, evicted - 1, false);",
+     "(void)tm;"),
     # Lines of programs of more than 64 may be missing, too.
-    ("fast/time/head.c", "if (!tm->resident[icache][tm->chip->program.line[trax_fast_index(tp, i)]])",
-     "if (tm->chip->program.lines <= 64 && !tm->resident[icache][tm->chip->program.line[trax_fast_index(tp, i)]])"),
+    ("fast/time/head.c", "if (!trax_fast_is_resident(tm, icache, tm->chip->program.line[trax_fast_index(tp, i)]))",
+     "if (tm->chip->program.lines <= 64 &&\n"
+     "        !trax_fast_is_resident(tm, icache, tm->chip->program.line[trax_fast_index(tp, i)]))"),
     # Heads whose line has gone are looked at again.
-    ("fast/time/head.c", "        tm->uncertain |= (uint64_t)1 << tp;",
-     "        tm->uncertain |= 0;"),
+    ("fast/time/head.c", "      tm->uncertain |= (uint64_t)1 << tp;",
+     "      tm->uncertain |= 0;"),
     # And from then on.
-    ("fast/time/head.c", "        tm->heads.check_at[tp] = 0;\n",
+    ("fast/time/head.c", "      tm->heads.check_at[tp] = 0;\n",
      ""),
     # A head in another line is looked at,
     ("fast/time/head.c", "program->line[index] != line ||",
@@ -446,7 +447,7 @@ MUTANTS = [
     ("fast/epochs.c", "memcpy(chip->machine->space.bytes + undo->address, &undo->word, sizeof undo->word);",
      "memcpy(chip->machine->space.bytes + undo->address, &undo->word, 1);"),
     # The controller is restored.
-    ("fast/state.c", "VISIT_ALL(trax_memory, memory, 1);", "VISIT_ALL(trax_memory, memory, 0);"),
+    ("fast/state.c", "VISIT_DERIVED(memory, 1);", "VISIT_DERIVED(memory, 0);"),
     # Increments are noted as writes.
     ("fast/epochs.c", "epochs->failed |= !record_writer(epochs, address, BY_CONTROLLER);",
      "(void)address; (void)epochs;"),
@@ -493,12 +494,12 @@ MUTANTS = [
     ("machine/dram_mapping.c", "rest >>= map->bits[i];", "rest >>= 1;"),
     ("machine/dram_mapping.c", "(address + bytes - 1) / burst - address / burst + 1",
      "(bytes + burst - 1) / burst + 0 * address"),
-    ("fast/memory/memory.c", "admitted &= ~((uint64_t)1 << tm);", "(void)tm;"),
-    ("fast/memory/memory.c", "increment_at(memory, number, request, space, t + 1)",
-     "increment_at(memory, number, request, space, t)"),
+    ("fast/memory/admission.c", "admitted &= ~((uint64_t)1 << tm);", "(void)tm;"),
+    ("fast/memory/admission.c", "trax_memory_increment(memory, number, request, space, t + 1)",
+     "trax_memory_increment(memory, number, request, space, t)"),
     ("fast/memory/memory.c", "channel->unit_free_from = over + memory->unit_interval;",
      "channel->unit_free_from = over;"),
-    ("fast/memory/memory.c", "return 1 + config->memory.latency_cycles;", "return 2 + config->memory.latency_cycles;"),
+    ("fast/memory/create.c", "return 1 + config->memory.latency_cycles;", "return 2 + config->memory.latency_cycles;"),
     ("fast/state.c", "dram->channel, config->memory.channels);", "dram->channel, 0);"),
     ("fast/state.c", "channel->bank, config->dram.ranks * config->dram.banks);", "channel->bank, 0);"),
     ("reference/dram.c", "return (request && request->kind == ATOMIC) ||", "return"),

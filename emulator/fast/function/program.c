@@ -89,8 +89,8 @@ trax_status trax_fast_program_create(struct trax_fast_program *program, const st
   for (size_t i = 0; i < text->count; i++) {
     const struct trax_text_segment *section = &text->segments[i];
     const uint32_t words = (section->end - section->begin) / 4, first_line = section->begin / line_bytes;
-    program->sections[program->count++] =
-        (struct trax_fast_section){section->begin, words * 4, first_line, (uint16_t)lines, program->inst + index};
+    program->sections[program->count++] = (struct trax_fast_section){
+        section->begin, words * 4, first_line, section->end / line_bytes, (uint16_t)lines, program->inst + index};
     for (uint32_t word = 0; word <= words; word++, index++) {
       const uint32_t pc = section->begin + word * 4;
       predecode(program, &section->decoded[word], index, pc, lines + pc / line_bytes - first_line,

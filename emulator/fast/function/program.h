@@ -29,7 +29,8 @@ struct trax_fast_timing {
 struct trax_fast_section {
   uint32_t begin, bytes;
   uint32_t first_line;         /* the number of its first line in the cache */
-  uint16_t line;               /* the index of that line in `resident` */
+  uint32_t last_line;          /* that of the address after it */
+  uint16_t line;               /* the index of the first line in `resident` */
   struct trax_fast_inst *inst; /* [bytes / 4 + 1]; the last one is no text */
 };
 

@@ -77,6 +77,7 @@ static void install(struct trax_memory *memory, struct trax_tm *tms, uint64_t t)
     while (l2->used[index] != id - TRAX_LINE_REQUEST)
       index++;
     trax_cache_tags_install(&l2->tags, l2->line[index]);
+    mshr_of(l2, id)->request.bytes = 0;
     l2->line[index] = l2->line[last];
     l2->used[index] = l2->used[last];
     l2->used[last] = (uint16_t)(id - TRAX_LINE_REQUEST);
@@ -86,14 +87,18 @@ static void install(struct trax_memory *memory, struct trax_tm *tms, uint64_t t)
 
 void trax_l2_import(struct trax_memory *memory, struct trax_tm *tms) {
   struct trax_l2 *l2 = memory->l2;
-  l2->waiting = 0;
+  uint32_t free_from = l2->mshr_limit;
+  l2->waiting = l2->used_count = 0;
   for (uint32_t i = 0; i < l2->banks; i++)
     l2->waiting += trax_waiting_import(memory, tms, &l2->bank[i]);
-  for (uint32_t i = 0; i < l2->used_count; i++) {
-    struct trax_l2_mshr *mshr = &l2->mshr[l2->used[i]];
-    l2->line[i] = trax_line_of(&l2->tags, mshr->request.address);
-    trax_memory_import_list(memory, tms, &mshr->waiters);
-  }
+  for (uint32_t i = 0; i < l2->mshr_limit; i++)
+    if (l2->mshr[i].request.bytes) {
+      l2->line[l2->used_count] = trax_line_of(&l2->tags, l2->mshr[i].request.address);
+      l2->used[l2->used_count++] = (uint16_t)i;
+      trax_memory_import_list(memory, tms, &l2->mshr[i].waiters);
+    } else {
+      l2->used[--free_from] = (uint16_t)i;
+    }
   for (unsigned i = 0; i < TRAX_MAX_CHANNELS; i++)
     trax_memory_import_list(memory, tms, &l2->arriving[i]);
   next_to_arrive(l2);

@@ -7,7 +7,7 @@
 
 /* A miss register, which holds a line on its way. */
 #define TRAX_L2_MSHR_STATE(X, S)                                                                                       \
-  X(S, struct trax_request, request, )      /* for the line */                                                         \
+  X(S, struct trax_request, request, )      /* for the line; of 0 bytes if the register is free */                     \
   X(S, uint64_t, arrival, )                 /* TRAX_NEVER until its transfer begins */                                 \
   X(S, struct trax_request_list, waiters, ) /* requests of TMs that wait for the line, until its arrival is known */
 struct trax_l2_mshr {
@@ -15,11 +15,11 @@ struct trax_l2_mshr {
 };
 
 #define TRAX_L2_STATE(X, S)                                                                                            \
-  X(S, uint32_t, used_count, )                                  /* lines on their way */                               \
   X(S, struct trax_request_list, arriving, [TRAX_MAX_CHANNELS]) /* lines whose arrival is known, in its order */
 struct trax_l2 {
   TRAX_L2_STATE(TRAX_FIELD, )
   uint32_t waiting;      /* number of requests that wait for banks */
+  uint32_t used_count;   /* lines on their way */
   uint64_t next_arrival; /* of a line; TRAX_NEVER if none is known */
   struct trax_cache_tags tags;
   uint32_t banks, latency;

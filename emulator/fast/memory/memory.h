@@ -54,15 +54,11 @@ struct trax_instant {
   X(S, uint64_t, unit_free_from, )         /* of the increment unit */
 struct trax_channel {
   TRAX_CHANNEL_STATE(TRAX_FIELD, )
-  struct trax_waiting *waiting; /* NULL with a second-level cache, and if the TMs' queues are rings */
+  struct trax_waiting *waiting; /* NULL with a second-level cache */
 };
 
-/* `keeps_order`: there is one channel and no second-level cache, so that the TMs' queues are rings. */
-#define TRAX_MEMORY_STATE(X, S) X(S, trax_arbiter, arbiter, ) /* of the channel, if keeps_order */
 struct trax_memory {
-  TRAX_MEMORY_STATE(TRAX_FIELD, )
-  uint64_t tms;     /* mask of the TMs whose requests wait for the channel, if keeps_order */
-  uint32_t waiting; /* else the number of requests that wait for channels or in the DRAM's queues */
+  uint32_t waiting; /* number of requests that wait for channels or in the DRAM's queues */
   /* Bus time is counted in units: a cycle has units_per_cycle of them, and a byte takes units_per_byte. They are the
      numerator and the denominator of B = MB/s / MHz / channels bytes per cycle, in lowest terms. */
   uint64_t units_per_cycle, units_per_byte;
@@ -71,7 +67,7 @@ struct trax_memory {
   uint32_t unit_interval;  /* cycles between the increments of a channel */
   uint32_t channels, interleave_shift;
   struct trax_channel channel[TRAX_MAX_CHANNELS];
-  bool keeps_order;
+  bool keeps_order;       /* the TMs' queues are rings, and the lists of channel 0 empty */
   struct trax_l2 *l2;     /* NULL: there is none */
   struct trax_dram *dram; /* NULL unless memory.model is dram */
   struct trax_memory_stats *stats;
@@ -114,7 +110,7 @@ bool trax_memory_has_waiting(const struct trax_memory *memory);
 /* Returns the first cycle in which all buses are idle. */
 uint64_t trax_memory_idle_from(const struct trax_memory *memory);
 
-/* --- for fast/memory/l2.c --- */
+/* --- between the files of this folder --- */
 struct trax_request *trax_memory_request(const struct trax_memory *memory, struct trax_tm *tm, trax_request_id id);
 void trax_memory_append(const struct trax_memory *memory, struct trax_tm *tm, struct trax_request_list *list,
                         trax_request_id id);
@@ -135,5 +131,20 @@ trax_request_id trax_waiting_take(struct trax_memory *memory, struct trax_tm *tm
 void trax_memory_pass(struct trax_memory *memory, struct trax_tm *tm, trax_request_id id);
 /* Sets the completion of a TM's request. */
 void trax_memory_complete(struct trax_tm *tm, trax_request_id id, uint64_t completion);
+/* Tells who listens that a channel takes a request in cycle t. */
+void trax_memory_notify(struct trax_memory *memory, unsigned channel, trax_request_id id,
+                        const struct trax_request *request, uint64_t t);
+/* Counts a transfer. */
+void trax_memory_count(const struct trax_memory *memory, unsigned channel, uint32_t bytes);
+/* Performs an atomic increment whose transfer is over in cycle `over`. Returns the cycle in which the channel's unit
+   has done it. */
+uint64_t trax_memory_increment(struct trax_memory *memory, unsigned channel, struct trax_request *request,
+                               struct trax_space *space, uint64_t over);
+/* A request has been served; `back`: the cycle in which its transfer is over, and memory.latency_cycles. */
+void trax_memory_finish(struct trax_memory *memory, struct trax_tm *tm, unsigned channel, trax_request_id id,
+                        uint64_t back);
+/* Serves requests of a channel of DRAM in cycle t. */
+void trax_memory_serve_dram(struct trax_memory *memory, struct trax_tm *tm, struct trax_space *space, unsigned channel,
+                            uint64_t t);
 
 #endif

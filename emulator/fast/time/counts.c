@@ -33,8 +33,8 @@ static void count_local(struct trax_tm_stats *stats) {
 
 /* The causes of refusals, in the order of struct trax_fast_refused and of the counters. */
 static const trax_cause refusal_causes[TRAX_FAST_REFUSALS] = {
-#define CAUSE(MEMBER, CAUSE) TRAX_CAUSE_##CAUSE,
-    TRAX_FAST_REFUSED(CAUSE)
+#define CAUSE(X, ID, ...) TRAX_CAUSE_##ID,
+    TRAX_CAUSE_ICACHE_BANK, TRAX_SHARED_UNITS(CAUSE, ) TRAX_CAUSE_DCACHE_BANK
 #undef CAUSE
 };
 
@@ -48,11 +48,7 @@ static void charge_refusals(struct trax_tm *tm) {
 }
 
 void trax_fast_notify_refusals(const struct trax_tm *tm, const struct trax_fast_refused *refused) {
-  const uint64_t losers[] = {
-#define LOSERS(MEMBER, CAUSE) refused->MEMBER,
-      TRAX_FAST_REFUSED(LOSERS)
-#undef LOSERS
-  };
+  const uint64_t *const losers = (const uint64_t *)refused;
   struct trax_observer *const observer = tm->observer;
   for (unsigned i = 0; i < TRAX_FAST_REFUSALS; i++)
     for (uint64_t rest = losers[i]; rest; rest &= rest - 1) {

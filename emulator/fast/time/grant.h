@@ -92,7 +92,7 @@ static bool serve(struct trax_tm *tm, unsigned number, uint64_t t) {
 }
 
 static uint64_t grant_queue(struct trax_tm *tm, uint64_t requesters, uint64_t t) {
-  const unsigned pointer = tm->queue_arbiter;
+  const unsigned pointer = tm->queue_arbiter % 64;
   uint64_t granted = 0;
   for (uint64_t rest = requesters >> pointer | requesters << (-pointer & 63); rest;
        rest &= rest - 1) { /* bit 0: the pointer's TP */

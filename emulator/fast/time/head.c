@@ -16,10 +16,10 @@ static void drop_arrived(struct trax_tp *tp) {
 static bool all_resident(const struct trax_tm *tm, unsigned number, unsigned count) {
   const struct trax_tp *tp = &tm->tp[number];
   const unsigned icache = tm->icache_of[number];
-  if (!(tp->burst.lines & ~tm->resident_lines[icache]))
+  if (tm->chip->program.lines <= 64 && !(tp->burst.lines & ~tm->resident[icache][0]))
     return true;
   for (unsigned i = 0; i < count; i++)
-    if (!tm->resident[icache][tm->chip->program.line[trax_fast_index(tp, i)]])
+    if (!trax_fast_is_resident(tm, icache, tm->chip->program.line[trax_fast_index(tp, i)]))
       return false;
   return true;
 }
@@ -105,25 +105,26 @@ void trax_fast_end_burst(struct trax_tm *tm, unsigned number, unsigned executed,
   }
 }
 
-void trax_fast_line_arrived(struct trax_tm *tm, unsigned number, uint32_t line) {
+void trax_fast_set_resident(struct trax_tm *tm, unsigned icache, uint64_t line, bool is_resident) {
   const struct trax_fast_program *program = &tm->chip->program;
-  const struct trax_cache_tags *tags = &tm->icache[number].tags;
-  const uint64_t evicted = tm->icache[number].evicted; /* its number + 1 */
-  for (size_t i = 0; i < program->count; i++) {
+  for (size_t i = 0; i < program->count; i++) { /* neighbouring sections may share a line */
     const struct trax_fast_section *section = &program->sections[i];
-    const uint64_t last_line = (section->begin + section->bytes) >> tags->line_shift;
-    const uint64_t arrived_index = section->line + (uint64_t)line - section->first_line;
-    const uint64_t evicted_index = section->line + evicted - 1 - section->first_line;
-    if (evicted > section->first_line && evicted - 1 <= last_line && evicted_index < TRAX_FAST_LINES - 1)
-      trax_fast_set_resident(tm, number, (uint32_t)evicted_index, false);
-    if (line >= section->first_line && line <= last_line && arrived_index < TRAX_FAST_LINES - 1)
-      trax_fast_set_resident(tm, number, (uint32_t)arrived_index, true);
+    const uint64_t index = section->line + line - section->first_line;
+    if (line >= section->first_line && line <= section->last_line && index < TRAX_FAST_LINES - 1) {
+      uint64_t *const bits = &tm->resident[icache][index / 64];
+      *bits = (*bits & ~((uint64_t)1 << index % 64)) | (uint64_t)is_resident << index % 64;
+    }
   }
-  for (unsigned tp = 0; tp < tm->tps; tp++)
+}
+
+void trax_fast_line_arrived(struct trax_tm *tm, unsigned number, uint32_t line) {
+  const uint64_t evicted = tm->icache[number].evicted; /* its number + 1 */
+  if (evicted)
+    trax_fast_set_resident(tm, number, evicted - 1, false);
+  trax_fast_set_resident(tm, number, line, true);
+  for (unsigned tp = 0; evicted && tp < tm->tps; tp++)
     if (tm->icache_of[tp] == number) {
-      if (evicted) {
-        tm->uncertain |= (uint64_t)1 << tp;
-        tm->heads.check_at[tp] = 0;
-      }
+      tm->uncertain |= (uint64_t)1 << tp;
+      tm->heads.check_at[tp] = 0;
     }
 }

@@ -61,13 +61,14 @@ void trax_fast_export_head(struct trax_tm *tm, unsigned tp);
 /* Ends the TP's burst of `executed` steps, of which the first `issued` were issued; the others count as not executed.
  */
 void trax_fast_end_burst(struct trax_tm *tm, unsigned tp, unsigned executed, unsigned issued);
-/* Updates the resident lines after a line has arrived in an instruction cache, and perhaps evicted another one. */
+/* An instruction cache holds the line of this number from now on, or no longer. */
+void trax_fast_set_resident(struct trax_tm *tm, unsigned icache, uint64_t line, bool is_resident);
+/* After a line has arrived in an instruction cache, and perhaps evicted another one. */
 void trax_fast_line_arrived(struct trax_tm *tm, unsigned icache, uint32_t line);
 
-static inline void trax_fast_set_resident(struct trax_tm *tm, unsigned icache, uint32_t line, bool is_resident) {
-  tm->resident[icache][line] = is_resident;
-  if (tm->chip->program.lines <= 64)
-    tm->resident_lines[icache] = (tm->resident_lines[icache] & ~((uint64_t)1 << line)) | (uint64_t)is_resident << line;
+/* `index`: of a line, as in trax_fast_program.line. */
+static inline bool trax_fast_is_resident(const struct trax_tm *tm, unsigned icache, uint32_t index) {
+  return tm->resident[icache][index / 64] >> index % 64 & 1;
 }
 
 /* Makes the TP's next instruction its head, after a new burst if necessary. */

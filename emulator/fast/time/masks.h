@@ -87,14 +87,11 @@ static inline uint16_t *trax_fast_fetch_rr_mask(struct trax_fast_banks16 *banks,
   return wide ? &banks->of_four[bank][icache] : &banks->of_two[bank][icache];
 }
 
-/* The TPs that were refused a bank or unit in a cycle, by its kind: X(member, cause). */
-#define TRAX_FAST_REFUSED(X) X(fetch, ICACHE_BANK) TRAX_SHARED_UNITS(TRAX_FAST_REFUSED_UNIT, X) X(bank, DCACHE_BANK)
-#define TRAX_FAST_REFUSED_UNIT(X, ID, ...) X(unit[TRAX_SHARED_##ID], ID)
-enum { TRAX_FAST_REFUSALS = TRAX_SHARED_COUNT + 2 };
-
+/* The TPs that were refused a bank or unit in a cycle, by its kind. */
 struct trax_fast_refused {
   uint64_t fetch, unit[TRAX_SHARED_COUNT], bank;
 };
+enum { TRAX_FAST_REFUSALS = sizeof(struct trax_fast_refused) / sizeof(uint64_t) };
 
 /* Bit-sliced counters of refusals for each TP and kind: planes[k] has bit k of the counters of all TPs, so that a cycle
    is counted for all TPs at once. A log of several cycles is added together, since the carries cost most. */
@@ -102,17 +99,14 @@ enum { TRAX_FAST_LOG_BITS = 5, TRAX_FAST_LOG = (1 << TRAX_FAST_LOG_BITS) - 1 /* 
 #define TRAX_FAST_COUNTERS (TRAX_FAST_REFUSALS <= 8 ? 8 : TRAX_FAST_REFUSALS <= 16 ? 16 : 32) /* a power of two */
 
 struct trax_fast_refusal_counts {
-  _Alignas(64) uint64_t planes[64][TRAX_FAST_COUNTERS]; /* in the order of TRAX_FAST_REFUSED */
+  _Alignas(64) uint64_t planes[64][TRAX_FAST_COUNTERS]; /* in the order of trax_fast_refused */
   uint64_t log[TRAX_FAST_LOG][TRAX_FAST_COUNTERS];
   uint32_t logged;
 };
 
 /* Appends a cycle to the log. Returns whether the log is full. */
 static inline bool trax_fast_count(struct trax_fast_refusal_counts *counts, const struct trax_fast_refused *refused) {
-  uint64_t *log = counts->log[counts->logged];
-#define LOG(MEMBER, CAUSE) *log++ = refused->MEMBER;
-  TRAX_FAST_REFUSED(LOG)
-#undef LOG
+  memcpy(counts->log[counts->logged], refused, sizeof *refused);
   return ++counts->logged == TRAX_FAST_LOG;
 }
 

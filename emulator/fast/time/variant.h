@@ -23,10 +23,8 @@ struct trax_fast_variant {
 };
 
 extern const struct trax_fast_variant trax_fast_variant;
-#ifdef TRAX_FAST_HAVE_V3
+#ifdef TRAX_FAST_HAVE_VARIANTS
 extern const struct trax_fast_variant trax_fast_variant_v3; /* for x86-64-v3: AVX2, BMI2 */
-#endif
-#ifdef TRAX_FAST_HAVE_V4
 extern const struct trax_fast_variant trax_fast_variant_v4; /* for x86-64-v4: AVX-512 */
 #endif
 

@@ -8,7 +8,7 @@
 
 #include <stdint.h>
 
-typedef uint8_t trax_arbiter; /* the pointer */
+typedef uint8_t trax_arbiter; /* the pointer, modulo 64 */
 
 /* The lowest bit of a mask that is not 0. */
 static inline unsigned trax_first(uint64_t mask) {
@@ -17,7 +17,7 @@ static inline unsigned trax_first(uint64_t mask) {
 
 /* Returns the first requester (not 0) from the pointer on, and leaves the pointer. */
 static inline unsigned trax_arbiter_peek(trax_arbiter pointer, uint64_t requesters) {
-  const uint64_t from_pointer = requesters & (~(uint64_t)0 << pointer);
+  const uint64_t from_pointer = requesters & (~(uint64_t)0 << pointer % 64);
   return trax_first(from_pointer ? from_pointer : requesters);
 }
 

@@ -56,7 +56,7 @@ static inline uint32_t trax_cache_tags_next(const struct trax_cache_tags *tags, 
   case TRAX_REPLACE_LRU:
     return tags->ways - 1;
   }
-  return (uint32_t)tags->next[set];
+  return (uint32_t)tags->next[set] & (tags->ways - 1);
 }
 
 /* Updates the policy's state: the line in `way` is used, or has arrived there. */

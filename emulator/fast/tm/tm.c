@@ -98,31 +98,21 @@ void trax_tm_wake_sleepers(struct trax_tm *tm, uint64_t t) {
 
 void trax_tm_request(struct trax_tm *tm, struct trax_request request) {
   struct trax_tm_stats *stats = tm->stats;
-  if (tm->config->memory.model == TRAX_MEMORY_DRAM)
-    request.bytes =
-        trax_dram_bytes(tm->config, request.address, request.kind == TRAX_REQUEST_ATOMIC ? 4 : request.bytes);
+  uint64_t *const bytes[] = {[TRAX_REQUEST_INSTRUCTION_LINE] = &stats->instruction_read_bytes,
+                             [TRAX_REQUEST_DATA_LINE] = &stats->data_read_bytes,
+                             [TRAX_REQUEST_LOAD] = &stats->nontemporal_read_bytes,
+                             [TRAX_REQUEST_WRITE] = &stats->written_bytes,
+                             [TRAX_REQUEST_ATOMIC] = &stats->atomic_bytes};
+  const bool writes = request.kind == TRAX_REQUEST_WRITE, increments = request.kind == TRAX_REQUEST_ATOMIC;
+  const bool dram = tm->config->memory.model == TRAX_MEMORY_DRAM;
+  if (dram)
+    request.bytes = trax_dram_bytes(tm->config, request.address, increments ? 4 : request.bytes);
   else if (request.bytes < tm->config->memory.min_transfer_bytes)
     request.bytes = tm->config->memory.min_transfer_bytes;
-  switch ((trax_request_kind)request.kind) {
-  case TRAX_REQUEST_INSTRUCTION_LINE:
-    stats->instruction_read_bytes += request.bytes;
-    break;
-  case TRAX_REQUEST_DATA_LINE:
-    stats->data_read_bytes += request.bytes;
-    break;
-  case TRAX_REQUEST_LOAD:
-    stats->nontemporal_read_bytes += request.bytes;
-    break;
-  case TRAX_REQUEST_WRITE:
-    stats->written_bytes += request.bytes;
-    stats->write_requests++;
-    tm->tp[request.tp].writes++;
-    break;
-  case TRAX_REQUEST_ATOMIC:
-    stats->atomic_bytes += tm->config->memory.model == TRAX_MEMORY_DRAM ? 0 : request.bytes;
-    tm->tp[request.tp].increments++;
-    break;
-  }
+  *bytes[request.kind] += dram && increments ? 0 : request.bytes;
+  stats->write_requests += writes;
+  tm->tp[request.tp].writes += writes;
+  tm->tp[request.tp].increments += increments;
   stats->memory_requests++;
   trax_queue_push(&tm->queue, request);
   if (tm->buffer)

@@ -81,8 +81,7 @@ struct trax_tm {
   trax_fast_lanes *fetch_rr_masks;
   uint32_t data_banks, data_bank_bits;
   bool serial_hits; /* data-cache hits are served one by one: they update the scoreboard or the LRU order */
-  uint8_t (*resident)[TRAX_FAST_LINES]; /* [icaches]: whether the cache holds each line of the program */
-  uint64_t *resident_lines;             /* [icaches]: the same as bits, for programs of at most 64 lines; else 0 */
+  uint64_t (*resident)[TRAX_FAST_LINES / 64]; /* [icaches]: a bit for each line of the program that the cache holds */
   uint8_t icache_of[TRAX_MAX_TPS_PER_TM];
 
   struct trax_fast_units fp;
