@@ -68,7 +68,7 @@ static void log_access(struct trax_tm *tm, unsigned number, uint32_t address, ui
 }
 
 void trax_fast_log_accesses(struct trax_tm *tm, uint64_t issued) {
-  const uint64_t hits = tm->serial_hits || tm->chip->alone ? 0 : tm->load_hits; /* as in grant() */
+  const uint64_t hits = tm->serial_hits ? 0 : tm->load_hits & ~tm->storing; /* of which grant() knew */
   for (uint64_t rest = issued & ~tm->executes_at_issue; rest; rest &= rest - 1) {
     const unsigned number = trax_first(rest);
     const uint8_t outcome = hits >> number & 1

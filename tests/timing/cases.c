@@ -33,11 +33,13 @@ struct random_case case_of_seed(unsigned seed) {
     break;
   case CASE_RACES:
     c.config = any_machine(tms, tps);
-    c.count = any_racing_program(c.words);
+    c.count = any(0, 1) ? any_racing_program(c.words) : any_writing_program(c.words);
     break;
   case CASE_RACES_NEAR_DEFAULTS:
     c.config = near_the_defaults(tms, tps);
-    c.count = any(0, 1) ? any_racing_program(c.words) : any_isa_program(c.words);
+    c.count = any(0, 2) == 0 ? any_racing_program(c.words)
+              : any(0, 1)    ? any_writing_program(c.words)
+                             : any_isa_program(c.words);
     break;
   case CASE_OWN_WORDS:
     c.config = any_machine(tms, tps);

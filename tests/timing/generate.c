@@ -153,7 +153,37 @@ static uint32_t any_racing_operation(unsigned left) {
   }
 }
 
-size_t any_racing_program(uint32_t *words) {
+/* Hardly anything but loads, stores and arithmetic: on the thread's own 16 words, on those of the next thread, on eight
+   words of all threads in each of two pages, and on local memory. */
+static uint32_t any_writing_operation(unsigned left) {
+  static const trax_op loads[] = {TRAX_OP_LB, TRAX_OP_LHU, TRAX_OP_LW, TRAX_OP_LW, TRAX_OP_LW};
+  static const trax_op stores[] = {TRAX_OP_SB, TRAX_OP_SH, TRAX_OP_SW, TRAX_OP_SW, TRAX_OP_SW};
+  const uint8_t rd = (uint8_t)any(0, 15), ra = (uint8_t)any(0, 15);
+  const uint8_t base = any(0, 3) ? BASE : (uint8_t)any(16, 17);
+  const int32_t offset = 4 * (int32_t)any(0, base == BASE ? 15 : 7);
+  switch (any(0, 11)) {
+  case 0:
+  case 1:
+  case 2:
+    return trax_encode((trax_inst){loads[any(0, 4)], rd, base, 0, offset});
+  case 3:
+  case 4:
+  case 5:
+    return trax_encode((trax_inst){stores[any(0, 4)], 0, base, ra, offset});
+  case 6:
+    return any(0, 1) ? I(LW, rd, BASE, 256 + offset) : I(LW, rd, SHARED, 0x6000 + offset);
+  case 7:
+    return any(0, 1) ? S(SW, ra, 0, -4 - offset) : I(LW, rd, 0, -4 - offset);
+  case 8:
+    return any(0, 7) ? R(FDIV, rd, ra, any(0, 15)) : any_racing_operation(left);
+  case 9:
+    return any(0, 2) ? R(MUL, rd, ra, any(0, 15)) : B(BLT, rd, ra, 4 * (int32_t)any(1, left < 12 ? left : 12));
+  default:
+    return R(ADD, rd, ra, any(0, 15));
+  }
+}
+
+static size_t any_program_of(uint32_t *words, uint32_t (*any_operation_of)(unsigned left)) {
   size_t n = 0;
   words[n++] = U(RDSR, BASE, TRAX_SR_THREAD);
   words[n++] = I(SLLI, COUNTER, BASE, 2);
@@ -169,7 +199,7 @@ size_t any_racing_program(uint32_t *words) {
   words[n++] = I(ADDI, LOOP, 0, (int32_t)any(1, 4));
   const size_t begin = n;
   for (unsigned i = 0; i < BODY; i++)
-    words[n++] = any_racing_operation(BODY - i);
+    words[n++] = any_operation_of(BODY - i);
   words[n++] = I(ADDI, LOOP, LOOP, -1);
   words[n] = B(BNE, LOOP, 0, ((int32_t)begin - (int32_t)n) * 4);
   n++;
@@ -177,6 +207,14 @@ size_t any_racing_program(uint32_t *words) {
     words[n++] = S(SW, reg, BASE, (int32_t)(128 + 4 * reg));
   words[n++] = any(0, 4) ? HALT : any(0, 1) ? T(1, TRAX_TRAP_ABORT) : I(LW, 1, 0, 0);
   return n;
+}
+
+size_t any_racing_program(uint32_t *words) {
+  return any_program_of(words, any_racing_operation);
+}
+
+size_t any_writing_program(uint32_t *words) {
+  return any_program_of(words, any_writing_operation);
 }
 
 void any_words(uint32_t *words, size_t count) {

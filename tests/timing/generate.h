@@ -23,6 +23,9 @@ uint32_t any_power(uint32_t least, uint32_t most);
 size_t any_program(uint32_t *words);
 /* Threads race: for shared words, with the cycle counter and traps in between. At most BODY + 64 instructions. */
 size_t any_racing_program(uint32_t *words);
+/* Threads load and store in turn: mostly their own words, some words of others and of all. At most BODY + 64
+   instructions. */
+size_t any_writing_program(uint32_t *words);
 /* Random words, most of them legal. */
 void any_words(uint32_t *words, size_t count);
 

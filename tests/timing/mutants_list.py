@@ -149,9 +149,9 @@ MUTANTS = [
     ("fast/time/cycle.c", "if (inst->resource == TRAX_RESOURCE_END || ", "if ("),
     # --- steps 3 and 4 ---
     ("fast/time/grant.h", "const unsigned pointer = tm->queue_arbiter % 64;", "const unsigned pointer = 0;"),
-    ("fast/time/grant.h", "won & tm->load_hits & ~tm->executes_at_issue;", "won & tm->load_hits;"),
-    ("fast/time/grant.h", "if (!tm->serial_hits && !tm->chip->alone)", "if (!tm->chip->alone)"),
-    ("fast/time/grant.h", "if (!tm->serial_hits && !tm->chip->alone)", "if (!tm->serial_hits)"),
+    ("fast/time/grant.h", "tm->load_hits & ~tm->executes_at_issue & ~", "tm->load_hits & ~"),
+    ("fast/time/grant.h", " & ~(tm->storing & bit[0]);", ";"),
+    ("fast/time/grant.h", "if (!tm->serial_hits)", "if (1)"),
     # Whether the next load's line is resident: after arrivals, evictions and fences.
     ("fast/time/cycle.c", "    trax_fast_find_line(tm, trax_first(rest));", "    (void)tm;"),
     ("fast/time/cycle.c", "uint32_t set_mask = tags->set_mask << tags->line_shift;",
@@ -337,8 +337,10 @@ MUTANTS = [
     ("fast/time/issue.h", "t + 1 + bubble, TRAX_CAUSE_BRANCH",
      "t + bubble, TRAX_CAUSE_BRANCH"),
     # Effects happen in the TPs' order.
-    ("fast/time/issue.h", "(effects = slow & tm->executes_at_issue) != 0",
+    ("fast/time/issue.h", "(effects = slow & (tm->executes_at_issue | tm->storing)) != 0",
      "(effects = 0) != 0"),
+    ("fast/time/issue.h", "(effects = slow & (tm->executes_at_issue | tm->storing)) != 0",
+     "(effects = slow & tm->executes_at_issue) != 0"),
     # The latency of local memory.
     ("fast/time/issue.h", "latency = tm->config->tp.local_latency_cycles;\n    cause",
      "latency = 1;\n    cause"),
@@ -389,13 +391,28 @@ MUTANTS = [
     ("fast/function/blocks.c", "if (trax_fast_is_loaded(&chip->blocks, address)) {\n    trax_fast_roll_back",
      "if (trax_fast_is_loaded(&chip->blocks, address) && address % 16) {\n    trax_fast_roll_back"),
     # Bursts that load from written blocks are watched, in every word, and in every epoch.
-    ("fast/function/burst.c", "tm->watched[number] |= trax_fast_word_bit(address);",
-     "tm->watched[number] |= trax_fast_word_bit(address) & 0;"),
-    ("fast/function/blocks.c", "(tp->burst.loads[i] & ~3u) - begin >= bytes",
-     "(tp->burst.loads[i] & ~3u) - begin >= bytes + 0x80000000u"),
+    ("fast/function/burst.c", "tm->watched[number] |= (uint64_t)1 <<", "tm->watched[number] |= (uint64_t)0 <<"),
+    ("fast/function/burst.c", "tm->readers[trax_fast_line_hash(address)] |= (uint64_t)1 << number;", "(void)tm;"),
+    ("fast/function/blocks.c", "(burst->loads[i] & ~3u) - begin < bytes",
+     "(burst->loads[i] & ~3u) - begin - 4 < bytes"),
+    ("fast/function/blocks.c", "tm->heads.load[number] - (tm->heads.load[number] > 0)", "tm->heads.load[number]"),
+    ("fast/function/blocks.c", "i = tm->heads.load[number]; tm->watched", "i = tm->heads.load[number] + 1u; tm->watched"),
     ("fast/function/blocks.c", "  for (uint32_t i = 0; i < chip->tms; i++)\n    trax_fast_roll_back_readers",
      "  for (uint32_t i = 0; i < 1; i++)\n    trax_fast_roll_back_readers"),
     ("fast/time/cycle.c", "    trax_fast_record_readers(tm);", "    (void)tm;"),
+    # Stores of bursts: their words are not loaded again, they take effect at their issue, in order, and others roll back.
+    ("fast/function/burst.c", "if (has_stored(&tp->burst, address, load))", "if (0)"),
+    ("fast/function/burst.c", "!((burst->loads[i] ^ address) & ~3u)", "burst->loads[i] == address"),
+    ("fast/function/burst.c", "  if (!tp->again) {", "  if (true) {"),
+    ("fast/function/burst.c", "tm->watched[number] = tp->burst.stored = 0;", "tm->watched[number] = 0;"),
+    ("fast/function/blocks.c", "tm->readers[line] & ~but", "tm->readers[line]"),
+    ("fast/function/blocks.c", "    roll_back_word_readers(tm, address, bit);\n", ""),
+    ("fast/function/blocks.c", "i < chip->tms; i++)\n    roll_back_word_readers", "i < 1; i++)\n    roll_back_word_readers"),
+    ("fast/function/blocks.c", "if (trax_fast_is_loaded(&chip->blocks, address))\n    return false;", ""),
+    ("fast/time/head.c", "tp->alone || tp->burst.stored ? bit : 0", "tp->alone ? bit : 0"),
+    ("fast/time/issue.h", "decoded->bytes, t))\n    trax_fast_roll_back_tp(tm, number);", "decoded->bytes, t))\n    (void)tm;"),
+    ("fast/time/alone.c", "if (trax_burst_stores(&tp->burst, load) &&", "if (0 &&"),
+    ("translate/burst.h", "(burst->undo + TRAX_BURST) - 1 - load", "(burst->undo + TRAX_BURST) - 1 - load % 4"),
     # Local memory is as it was.
     ("fast/function/blocks.c", ": tp->local + (undo->address - TRAX_LOCAL_BASE),",
      ": (uint8_t *)&tp->begin_reg[TRAX_NO_REGISTER],"),
@@ -527,7 +544,7 @@ MUTANTS = [
     # --- Stretches ---
     ("fast/function/blocks.c", "  tm->told[number] = 0;", "  (void)0;"),
     ("fast/observe.c", "&& !log_of(tm, number)->accessed_count)", ")"),
-    ("fast/observe.c", "tm->serial_hits || tm->chip->alone ? 0 : tm->load_hits", "~(uint64_t)0"),
+    ("fast/observe.c", "tm->serial_hits ? 0 : tm->load_hits & ~tm->storing", "~(uint64_t)0"),
     ("fast/time/issue.h", "trax_fast_tell_steps(tm, number, last + 1, tp->resume_pc);",
      "trax_fast_tell_steps(tm, number, last, tp->resume_pc);"),
     # --- Output ---

@@ -156,7 +156,8 @@ static struct random_case case_of_operation(unsigned op, unsigned seed) {
     c.words[c.count++] = I(LW, 1, LOCAL, (int32_t)(4 * i));
     c.words[c.count++] = S(SW, 1, OUTPUT, (int32_t)(64 + 4 * i));
   }
-  c.words[c.count++] = I(ADDI, INPUT, INPUT, 64); /* each round has other data */
+  c.words[c.count++] = U(RDSR, LINK, TRAX_SR_CYCLE); /* no burst that began with a store reaches the next round */
+  c.words[c.count++] = I(ADDI, INPUT, INPUT, 64);    /* each round has other data */
   c.words[c.count++] = I(ADDI, OTHERS, OTHERS, 64);
   c.words[c.count++] = I(ADDI, ROUNDS, ROUNDS, -1);
   c.words[c.count] = B(BNE, ROUNDS, 0, -4 * (int32_t)(c.count - round));

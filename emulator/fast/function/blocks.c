@@ -35,9 +35,10 @@ void trax_fast_blocks_destroy(struct trax_fast_blocks *blocks) {
     munmap(blocks->state, blocks->bytes);
 }
 
-/* Rolls a TP back to what it has issued: undoes its burst, and executes the issued steps again. They give the same
-   results, since no word that they loaded has been written since. */
-static void roll_back_tp(struct trax_chip *chip, struct trax_tm *tm, unsigned number) {
+/* Undoes the TP's burst, and executes the issued steps again. They give the same results, since the values of loads
+   from WRITTEN blocks are kept, and no other word that they loaded has been written since. */
+void trax_fast_roll_back_tp(struct trax_tm *tm, unsigned number) {
+  struct trax_chip *const chip = tm->chip;
   const uint64_t bit = (uint64_t)1 << number;
   struct trax_tp *tp = &tm->tp[number];
   if (tm->executes_at_issue & bit)
@@ -57,7 +58,9 @@ static void roll_back_tp(struct trax_chip *chip, struct trax_tm *tm, unsigned nu
   trax_fast_end_burst(tm, number, tm->heads.last[number] + 1u, 0); /* takes the whole burst off the counts */
   tp->resume = tp->begin;
   tp->resume_pc = chip->program.timing[tp->begin - chip->program.inst].pc;
+  tp->again = true;
   const unsigned again = trax_fast_burst(chip, tm, number, issued);
+  tp->again = false;
   assert(again == issued && tp->resume == &chip->program.inst[head]);
   (void)again;
   trax_fast_end_burst(tm, number, issued, issued);
@@ -72,33 +75,46 @@ void trax_fast_roll_back(void *context) {
   struct trax_chip *chip = context;
   for (uint32_t i = 0; i < chip->tms; i++)
     for (unsigned tp = 0; tp < chip->tm[i].tps; tp++)
-      roll_back_tp(chip, &chip->tm[i], tp);
+      trax_fast_roll_back_tp(&chip->tm[i], tp);
 }
 
-/* Rolls back the TPs whose bursts have loaded from WRITTEN blocks in a range of words; `bits`: those of the words. */
-static void roll_back_readers(struct trax_tm *tm, uint64_t bits, uint32_t begin, uint32_t bytes) {
-  for (unsigned number = 0; number < tm->tps; number++) {
-    const struct trax_tp *tp = &tm->tp[number];
-    if (!(tm->watched[number] & bits))
-      continue;
-    uint32_t i = 0;
-    while (i < tp->burst.load_count && (tp->burst.loads[i] & ~3u) - begin >= bytes)
-      i++;
-    if (i < tp->burst.load_count)
-      roll_back_tp(tm->chip, tm, number);
-  }
+/* Whether the TP's burst has loaded from a range of words, as far as the loads may not have been issued: heads.load is
+   behind a quick head that is being issued. */
+static bool reads(const struct trax_tm *tm, unsigned number, uint32_t begin, uint32_t bytes) {
+  const struct trax_burst *burst = &tm->tp[number].burst;
+  for (uint32_t i = tm->heads.load[number] - (tm->heads.load[number] > 0); i < burst->load_count; i++)
+    if ((burst->loads[i] & ~3u) - begin < bytes && !trax_burst_stores(burst, i))
+      return true;
+  return false;
+}
+
+/* Rolls back the TPs whose bursts have loaded from WRITTEN blocks in a range of words. */
+static void roll_back_readers(struct trax_tm *tm, uint64_t tps, uint32_t begin, uint32_t bytes) {
+  for (; tps; tps &= tps - 1)
+    if (tm->watched[trax_first(tps)] && reads(tm, trax_first(tps), begin, bytes))
+      trax_fast_roll_back_tp(tm, trax_first(tps));
+}
+
+/* The same for a word that one of the TPs `but` writes: it has issued its own loads of it. */
+static void roll_back_word_readers(struct trax_tm *tm, uint32_t address, uint64_t but) {
+  const unsigned line = trax_fast_line_hash(address);
+  for (uint64_t rest = tm->readers[line]; rest; rest &= rest - 1)
+    if (!(tm->watched[trax_first(rest)] >> line % 64 & 1)) /* of an earlier burst */
+      tm->readers[line] &= ~(rest & -rest);
+  roll_back_readers(tm, tm->readers[line] & ~but, address & ~3u, 4);
 }
 
 void trax_fast_roll_back_readers(struct trax_tm *tm, uint32_t address) {
-  roll_back_readers(tm, trax_fast_word_bit(address), address & ~3u, 4);
+  roll_back_word_readers(tm, address, 0);
 }
 
 void trax_fast_record_readers(struct trax_tm *tm) {
   const uint8_t *const state = tm->chip->blocks.state;
   for (unsigned number = 0; number < tm->tps; number++)
-    for (uint32_t i = 0; tm->watched[number] && i < tm->tp[number].burst.load_count; i++)
+    for (uint32_t i = tm->heads.load[number]; tm->watched[number] && i < tm->tp[number].burst.load_count; i++)
       if (__atomic_load_n(&state[tm->tp[number].burst.loads[i] >> TRAX_BLOCK_SHIFT], __ATOMIC_RELAXED) >=
-          TRAX_BLOCK_WRITTEN)
+              TRAX_BLOCK_WRITTEN &&
+          !trax_burst_stores(&tm->tp[number].burst, i))
         trax_store_buffer_read(tm->buffer, tm->tp[number].burst.loads[i]);
 }
 
@@ -123,6 +139,25 @@ void trax_fast_word_written(struct trax_chip *chip, uint32_t address, uint8_t st
   trax_fast_set_written(&chip->blocks, address, state);
 }
 
+bool trax_fast_store(struct trax_tm *tm, unsigned number, unsigned load, unsigned bytes, uint64_t t) {
+  struct trax_chip *const chip = tm->chip;
+  struct trax_burst *const burst = &tm->tp[number].burst;
+  const uint32_t address = burst->loads[load], value = *trax_burst_value(burst, load);
+  const uint64_t bit = (uint64_t)1 << number;
+  if (tm->buffer) {
+    roll_back_word_readers(tm, address, bit);
+    trax_store_buffer_store(tm->buffer, t, address, value, bytes);
+    return true;
+  }
+  if (trax_fast_is_loaded(&chip->blocks, address))
+    return false;
+  for (uint32_t i = 0; i < chip->tms; i++)
+    roll_back_word_readers(&chip->tm[i], address, &chip->tm[i] == tm ? bit : 0);
+  trax_fast_set_written(&chip->blocks, address, TRAX_BLOCK_WRITTEN);
+  memcpy(chip->machine->space.bytes + address, &value, bytes);
+  return true;
+}
+
 void trax_fast_increment_outside(void *chip, uint32_t address) {
   trax_fast_word_written(chip, address, TRAX_BLOCK_SHARED);
 }
@@ -136,5 +171,5 @@ void trax_fast_range_written(void *context, uint32_t address, uint32_t bytes) {
     trax_fast_set_written(&chip->blocks, (uint32_t)at, TRAX_BLOCK_WRITTEN);
   }
   for (uint32_t i = 0; i < chip->tms; i++)
-    roll_back_readers(&chip->tm[i], UINT64_MAX, address & ~3u, bytes + 4);
+    roll_back_readers(&chip->tm[i], trax_group_mask(0, chip->tm[i].tps), address & ~3u, bytes + 4);
 }

@@ -30,9 +30,14 @@ static inline void trax_fast_set_written(struct trax_fast_blocks *blocks, uint32
     blocks->input_bytes = 0;
 }
 
-/* Returns the bit of a word in trax_tm.watched. */
+/* Returns the bit of a word in trax_burst.stored. */
 static inline uint64_t trax_fast_word_bit(uint32_t address) {
   return (uint64_t)1 << ((address >> 2) * 0x9E3779B1u >> 26);
+}
+
+/* Returns the number of 32 bytes in trax_tm.readers: a TP's bursts often load from neighbouring words. */
+static inline unsigned trax_fast_line_hash(uint32_t address) {
+  return (address >> 5) * 0x9E3779B1u >> 24;
 }
 
 trax_status trax_fast_blocks_create(struct trax_fast_blocks *blocks, const struct trax_space *space, trax_error *error);
@@ -40,15 +45,20 @@ void trax_fast_blocks_destroy(struct trax_fast_blocks *blocks);
 /* To be called outside epochs before a store (WRITTEN) or atomic increment (SHARED) writes to a global address, and
    when the increment is issued: rolls back all TPs whose bursts may have loaded the word. */
 void trax_fast_word_written(struct trax_chip *chip, uint32_t address, uint8_t state);
+/* Performs store `load` of the TP's burst, whose step is issued in cycle t. False: all TPs must roll back for it, so
+   that the store must execute at issue after this TP has rolled back. */
+bool trax_fast_store(struct trax_tm *tm, unsigned tp, unsigned load, unsigned bytes, uint64_t t);
 /* The same before an atomic increment of the memory controller; `chip` is a struct trax_chip. */
 void trax_fast_increment_outside(void *chip, uint32_t address);
 /* The same for a range, before a host call writes it. */
 void trax_fast_range_written(void *chip, uint32_t address, uint32_t bytes);
-/* Rolls back the TPs of a TM whose bursts have loaded the word from a WRITTEN block: in an epoch, before the TM stores
-   to it. */
+/* Rolls back the TPs of a TM whose bursts have loaded the word from a WRITTEN block, before the issue of the load: in
+   an epoch, before the TM stores to it. */
 void trax_fast_roll_back_readers(struct trax_tm *tm, uint32_t address);
 /* Records the loads of all bursts from WRITTEN blocks in the TM's store buffer, at the beginning of an epoch. */
 void trax_fast_record_readers(struct trax_tm *tm);
+/* Rolls a TP back to what it has issued; its head executes at issue then. */
+void trax_fast_roll_back_tp(struct trax_tm *tm, unsigned tp);
 /* Rolls every TP back to what it has issued; all heads execute at issue then. */
 void trax_fast_roll_back(void *chip);
 

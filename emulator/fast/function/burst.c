@@ -28,11 +28,43 @@ static inline void record_segment(struct trax_burst *burst, unsigned at, const u
   burst->index[at] = index;
 }
 
-/* Loads from a WRITTEN block: before the word is written again, the TP rolls back. */
-static __attribute__((noinline, cold)) uint32_t load_written(struct trax_tm *tm, unsigned number, uint32_t address,
-                                                             unsigned bytes) {
-  tm->watched[number] |= trax_fast_word_bit(address);
-  return trax_tm_load(tm, address, bytes);
+/* Whether the burst has a store to the word among its first `loads` accesses. */
+static bool has_stored(const struct trax_burst *burst, uint32_t address, unsigned loads) {
+  if (burst->stored & trax_fast_word_bit(address))
+    for (unsigned i = 0; i < loads; i++)
+      if (trax_burst_stores(burst, i) && !((burst->loads[i] ^ address) & ~3u))
+        return true;
+  return false;
+}
+
+/* Performs load `load` of a burst, from a WRITTEN block: before the word is written again, the TP rolls back. If the
+   burst is executed again, the word may have been written after the issue of the load, so that the first value counts.
+   NOWHERE: the burst has stored to the word, and ends. */
+static __attribute__((noinline)) uint64_t load_written(struct trax_tm *tm, unsigned number, unsigned load,
+                                                       uint32_t address, unsigned bytes) {
+  struct trax_tp *const tp = &tm->tp[number];
+  uint32_t *const value = trax_burst_value(&tp->burst, load);
+  if (!tp->again) {
+    if (has_stored(&tp->burst, address, load))
+      return NOWHERE;
+    tm->watched[number] |= (uint64_t)1 << trax_fast_line_hash(address) % 64;
+    tm->readers[trax_fast_line_hash(address)] |= (uint64_t)1 << number;
+    *value = trax_tm_load(tm, address, bytes);
+  }
+  return *value;
+}
+
+/* Records a store to global memory that takes effect at its issue. False: the store must execute at issue. */
+static __attribute__((noinline)) bool store_later(const struct trax_tm *tm, struct trax_tp *tp, unsigned load,
+                                                  uint32_t address, uint32_t value, unsigned bytes) {
+  const struct trax_chip *const chip = tm->chip;
+  if (!tp->again && (chip->burst == 1 || trax_space_check(&chip->machine->space, address, bytes, true) ||
+                     trax_fast_is_loaded(&chip->blocks, address)))
+    return false;
+  tp->burst.stores[load / 64] |= (uint64_t)1 << load % 64;
+  tp->burst.stored |= trax_fast_word_bit(address);
+  *trax_burst_value(&tp->burst, load) = value;
+  return true;
 }
 
 /* Stores to global memory ahead of the issue: the thread is alone. False: the store must execute at issue. */
@@ -75,7 +107,7 @@ static unsigned run_translated(struct trax_chip *chip, struct trax_tm *tm, unsig
   const unsigned count = trax_translation_burst(chip->translation, begin, &run);
   if (!count)
     return 0;
-  tm->watched[number] = 0;
+  tm->watched[number] = tp->burst.stored = 0; /* so nobody asks for `stores` */
   tm->count_deltas[begin]++;
   if (run.index == TRAX_NO_INDEX) {
     const uint32_t end = trax_fast_index(tp, count - 1) + 1;

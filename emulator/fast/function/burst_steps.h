@@ -34,7 +34,7 @@ static unsigned BURST(struct trax_chip *chip, struct trax_tm *tm, unsigned numbe
   const bool alone = tp->alone;
   const uint8_t last_loadable = limit < TRAX_BURST || alone ? TRAX_BLOCK_SHARED : TRAX_BLOCK_WRITTEN;
   burst->undo_count = 0;
-  tm->watched[number] = 0;
+  tm->watched[number] = burst->stores[0] = burst->stores[1] = burst->stored = 0;
   /* The number of inst's step is its distance from `begin`, which changes with each jump. */
   uintptr_t begin = (uintptr_t)inst;
   unsigned at;
@@ -64,7 +64,10 @@ static unsigned BURST(struct trax_chip *chip, struct trax_tm *tm, unsigned numbe
           if (!state && !alone) {                                                                                      \
             __atomic_store_n(block, TRAX_BLOCK_LOADED, __ATOMIC_RELAXED);                                              \
           } else if (!alone) {                                                                                         \
-            word = load_written(tm, number, address, BYTES);                                                           \
+            const uint64_t written = load_written(tm, number, loads, address, BYTES);                                  \
+            if (written == NOWHERE)                                                                                    \
+              goto stop;                                                                                               \
+            word = (uint32_t)written;                                                                                  \
           }                                                                                                            \
         }                                                                                                              \
       }                                                                                                                \
@@ -90,7 +93,8 @@ static unsigned BURST(struct trax_chip *chip, struct trax_tm *tm, unsigned numbe
       undo->address = address & ~3u;                                                                                   \
       memcpy(&undo->word, place, sizeof undo->word);                                                                   \
       memcpy(place + (address & 3), &word, BYTES);                                                                     \
-    } else if (alone && store_ahead(chip, tp, address, word, BYTES)) {                                                 \
+    } else if (alone ? store_ahead(chip, tp, address, word, BYTES)                                                     \
+                     : store_later(tm, tp, loads, address, word, BYTES)) {                                             \
       at = AT;                                                                                                         \
       burst->loads[loads++] = address;                                                                                 \
       burst->step[at] |=                                                                                               \

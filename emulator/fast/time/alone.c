@@ -47,6 +47,8 @@ static bool store(struct trax_tm *tm, unsigned number, unsigned at, unsigned loa
   tp->inst = timing->decoded;
   tp->pc = timing->pc;
   tp->address = tp->burst.loads[load];
+  if (trax_burst_stores(&tp->burst, load) && !trax_fast_store(tm, number, load, timing->decoded->bytes, t))
+    return false;
   trax_tm_serve(tm, number, t);
   return true;
 }

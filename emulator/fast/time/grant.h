@@ -183,8 +183,8 @@ static ALWAYS_INLINE uint64_t grant(struct trax_tm *tm, const bool wide, struct 
                                  bit[TRAX_STEP_BANK_SHIFT + 2], t);
     won = grant_banks(tm, wide, requesters & ~filling, bit + TRAX_STEP_BANK_SHIFT);
     refused->bank = requesters & ~won;
-    if (!tm->serial_hits && !tm->chip->alone) /* else serve() handles them, and stores */
-      hits = won & tm->load_hits & ~tm->executes_at_issue;
+    if (!tm->serial_hits) /* else serve() handles them, as it does stores */
+      hits = won & tm->load_hits & ~tm->executes_at_issue & ~(tm->storing & bit[0]);
     tm->stats->dcache_hits += count_bits(hits);
     granted |= hits;
     queue_requesters |= won & ~hits;

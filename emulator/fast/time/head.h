@@ -79,6 +79,7 @@ static inline void trax_fast_execute_at_issue(struct trax_tm *tm, unsigned numbe
                                               uint32_t address) {
   struct trax_tp *tp = &tm->tp[number];
   tm->executes_at_issue |= (uint64_t)1 << number;
+  tm->storing &= ~((uint64_t)1 << number);
   tm->watched[number] = 0;
   tp->burst.step[0] = step | TRAX_STEP_SLOW;
   tp->burst.distance[0] = 0;

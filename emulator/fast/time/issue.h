@@ -57,6 +57,15 @@ static void set_result_usable(struct trax_tm *tm, unsigned number, uint64_t t) {
   }
 }
 
+/* Performs a store of a burst if the head is one, or rolls the TP back so that its head executes at issue. */
+static void store_now(struct trax_tm *tm, unsigned number, uint64_t t) {
+  const unsigned load = tm->heads.load[number];
+  if ((tm->heads.low[number] & TRAX_STEP_KIND) != TRAX_STEP_BANK || !trax_burst_stores(&tm->tp[number].burst, load))
+    return;
+  if (!trax_fast_store(tm, number, load, trax_fast_head_timing(tm, number)->decoded->bytes, t))
+    trax_fast_roll_back_tp(tm, number);
+}
+
 /* Returns where the instruction after a head goes on that does not execute at issue. */
 static uint32_t next_pc(const struct trax_tm *tm, unsigned number) {
   const struct trax_tp *tp = &tm->tp[number];
@@ -85,6 +94,8 @@ static void issue_slowly(struct trax_tm *tm, unsigned number, uint64_t t) {
   const uint64_t bit = (uint64_t)1 << number;
   struct trax_tp *tp = &tm->tp[number];
   const uint32_t bubble = tm->config->tp.branch_bubble_cycles;
+  if (tm->storing & bit)
+    store_now(tm, number, t);
   if (bubble || tm->observer)
     trax_fast_export_head(tm, number); /* inst, pc */
   const struct trax_decoded *inst = tp->inst;
@@ -126,10 +137,10 @@ static void issue_all_quickly(struct trax_tm *tm, uint64_t quick) {
 
 /* Issues the TPs with quick heads and those with slow heads (TRAX_STEP_SLOW). */
 static void issue_in_order(struct trax_tm *tm, uint64_t quick, uint64_t slow, uint64_t t) {
-  /* Heads that execute at issue may affect other TPs, so the order of TPs matters: TPs before such a head issue first.
-     TPs after it may roll back, and their heads then execute at issue (blocks.c). */
+  /* Stores, and heads that execute at issue, may affect other TPs, so the order of TPs matters: TPs before such a head
+     issue first. TPs after it may roll back, and their heads then execute at issue (blocks.c). */
   uint64_t effects;
-  while (__builtin_expect((effects = slow & tm->executes_at_issue) != 0, false)) {
+  while (__builtin_expect((effects = slow & (tm->executes_at_issue | tm->storing)) != 0, false)) {
     const uint64_t up_to = effects ^ (effects - 1);
     issue_all_quickly(tm, quick & up_to);
     quick &= ~up_to;

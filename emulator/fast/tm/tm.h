@@ -57,6 +57,7 @@ struct trax_tm {
   /* Masks of TPs. */
   uint64_t ready; /* holds an instruction with usable operands, which lacks a unit, a bank or a queue place */
   uint64_t executes_at_issue;
+  uint64_t storing;   /* the burst has stores to global memory; a slow head at a bank may be one of them */
   uint64_t no_text;   /* the head is no text: its fetch faults */
   uint64_t busy;      /* busy_registers is not 0 */
   uint64_t uncertain; /* a line of the burst may not be resident */
@@ -87,8 +88,9 @@ struct trax_tm {
   struct trax_fast_units fp;
   struct trax_dcache dcache;
   struct trax_queue queue;
-  /* [TP]: the words of WRITTEN blocks from which its burst has loaded, as bits of trax_fast_word_bit; 0: none. */
-  _Alignas(64) uint64_t watched[TRAX_MAX_TPS_PER_TM];
+  /* [TP]: the places in WRITTEN blocks from which its burst has loaded, as bits trax_fast_line_hash % 64; 0: none.
+     [trax_fast_line_hash]: the TPs with bursts that have loaded from there, and perhaps others. */
+  _Alignas(64) uint64_t watched[TRAX_MAX_TPS_PER_TM], readers[256];
   uint64_t looked_up, single_hits, at_issue; /* fetches, hits and instructions that were slow */
   struct trax_fast_refusal_counts refusal_counts;
   struct trax_shared_unit unit[TRAX_SHARED_COUNT];

@@ -38,7 +38,8 @@ struct trax_tp {
 
   uint64_t issued, jumps; /* instructions and taken jumps that were issued in earlier bursts */
   bool ends_slowly;       /* the last step of the current burst is slow even if another one followed */
-  bool alone;             /* the current burst may store to global memory (trax_chip.alone) */
+  bool alone;             /* the current burst has stored to global memory (trax_chip.alone) */
+  bool again;             /* the issued part of the burst is executed again, after a roll back */
 
   /* The state at the beginning of the burst, for a roll back (blocks.c). */
   const struct trax_fast_inst *begin;
