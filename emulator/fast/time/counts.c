@@ -47,24 +47,6 @@ static void charge_refusals(struct trax_tm *tm) {
   memset(&tm->refusal_counts, 0, sizeof tm->refusal_counts);
 }
 
-void trax_fast_notify_refusals(const struct trax_tm *tm, const struct trax_fast_refused *refused) {
-  const uint64_t losers[] = {
-#define LOSERS(MEMBER, CAUSE) refused->MEMBER,
-      TRAX_FAST_REFUSED(LOSERS)
-#undef LOSERS
-  };
-  struct trax_observer *const observer = tm->observer;
-  for (unsigned i = 0; i < TRAX_FAST_REFUSALS; i++)
-    for (uint64_t rest = losers[i]; rest; rest &= rest - 1) {
-      const unsigned tp = trax_first(rest);
-      if (observer->stretch)
-        trax_log_charge(observer, &observer->logs[tm->number * tm->tps + tp], trax_fast_next_of_stretch(tm, tp),
-                        refusal_causes[i], 0, 1);
-      else
-        trax_tm_notify_charge(tm, tp, refusal_causes[i], tm->now, 1);
-    }
-}
-
 /* Returns how many steps of the current burst have been issued. */
 static unsigned issued_of_burst(const struct trax_tm *tm, unsigned tp) {
   return (tm->executes_at_issue | tm->ended) >> tp & 1 ? 0 : tm->heads.at[tp];
