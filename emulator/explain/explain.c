@@ -18,6 +18,7 @@ struct trax_open_span {
   size_t count, capacity;
   uint64_t begin;
   uint32_t pc, previous_pc;
+  uint64_t cycles[TRAX_CAUSE_COUNT]; /* of the thread, in passages */
 };
 
 static void add_charge(void *context, uint32_t tm, uint32_t tp, trax_cause cause, unsigned rd, uint64_t since,
@@ -67,14 +68,20 @@ static void notify_span(struct trax_explain *explain, uint32_t tm, uint32_t tp, 
   }
 }
 
-/* Sets the indices of what belongs to a piece whose first instruction has the number `at`. */
+/* Sets the indices of what belongs to a piece whose first instruction has the number `at`, and adds the charges to
+   `cycles`. */
 static void place_piece(const struct trax_piece *piece, unsigned at, struct trax_thread_log *log,
-                        struct trax_passage *passage) {
+                        struct trax_passage *passage, uint64_t *cycles) {
   const unsigned end = at + piece->count;
-  for (size_t *i = &passage->charged_count; *i < log->charged_count && log->charged[*i].at < end; ++*i)
-    log->charged[*i].index = piece->index + (log->charged[*i].at - at);
-  for (size_t *i = &passage->accessed_count; *i < log->accessed_count && log->accessed[*i].at < end; ++*i)
-    log->accessed[*i].index = piece->index + (log->accessed[*i].at - at);
+  size_t i = passage->charged_count;
+  for (; i < log->charged_count && log->charged[i].at < end; i++) {
+    log->charged[i].index = piece->index + (log->charged[i].at - at);
+    cycles[log->charged[i].cause] += log->charged[i].cycles;
+  }
+  passage->charged_count = i;
+  for (i = passage->accessed_count; i < log->accessed_count && log->accessed[i].at < end; i++)
+    log->accessed[i].index = piece->index + (log->accessed[i].at - at);
+  passage->accessed_count = i;
 }
 
 static void notify_passage(const struct trax_explain *explain, const struct trax_passage *passage) {
@@ -87,22 +94,25 @@ static void add_stretch(void *context, const struct trax_stretch *stretch) {
   struct trax_explain *explain = context;
   const uint32_t thread = stretch->tm * explain->machine->config.chip.tps_per_tm + stretch->tp;
   struct trax_thread_log *log = &explain->observer.logs[thread];
+  struct trax_open_span *open = &explain->open_spans[thread];
   struct trax_passage passage = {.thread = thread,
                                  .count = stretch->count,
                                  .piece = stretch->piece,
                                  .pieces = stretch->pieces,
                                  .charged = log->charged,
                                  .accessed = log->accessed,
+                                 .cycles = open->cycles,
                                  .next_pc = stretch->next_pc,
                                  .result = stretch->result};
   for (size_t i = 0, at = 0; i < stretch->pieces; at += stretch->piece[i++].count) {
     stretch->piece[i].index = trax_places_index(explain->places, stretch->piece[i].pc);
-    place_piece(&stretch->piece[i], (unsigned)at, log, &passage);
+    place_piece(&stretch->piece[i], (unsigned)at, log, &passage, open->cycles);
   }
+  open->cycles[TRAX_CAUSE_ISSUED] += stretch->count;
   passage.last = stretch->piece[stretch->pieces - 1].index + stretch->piece[stretch->pieces - 1].count - 1;
   passage.inst = *trax_places_inst(explain->places, passage.last);
   notify_passage(explain, &passage);
-  explain->open_spans[thread].pc = stretch->next_pc;
+  open->pc = stretch->next_pc;
   size_t left = 0, accesses_left = 0;
   for (size_t i = passage.charged_count; i < log->charged_count; i++, left++) {
     log->charged[left] = log->charged[i];
@@ -119,11 +129,16 @@ static void add_stretch(void *context, const struct trax_stretch *stretch) {
 /* What the thread was charged after its last instruction. */
 static void end_passages(struct trax_explain *explain, uint32_t thread) {
   struct trax_thread_log *log = &explain->observer.logs[thread];
-  const uint32_t index = trax_places_index(explain->places, explain->open_spans[thread].pc);
-  for (size_t i = 0; i < log->charged_count; i++)
+  struct trax_open_span *open = &explain->open_spans[thread];
+  const uint32_t index = trax_places_index(explain->places, open->pc);
+  for (size_t i = 0; i < log->charged_count; i++) {
     log->charged[i].index = index;
-  notify_passage(
-      explain, &(struct trax_passage){.thread = thread, .charged = log->charged, .charged_count = log->charged_count});
+    open->cycles[log->charged[i].cause] += log->charged[i].cycles;
+  }
+  notify_passage(explain, &(struct trax_passage){.thread = thread,
+                                                 .charged = log->charged,
+                                                 .charged_count = log->charged_count,
+                                                 .cycles = open->cycles});
 }
 
 /* Notifies the readers of the arrivals that precede the issues of a TM in a cycle. */

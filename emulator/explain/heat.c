@@ -27,7 +27,10 @@ struct heat {
   struct heat_counts *counts;       /* of each object */
   struct heat_counts *parts;        /* of each part */
   struct heat_counts *pages[PAGES]; /* each [LINES_PER_PAGE], or NULL */
-  uint64_t *executed, *global;      /* [places]: executions of the instruction; those that accessed global memory */
+  struct heat_counts *regions;      /* of each region */
+  const struct trax_region **latest; /* [places]: of the instruction's latest access to global memory */
+  uint64_t *executed, *global; /* [places]: executions of the instruction, as differences; those that accessed global
+                                  memory */
 };
 
 static struct heat_counts *line_at(struct heat *heat, uint32_t address) {
@@ -56,34 +59,45 @@ static void count(struct heat_counts *counts, const trax_op_info *op, unsigned o
   }
 }
 
-static void add_access(struct heat *heat, const struct trax_accessed *accessed) {
-  const struct trax_explain_options *options = &heat->reader.explain->options;
-  const trax_op_info *op = &trax_op_table[trax_places_inst(heat->reader.explain->places, accessed->index)->op];
-  const uint32_t address = accessed->address;
-  heat->global[accessed->index]++;
-  for (size_t i = 0; i < options->part_count; i++)
-    if (address - options->parts[i].address < options->parts[i].bytes)
-      count(&heat->parts[i], op, accessed->outcome, 1);
-  count(&heat->counts[trax_objects_at(&heat->objects, address)], op, accessed->outcome, 1);
-  struct heat_counts *line = options->heat_lines ? line_at(heat, address) : NULL;
-  if (line)
-    count(line, op, accessed->outcome, 1);
-}
-
 static void add_passage(void *self, const struct trax_passage *passage) {
   struct heat *heat = self;
+  const struct trax_places *places = heat->reader.explain->places;
+  const bool lines = heat->reader.explain->options.heat_lines;
   for (size_t i = 0; i < passage->pieces; i++)
-    trax_add_executed(heat->executed, &passage->piece[i]);
-  for (size_t i = 0; i < passage->accessed_count; i++)
-    add_access(heat, &passage->accessed[i]);
+    trax_count_executed(heat->executed, &passage->piece[i]);
+  for (size_t i = 0; i < passage->accessed_count; i++) {
+    const struct trax_accessed *accessed = &passage->accessed[i];
+    const trax_op_info *op = &trax_op_table[trax_places_inst(places, accessed->index)->op];
+    const struct trax_region *region =
+        trax_objects_region_again(&heat->objects, accessed->address, &heat->latest[accessed->index]);
+    heat->global[accessed->index]++;
+    count(&heat->regions[region - heat->objects.regions], op, accessed->outcome, 1);
+    struct heat_counts *line = lines ? line_at(heat, accessed->address) : NULL;
+    if (line)
+      count(line, op, accessed->outcome, 1);
+  }
+}
+
+static void add_regions(struct heat *heat) {
+  const struct trax_explain_options *options = &heat->reader.explain->options;
+  for (size_t i = 0; i < heat->objects.region_count; i++) {
+    const uint32_t begin = heat->objects.regions[i].begin;
+    for (size_t k = 0; k < options->part_count; k++)
+      if (begin - options->parts[k].address < options->parts[k].bytes)
+        trax_counters_add(&heat->parts[k], &heat->regions[i], sizeof *heat->parts, 1);
+    trax_counters_add(&heat->counts[trax_objects_at(&heat->objects, begin)], &heat->regions[i], sizeof *heat->counts,
+                      1);
+  }
 }
 
 /* Accesses that were not to global memory were to local memory. */
-static trax_status add_local(void *self, trax_error *error) {
+static trax_status end_heat(void *self, trax_error *error) {
   struct heat *heat = self;
   struct trax_places *places = heat->reader.explain->places;
   struct heat_counts *local = &heat->counts[trax_objects_at(&heat->objects, TRAX_LOCAL_BASE)];
   (void)error;
+  add_regions(heat);
+  trax_sum_executed(heat->executed, trax_places_count(places));
   for (uint32_t i = 0; i < trax_places_count(places); i++)
     if (trax_op_table[trax_places_inst(places, i)->op].access_bytes)
       count(local, &trax_op_table[trax_places_inst(places, i)->op], 0, heat->executed[i] - heat->global[i]);
@@ -160,9 +174,13 @@ static trax_status open_heat(void *self, trax_error *error) {
     return TRAX_ERROR;
   heat->counts = trax_explain_array(heat->objects.count, sizeof *heat->counts, error);
   heat->parts = trax_explain_array(heat->reader.explain->options.part_count, sizeof *heat->parts, error);
-  heat->executed = trax_explain_array(trax_places_count(heat->reader.explain->places) + 2, sizeof(uint64_t), error);
-  heat->global = trax_explain_array(trax_places_count(heat->reader.explain->places) + 2, sizeof(uint64_t), error);
-  return heat->counts && heat->parts && heat->executed && heat->global ? TRAX_OK : TRAX_ERROR;
+  const size_t places = (size_t)trax_places_count(heat->reader.explain->places) + 3;
+  heat->regions = trax_explain_array(heat->objects.region_count, sizeof *heat->regions, error);
+  heat->latest = trax_explain_array(places, sizeof *heat->latest, error);
+  heat->executed = trax_explain_array(places, sizeof *heat->executed, error);
+  heat->global = trax_explain_array(places, sizeof *heat->global, error);
+  return heat->counts && heat->parts && heat->regions && heat->latest && heat->executed && heat->global ? TRAX_OK
+                                                                                                        : TRAX_ERROR;
 }
 
 static void close_heat(void *self) {
@@ -172,6 +190,8 @@ static void close_heat(void *self) {
   trax_objects_release(&heat->objects);
   free(heat->counts);
   free(heat->parts);
+  free(heat->regions);
+  free(heat->latest);
   free(heat->executed);
   free(heat->global);
 }
@@ -184,5 +204,5 @@ const struct trax_reader_kind trax_heat_reader = {
     .in_page = true,
     .open = open_heat,
     .passage = add_passage,
-    .end = add_local,
+    .end = end_heat,
     .close = close_heat};

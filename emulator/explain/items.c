@@ -15,9 +15,9 @@ struct item_mark {
 };
 
 struct item_thread {
-  uint64_t cycles[TRAX_CAUSE_COUNT]; /* of the current item */
+  uint64_t cycles[TRAX_CAUSE_COUNT]; /* of the thread at the begin of the item */
   uint64_t rays[TRAX_RAY_KIND_COUNT];
-  uint64_t begin, until;
+  uint64_t begin;
   uint32_t place;
   struct item_mark *marks; /* of the traps that counted one ray each */
   size_t mark_count, mark_capacity;
@@ -30,6 +30,14 @@ struct items {
   void (*item)(void *context, const struct trax_item_cost *cost, bool last);
   void *item_context;
 };
+
+/* The cycle after the passage. */
+static uint64_t until(const struct trax_passage *passage) {
+  uint64_t sum = 0;
+  for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
+    sum += passage->cycles[cause];
+  return sum;
+}
 
 static void write_item(void *context, const struct trax_item_cost *cost, bool last) {
   FILE *out = context;
@@ -55,14 +63,19 @@ static void end_rays(struct trax_explain *explain, const struct item_thread *thr
   }
 }
 
-static void end_item(struct items *items, uint32_t number, uint64_t end, bool last) {
+static void end_item(struct items *items, const struct trax_passage *passage, bool last) {
+  const uint32_t number = passage->thread;
   struct item_thread *thread = &items->threads[number];
+  const uint64_t end = until(passage);
+  uint64_t cycles[TRAX_CAUSE_COUNT];
+  for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
+    cycles[cause] = passage->cycles[cause] - thread->cycles[cause];
   const struct trax_item_cost cost = {.thread = number,
                                       .place = last ? TRAX_NO_PLACE : thread->place,
                                       .begin = thread->begin,
                                       .end = end,
-                                      .instructions = thread->cycles[TRAX_CAUSE_ISSUED],
-                                      .cycles = thread->cycles,
+                                      .instructions = cycles[TRAX_CAUSE_ISSUED],
+                                      .cycles = cycles,
                                       .rays = thread->rays};
   if (items->item)
     items->item(items->item_context, &cost, last);
@@ -74,11 +87,9 @@ static void end_item(struct items *items, uint32_t number, uint64_t end, bool la
     trax_stories_end(items->reader.explain->stories, &cost, last);
   if (items->reader.explain->pixel_rays && !last && cost.place != TRAX_NO_PLACE)
     end_rays(items->reader.explain, thread, &cost);
-  *thread = (struct item_thread){.begin = end,
-                                 .until = end,
-                                 .place = TRAX_NO_PLACE,
-                                 .marks = thread->marks,
-                                 .mark_capacity = thread->mark_capacity};
+  *thread = (struct item_thread){
+      .begin = end, .place = TRAX_NO_PLACE, .marks = thread->marks, .mark_capacity = thread->mark_capacity};
+  memcpy(thread->cycles, passage->cycles, sizeof thread->cycles);
 }
 
 static void add_mark(struct items *items, struct item_thread *thread, const struct trax_passage *passage) {
@@ -90,7 +101,8 @@ static void add_mark(struct items *items, struct item_thread *thread, const stru
     return;
   }
   thread->marks[thread->mark_count++] = /* the trap belongs to the ray */
-      (struct item_mark){kind, thread->until - 1 - thread->begin, thread->cycles[TRAX_CAUSE_ISSUED] - 1};
+      (struct item_mark){kind, until(passage) - 1 - thread->begin,
+                         passage->cycles[TRAX_CAUSE_ISSUED] - thread->cycles[TRAX_CAUSE_ISSUED] - 1};
 }
 
 /* Counts the rays that a trap reports. */
@@ -116,22 +128,16 @@ static void add_passage(void *self, const struct trax_passage *passage) {
   struct item_thread *thread = &items->threads[passage->thread];
   if (items->reader.explain->stories)
     trax_stories_add(items->reader.explain->stories, passage);
-  for (size_t i = 0; i < passage->charged_count; i++) {
-    thread->cycles[passage->charged[i].cause] += passage->charged[i].cycles;
-    thread->until += passage->charged[i].cycles;
-  }
   if (!passage->count) {
-    end_item(items, passage->thread, thread->until, true);
+    end_item(items, passage, true);
     return;
   }
-  thread->cycles[TRAX_CAUSE_ISSUED] += passage->count;
-  thread->until += passage->count;
   if (passage->inst.op == TRAX_OP_TRAP)
     add_rays(thread, passage);
   if (passage->inst.op == TRAX_OP_TRAP && items->reader.explain->pixel_rays)
     add_mark(items, thread, passage);
   if (trax_ends_item(passage))
-    end_item(items, passage->thread, thread->until, false);
+    end_item(items, passage, false);
   else
     find_place(items, thread, passage);
 }
@@ -147,11 +153,10 @@ void trax_explain_items(struct trax_explain *explain,
 }
 
 static trax_status create_pixels(struct trax_explain *explain, uint32_t bytes) {
-  const bool stories = trax_stories_fit(explain);
   explain->pixels = trax_pixels_create(bytes / explain->options.item_bytes);
-  explain->stories = stories ? trax_stories_create(explain) : NULL;
-  explain->pixel_rays = stories ? trax_pixel_rays_create() : NULL;
-  return explain->pixels && (!stories || (explain->stories && explain->pixel_rays)) ? TRAX_OK : TRAX_ERROR;
+  explain->stories = trax_stories_create(explain);
+  explain->pixel_rays = trax_pixel_rays_create();
+  return explain->pixels && explain->stories && explain->pixel_rays ? TRAX_OK : TRAX_ERROR;
 }
 
 /* Finds the buffer to which the items store. */

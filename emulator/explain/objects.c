@@ -33,6 +33,58 @@ static void sort(struct trax_objects *objects) {
   objects->count = kept;
 }
 
+size_t trax_objects_at(const struct trax_objects *objects, uint32_t address) {
+  size_t low = 0, high = objects->count - 1;
+  while (low < high) { /* the first object that ends after the address */
+    const size_t middle = (low + high) / 2;
+    if (objects->objects[middle].end <= address)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low < objects->count - 1 && objects->objects[low].begin <= address ? low : objects->count - 1;
+}
+
+static int by_number(const void *a, const void *b) {
+  const uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
+  return x < y ? -1 : x > y;
+}
+
+static size_t part_at(const struct trax_objects *objects, uint32_t address) {
+  for (size_t i = 0; i < objects->options->part_count; i++)
+    if (address - objects->options->parts[i].address < objects->options->parts[i].bytes)
+      return objects->count + i;
+  return trax_objects_at(objects, address);
+}
+
+static bool list_regions(struct trax_objects *objects) {
+  const struct trax_explain_options *options = objects->options;
+  uint64_t *bounds = malloc((2 * (objects->count + options->part_count) + 2) * sizeof *bounds);
+  size_t count = 0;
+  objects->regions = malloc((2 * (objects->count + options->part_count) + 2) * sizeof *objects->regions);
+  if (!bounds || !objects->regions) {
+    free(bounds);
+    return false;
+  }
+  bounds[count++] = 0;
+  bounds[count++] = (uint64_t)1 << 32;
+  for (size_t i = 0; i + 1 < objects->count; i++) {
+    bounds[count++] = objects->objects[i].begin;
+    bounds[count++] = objects->objects[i].end;
+  }
+  for (size_t i = 0; i < options->part_count; i++) {
+    bounds[count++] = options->parts[i].address;
+    bounds[count++] = (uint64_t)options->parts[i].address + options->parts[i].bytes;
+  }
+  qsort(bounds, count, sizeof *bounds, by_number);
+  for (size_t i = 0; i + 1 < count && bounds[i] >> 32 == 0; i++)
+    if (bounds[i] < bounds[i + 1])
+      objects->regions[objects->region_count++] = (struct trax_region){
+          (uint32_t)bounds[i], (uint32_t)(bounds[i + 1] - 1), part_at(objects, (uint32_t)bounds[i])};
+  free(bounds);
+  return true;
+}
+
 trax_status trax_objects_list(struct trax_objects *objects, const struct trax_explain *explain, trax_error *error) {
   const struct trax_machine *machine = explain->machine;
   const struct trax_loaded *loaded = trax_loaded_of(machine);
@@ -52,31 +104,25 @@ trax_status trax_objects_list(struct trax_objects *objects, const struct trax_ex
                 add(objects, "(stacks)", loaded->memory_end, machine->space.size);
   complete &= add(objects, "(local memory)", TRAX_LOCAL_BASE, (uint64_t)1 << 32);
   sort(objects);
-  complete &= add(objects, "(other)", 0, 1);
+  complete &= add(objects, "(other)", 0, 1) && list_regions(objects);
   return complete ? TRAX_OK : trax_fail(error, "out of memory for the objects in memory");
 }
 
 void trax_objects_release(struct trax_objects *objects) {
   free(objects->objects);
+  free(objects->regions);
 }
 
-size_t trax_objects_at(const struct trax_objects *objects, uint32_t address) {
-  size_t low = 0, high = objects->count - 1;
-  while (low < high) { /* the first object that ends after the address */
+const struct trax_region *trax_objects_region(const struct trax_objects *objects, uint32_t address) {
+  size_t low = 0, high = objects->region_count - 1;
+  while (low < high) { /* the first region that ends at the address or after it */
     const size_t middle = (low + high) / 2;
-    if (objects->objects[middle].end <= address)
+    if (objects->regions[middle].last < address)
       low = middle + 1;
     else
       high = middle;
   }
-  return low < objects->count - 1 && objects->objects[low].begin <= address ? low : objects->count - 1;
-}
-
-size_t trax_objects_part_at(const struct trax_objects *objects, uint32_t address) {
-  for (size_t i = 0; i < objects->options->part_count; i++)
-    if (address - objects->options->parts[i].address < objects->options->parts[i].bytes)
-      return objects->count + i;
-  return trax_objects_at(objects, address);
+  return &objects->regions[low];
 }
 
 const char *trax_objects_name(const struct trax_objects *objects, size_t number) {

@@ -21,9 +21,19 @@ struct trax_places {
   uint32_t count;
   struct trax_place *place; /* [count + 2]; `frames` is NULL until the first look-up */
   trax_inst *inst;          /* [count + 2] */
+  uint8_t *accesses;        /* [count + 2] */
 
   struct trax_texts names;
 };
+
+static enum trax_access_class access_of(trax_op op) {
+  const unsigned flags = trax_op_table[op].flags;
+  if (!trax_op_table[op].access_bytes)
+    return TRAX_ACCESS_NONE;
+  if (flags & (TRAX_IS_NONTEMPORAL | TRAX_IS_ATOMIC))
+    return TRAX_ACCESS_PAST_CACHE;
+  return flags & TRAX_IS_STORE ? TRAX_ACCESS_STORE : TRAX_ACCESS_LOAD;
+}
 
 struct trax_places *trax_places_create(const trax_machine *machine) {
   struct trax_places *places = calloc(1, sizeof *places);
@@ -40,7 +50,8 @@ struct trax_places *trax_places_create(const trax_machine *machine) {
   }
   places->place = calloc((size_t)places->count + 2, sizeof *places->place);
   places->inst = calloc((size_t)places->count + 2, sizeof *places->inst);
-  if (!places->ranges || !places->place || !places->inst) {
+  places->accesses = calloc((size_t)places->count + 2, sizeof *places->accesses);
+  if (!places->ranges || !places->place || !places->inst || !places->accesses) {
     trax_places_destroy(places);
     return NULL;
   }
@@ -48,6 +59,7 @@ struct trax_places *trax_places_create(const trax_machine *machine) {
     uint32_t word;
     memcpy(&word, machine->space.bytes + trax_places_pc(places, i), sizeof word);
     places->inst[i] = trax_decode(word);
+    places->accesses[i] = (uint8_t)access_of(places->inst[i].op);
   }
   return places;
 }
@@ -61,6 +73,7 @@ void trax_places_destroy(struct trax_places *places) {
   free(places->ranges);
   free(places->place);
   free(places->inst);
+  free(places->accesses);
   free(places);
 }
 
@@ -84,6 +97,10 @@ uint32_t trax_places_pc(const struct trax_places *places, uint32_t index) {
 
 const trax_inst *trax_places_inst(const struct trax_places *places, uint32_t index) {
   return &places->inst[index];
+}
+
+const uint8_t *trax_places_accesses(const struct trax_places *places) {
+  return places->accesses;
 }
 
 /* --- names --- */

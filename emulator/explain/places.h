@@ -28,6 +28,9 @@ uint32_t trax_places_count(const struct trax_places *places); /* without these t
 uint32_t trax_places_index(const struct trax_places *places, uint32_t pc);
 uint32_t trax_places_pc(const struct trax_places *places, uint32_t index);
 const trax_inst *trax_places_inst(const struct trax_places *places, uint32_t index);
+/* [count + 2]: how the instruction accesses memory. */
+enum trax_access_class { TRAX_ACCESS_NONE, TRAX_ACCESS_LOAD, TRAX_ACCESS_STORE, TRAX_ACCESS_PAST_CACHE };
+const uint8_t *trax_places_accesses(const struct trax_places *places);
 static inline uint32_t trax_places_halted(const struct trax_places *places) {
   return trax_places_count(places);
 }

@@ -23,7 +23,7 @@ struct call {
 
 struct trax_profile_thread {
   uint32_t context, stack_pointer;
-  uint32_t latest; /* the record of the latest issue; UINT32_MAX: none */
+  uint32_t latest, latest_context; /* the instruction that was issued last; UINT32_MAX: none */
   struct call *calls;
   size_t depth, capacity;
 };
@@ -35,8 +35,8 @@ static __attribute__((noinline)) uint32_t find_record(struct trax_profile *profi
   if (!entry ||
       !trax_grow((void **)&profile->records, profile->record_count, &profile->record_capacity,
                  sizeof *profile->records) ||
-      !trax_grow((void **)&profile->issued, profile->record_count, &profile->issued_capacity,
-                 sizeof *profile->issued)) {
+      !trax_grow((void **)&profile->pieces, profile->record_count, &profile->pieces_capacity,
+                 sizeof *profile->pieces)) {
     profile->reader.explain->out_of_memory = true;
     return UINT32_MAX;
   }
@@ -44,7 +44,7 @@ static __attribute__((noinline)) uint32_t find_record(struct trax_profile *profi
   if (record == profile->record_count) {
     if (record == MAX_RECORDS / 2) /* the limit must not depend on the engine's stretches */
       profile->reader.explain->observer.single = true;
-    profile->issued[record] = 0;
+    profile->pieces[record] = (struct trax_profile_pieces){0};
     profile->records[profile->record_count++] = (struct trax_profile_record){.context = context, .index = index};
   }
   profile->latest_of[index] = (struct trax_profile_latest){context, record + 1};
@@ -150,59 +150,94 @@ static void follow(struct trax_profile *profile, struct trax_profile_thread *thr
 
 /* --- the reader --- */
 
-/* Adds a branch bubble to the jump before it. `before`: the record of the instruction before the passage. */
-static void add_bubble(struct trax_profile *profile, uint32_t context, const struct trax_passage *passage,
-                       const struct trax_charged *charged, uint32_t before) {
-  if (charged->at)
-    counts_of(profile, context, trax_passage_index(passage, charged->at - 1u))->cycles[TRAX_CAUSE_BRANCH] +=
-        charged->cycles;
-  else if (before != UINT32_MAX)
-    profile->records[before].counts.cycles[TRAX_CAUSE_BRANCH] += charged->cycles;
-  else
-    counts_of(profile, context, charged->index)->cycles[TRAX_CAUSE_BRANCH] += charged->cycles;
+static void add_piece(struct trax_profile *profile, uint32_t context, const struct trax_piece *piece) {
+  const uint32_t first = record_at(profile, context, piece->index);
+  if (first == UINT32_MAX)
+    return;
+  for (uint32_t i = profile->pieces[first].longest; i < piece->count; i++)
+    record_at(profile, context, piece->index + i);
+  if (profile->pieces[first].longest < piece->count)
+    profile->pieces[first].longest = piece->count;
+  const uint32_t last = record_at(profile, context, piece->index + piece->count - 1);
+  profile->pieces[first].begun++;
+  if (last != UINT32_MAX)
+    profile->pieces[last].ended++;
 }
 
-static void add_charges(struct trax_profile *profile, uint32_t context, const struct trax_passage *passage,
-                        uint32_t before) {
+static void add_charges(struct trax_profile *profile, const struct trax_profile_thread *thread, uint32_t context,
+                        const struct trax_passage *passage) {
   const struct trax_places *places = profile->reader.explain->places;
   for (size_t i = 0; i < passage->charged_count; i++) {
     const struct trax_charged *charged = &passage->charged[i];
-    if (charged->cause == TRAX_CAUSE_BRANCH)
-      add_bubble(profile, context, passage, charged, before);
-    else if (charged->cause == TRAX_CAUSE_HALTED)
-      counts_of(profile, 0, trax_places_halted(places))->cycles[TRAX_CAUSE_HALTED] += charged->cycles;
-    else
-      counts_of(profile, context, charged->index)->cycles[charged->cause] += charged->cycles;
+    uint32_t of = context, index = charged->index;
+    if (charged->cause == TRAX_CAUSE_HALTED) {
+      of = 0;
+      index = trax_places_halted(places);
+    } else if (charged->cause == TRAX_CAUSE_BRANCH && charged->at) { /* of the jump before it */
+      index = trax_passage_index(passage, charged->at - 1u);
+    } else if (charged->cause == TRAX_CAUSE_BRANCH && thread->latest != UINT32_MAX) {
+      of = thread->latest_context;
+      index = thread->latest;
+    }
+    counts_of(profile, of, index)->cycles[charged->cause] += charged->cycles;
+  }
+}
+
+static void add_accesses(struct trax_profile *profile, uint32_t context, const struct trax_passage *passage) {
+  const uint8_t *const accesses = trax_places_accesses(profile->reader.explain->places);
+  for (size_t i = 0; i < passage->accessed_count; i++) {
+    const struct trax_accessed *accessed = &passage->accessed[i];
+    if (!accessed->outcome || accesses[accessed->index] != TRAX_ACCESS_LOAD)
+      continue;
+    struct trax_profile_counts *counts = counts_of(profile, context, accessed->index);
+    counts->loads++;
+    counts->hits += accessed->outcome & TRAX_OUTCOME_HIT;
   }
 }
 
 static void add_passage(void *self, const struct trax_passage *passage) {
   struct trax_profile *profile = self;
   struct trax_profile_thread *thread = &profile->threads[passage->thread];
-  const struct trax_places *places = profile->reader.explain->places;
-  const uint32_t before = thread->latest, context = thread->context;
+  const uint32_t context = thread->context;
   for (size_t i = 0; i < passage->pieces; i++)
-    for (uint32_t k = 0; k < passage->piece[i].count; k++)
-      if ((thread->latest = record_at(profile, context, passage->piece[i].index + k)) != UINT32_MAX)
-        profile->issued[thread->latest]++;
-  add_charges(profile, context, passage, before);
-  for (size_t i = 0; i < passage->accessed_count; i++) {
-    const struct trax_accessed *accessed = &passage->accessed[i];
-    if (!accessed->outcome || !(trax_op_table[trax_places_inst(places, accessed->index)->op].flags & TRAX_IS_LOAD))
-      continue;
-    struct trax_profile_counts *counts = counts_of(profile, context, accessed->index);
-    counts->loads++;
-    counts->hits += accessed->outcome & TRAX_OUTCOME_HIT;
-  }
-  if (passage->count)
-    follow(profile, thread, passage);
+    add_piece(profile, context, &passage->piece[i]);
+  add_charges(profile, thread, context, passage);
+  add_accesses(profile, context, passage);
+  if (!passage->count)
+    return;
+  thread->latest = passage->last;
+  thread->latest_context = context;
+  follow(profile, thread, passage);
 }
 
+struct order {
+  uint32_t context, index, record;
+};
+
+static int by_place(const void *a, const void *b) {
+  const struct order *x = a, *y = b;
+  if (x->context != y->context)
+    return x->context < y->context ? -1 : 1;
+  return x->index < y->index ? -1 : x->index > y->index;
+}
+
+/* Sets the executions of each record. */
 static trax_status add_issued(void *self, trax_error *error) {
   struct trax_profile *profile = self;
-  (void)error;
+  struct order *order = trax_explain_array(profile->record_count, sizeof *order, error);
+  uint64_t executed = 0; /* by the pieces that have begun and not ended */
+  if (!order)
+    return TRAX_ERROR;
   for (size_t i = 0; i < profile->record_count; i++)
-    profile->records[i].counts.cycles[TRAX_CAUSE_ISSUED] = profile->issued[i];
+    order[i] = (struct order){profile->records[i].context, profile->records[i].index, (uint32_t)i};
+  qsort(order, profile->record_count, sizeof *order, by_place);
+  for (size_t i = 0; i < profile->record_count; i++) {
+    const struct trax_profile_pieces *pieces = &profile->pieces[order[i].record];
+    executed += pieces->begun;
+    profile->records[order[i].record].counts.cycles[TRAX_CAUSE_ISSUED] = executed;
+    executed -= pieces->ended;
+  }
+  free(order);
   return TRAX_OK;
 }
 
@@ -231,7 +266,7 @@ static void close_profile(void *self) {
   free(profile->threads);
   free(profile->contexts);
   free(profile->records);
-  free(profile->issued);
+  free(profile->pieces);
   free(profile->latest_of);
   free(profile->first_of);
   trax_map_free(&profile->context_of);

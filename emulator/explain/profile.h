@@ -35,8 +35,13 @@ struct trax_profile {
 
   struct trax_profile_record *records;
   size_t record_count, record_capacity;
-  uint64_t *issued; /* [record_count]: instructions, which the records have only after the end */
-  size_t issued_capacity;
+  /* [record_count]: the pieces of its context that begin and that end with the instruction, from which its executions
+     follow at the end, and the length of the longest that began there: those instructions have records. */
+  struct trax_profile_pieces {
+    uint64_t begun, ended;
+    uint32_t longest;
+  } * pieces;
+  size_t pieces_capacity;
   struct trax_map record_of; /* (context, index) */
   struct trax_profile_latest {
     uint32_t context, record; /* its number + 1; 0: none */

@@ -22,8 +22,12 @@ const char *const trax_ray_kind_names[TRAX_RAY_KIND_COUNT] = {
 struct ray_kinds {
   struct trax_reader reader;
   struct trax_tm_stats kinds[KINDS];
-  uint64_t *executed[KINDS]; /* each [places]: executions of the instruction */
-  uint8_t *working;          /* [threads]: the kind of ray that the thread works for */
+  uint64_t *executed[KINDS]; /* each [places]: executions of the instruction, as differences */
+  struct ray_thread {
+    uint64_t cycles[TRAX_CAUSE_COUNT]; /* that are charged to kinds */
+    uint8_t working;                   /* the kind of ray that the thread works for */
+  } * threads;                         /* [threads] */
+  uint64_t outcomes[KINDS][2][16];     /* of accesses through the data cache: of loads, of stores, by their outcome */
 };
 
 /* --- the counters, as the engines count them --- */
@@ -34,46 +38,51 @@ static uint64_t transfer_bytes(const struct trax_config *config, uint32_t addres
   return bytes < config->memory.min_transfer_bytes ? config->memory.min_transfer_bytes : bytes;
 }
 
-static void count_load(struct trax_tm_stats *to, const struct trax_config *config, const struct trax_accessed *accessed,
-                       unsigned flags) {
-  if (flags & TRAX_IS_NONTEMPORAL) {
-    to->nontemporal_loads++;
-    to->nontemporal_read_bytes += transfer_bytes(config, accessed->address, 4);
-    return;
-  }
-  to->dcache_hits += (accessed->outcome & TRAX_OUTCOME_HIT) != 0;
-  to->dcache_merged += (accessed->outcome & TRAX_OUTCOME_MERGED) != 0;
-  if (accessed->outcome & TRAX_OUTCOME_MISS) {
-    to->dcache_misses++;
-    to->data_read_bytes += config->memory.model == TRAX_MEMORY_DRAM
-                               ? trax_dram_bytes(config, 0, config->dcache.line_bytes)
-                               : config->dcache.line_bytes;
-  }
+static uint64_t with(const uint64_t *outcomes, unsigned outcome) {
+  uint64_t sum = 0;
+  for (unsigned i = 0; i < 16; i++)
+    sum += i & outcome ? outcomes[i] : 0;
+  return sum;
 }
 
-static void count_store(struct trax_tm_stats *to, const struct trax_accessed *accessed, unsigned flags) {
-  to->combined_stores += (accessed->outcome & TRAX_OUTCOME_COMBINED) != 0;
-  if (flags & TRAX_IS_NONTEMPORAL)
-    to->nontemporal_stores++;
-  else if (accessed->outcome & TRAX_OUTCOME_HIT)
-    to->store_hits++;
-  else
-    to->store_misses++;
+static uint64_t sum_of(const uint64_t *outcomes) {
+  uint64_t sum = 0;
+  for (unsigned i = 0; i < 16; i++)
+    sum += outcomes[i];
+  return sum;
 }
 
-/* An access to global memory is first taken off those to local memory, to which count_instructions adds all. */
-static void count_access(struct trax_tm_stats *to, const struct trax_config *config,
-                         const struct trax_accessed *accessed, trax_op op) {
-  const unsigned flags = trax_op_table[op].flags;
+/* Accesses to global memory are taken off those to local memory, to which count_instructions adds all. */
+static void count_outcomes(struct trax_tm_stats *to, const struct trax_config *config, const uint64_t *loads,
+                           const uint64_t *stores) {
+  const uint64_t misses = with(loads, TRAX_OUTCOME_MISS);
+  to->local_loads -= sum_of(loads);
+  to->dcache_hits += with(loads, TRAX_OUTCOME_HIT);
+  to->dcache_merged += with(loads, TRAX_OUTCOME_MERGED);
+  to->dcache_misses += misses;
+  to->data_read_bytes +=
+      misses * (config->memory.model == TRAX_MEMORY_DRAM ? trax_dram_bytes(config, 0, config->dcache.line_bytes)
+                                                         : config->dcache.line_bytes);
+  to->local_stores -= sum_of(stores);
+  to->combined_stores += with(stores, TRAX_OUTCOME_COMBINED);
+  to->store_hits += with(stores, TRAX_OUTCOME_HIT);
+  to->store_misses += sum_of(stores) - with(stores, TRAX_OUTCOME_HIT);
+}
+
+static void count_past_cache(struct trax_tm_stats *to, const struct trax_config *config,
+                             const struct trax_accessed *accessed, unsigned flags) {
   --*(flags & TRAX_IS_STORE ? &to->local_stores : &to->local_loads);
-  if (flags & TRAX_IS_ATOMIC)
+  if (flags & TRAX_IS_ATOMIC) {
     to->atomic_bytes += config->memory.model == TRAX_MEMORY_DRAM
                             ? 0
                             : transfer_bytes(config, accessed->address, config->memory.atomic_bytes);
-  else if (flags & TRAX_IS_STORE)
-    count_store(to, accessed, flags);
-  else
-    count_load(to, config, accessed, flags);
+  } else if (flags & TRAX_IS_STORE) {
+    to->nontemporal_stores++;
+    to->combined_stores += (accessed->outcome & TRAX_OUTCOME_COMBINED) != 0;
+  } else {
+    to->nontemporal_loads++;
+    to->nontemporal_read_bytes += transfer_bytes(config, accessed->address, 4);
+  }
 }
 
 static void count_instructions(struct trax_tm_stats *to, trax_op op, uint64_t times) {
@@ -85,29 +94,46 @@ static void count_instructions(struct trax_tm_stats *to, trax_op op, uint64_t ti
     *(info->flags & TRAX_IS_STORE ? &to->local_stores : &to->local_loads) += times;
 }
 
+/* Charges the thread's cycles since the latest charge to the kind that it works for. */
+static void charge(struct ray_kinds *rays, const struct trax_passage *passage) {
+  struct ray_thread *thread = &rays->threads[passage->thread];
+  for (unsigned cause = TRAX_CAUSE_ISSUED + 1; cause < TRAX_CAUSE_COUNT; cause++)
+    rays->kinds[thread->working].cycles[cause] += passage->cycles[cause] - thread->cycles[cause];
+  memcpy(thread->cycles, passage->cycles, sizeof thread->cycles);
+}
+
 static void add_passage(void *self, const struct trax_passage *passage) {
   struct ray_kinds *rays = self;
   const struct trax_places *places = rays->reader.explain->places;
-  uint8_t *working = &rays->working[passage->thread];
-  for (size_t i = 0; i < passage->charged_count; i++)
-    rays->kinds[*working].cycles[passage->charged[i].cause] += passage->charged[i].cycles;
+  const uint8_t *const accesses = trax_places_accesses(places);
+  struct ray_thread *thread = &rays->threads[passage->thread];
   const unsigned kind = trax_counted_kind(passage);
+  const bool ends_item = trax_ends_item(passage);
+  if (!passage->count || ends_item || kind != TRAX_NO_RAY)
+    charge(rays, passage);
   if (kind != TRAX_NO_RAY)
-    *working = (uint8_t)kind;
-  struct trax_tm_stats *to = &rays->kinds[*working];
+    thread->working = (uint8_t)kind;
+  struct trax_tm_stats *to = &rays->kinds[thread->working];
+  uint64_t(*const outcomes)[16] = rays->outcomes[thread->working];
   uint32_t pc = 0;
   for (size_t i = 0; i < passage->pieces; i++) {
-    trax_add_executed(rays->executed[*working], &passage->piece[i]);
+    trax_count_executed(rays->executed[thread->working], &passage->piece[i]);
     pc = passage->piece[i].pc + 4 * passage->piece[i].count;
   }
   if (passage->count) /* from one piece to the next, and behind the last */
     to->taken_branches += passage->pieces - 1 + (passage->next_pc != pc);
-  for (size_t i = 0; i < passage->accessed_count; i++)
-    count_access(to, &rays->reader.explain->machine->config, &passage->accessed[i],
-                 trax_places_inst(places, passage->accessed[i].index)->op);
-  if (trax_ends_item(passage)) {
+  for (size_t i = 0; i < passage->accessed_count; i++) {
+    const struct trax_accessed *accessed = &passage->accessed[i];
+    const uint8_t access = accesses[accessed->index];
+    if (access == TRAX_ACCESS_PAST_CACHE)
+      count_past_cache(to, &rays->reader.explain->machine->config, accessed,
+                       trax_op_table[trax_places_inst(places, accessed->index)->op].flags);
+    else
+      outcomes[access == TRAX_ACCESS_STORE][accessed->outcome & 15]++;
+  }
+  if (ends_item) {
     rays->kinds[TRAX_NO_RAY].items += passage->result;
-    *working = TRAX_NO_RAY;
+    thread->working = TRAX_NO_RAY;
   }
 }
 
@@ -115,9 +141,13 @@ static trax_status add_executed(void *self, trax_error *error) {
   struct ray_kinds *rays = self;
   const struct trax_places *places = rays->reader.explain->places;
   (void)error;
-  for (unsigned kind = 0; kind < KINDS; kind++)
+  for (unsigned kind = 0; kind < KINDS; kind++) {
+    trax_sum_executed(rays->executed[kind], trax_places_count(places));
     for (uint32_t i = 0; i < trax_places_count(places); i++)
       count_instructions(&rays->kinds[kind], trax_places_inst(places, i)->op, rays->executed[kind][i]);
+    count_outcomes(&rays->kinds[kind], &rays->reader.explain->machine->config, rays->outcomes[kind][0],
+                   rays->outcomes[kind][1]);
+  }
   return TRAX_OK;
 }
 
@@ -196,19 +226,20 @@ static trax_status put_table(void *self, FILE *out, trax_error *error) {
 static trax_status open_ray_kinds(void *self, trax_error *error) {
   struct ray_kinds *rays = self;
   const size_t threads = rays->reader.explain->machine->stats.threads;
-  if (!(rays->working = trax_explain_array(threads, 1, error)))
+  if (!(rays->threads = trax_explain_array(threads, sizeof *rays->threads, error)))
     return TRAX_ERROR;
-  memset(rays->working, TRAX_NO_RAY, threads);
+  for (size_t i = 0; i < threads; i++)
+    rays->threads[i].working = TRAX_NO_RAY;
   for (unsigned kind = 0; kind < KINDS; kind++)
     if (!(rays->executed[kind] =
-              trax_explain_array(trax_places_count(rays->reader.explain->places) + 2, sizeof(uint64_t), error)))
+              trax_explain_array(trax_places_count(rays->reader.explain->places) + 3, sizeof(uint64_t), error)))
       return TRAX_ERROR;
   return TRAX_OK;
 }
 
 static void close_ray_kinds(void *self) {
   struct ray_kinds *rays = self;
-  free(rays->working);
+  free(rays->threads);
   for (unsigned kind = 0; kind < KINDS; kind++)
     free(rays->executed[kind]);
 }

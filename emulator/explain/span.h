@@ -40,6 +40,7 @@ struct trax_passage {
   size_t charged_count;
   const struct trax_accessed *accessed; /* [accessed_count] */
   size_t accessed_count;
+  const uint64_t *cycles;   /* [TRAX_CAUSE_COUNT]: of the thread so far, with this passage */
   uint32_t next_pc, result; /* of the last instruction */
   uint32_t last;            /* its index */
   trax_inst inst;           /* the last instruction; illegal if there is none */
@@ -53,10 +54,17 @@ static inline uint32_t trax_passage_index(const struct trax_passage *passage, un
   return piece->index + at;
 }
 
-/* Counts the execution of a piece's instructions, by their indices. */
-static inline void trax_add_executed(uint64_t *executed, const struct trax_piece *piece) {
-  for (uint32_t i = 0; i < piece->count; i++)
-    executed[piece->index + i]++;
+/* Counts the execution of a piece's instructions as differences: [i] becomes the executions of the instruction i, less
+   those of the one before. */
+static inline void trax_count_executed(uint64_t *differences, const struct trax_piece *piece) {
+  differences[piece->index]++;
+  differences[piece->index + piece->count]--;
+}
+
+/* Makes executions of differences. */
+static inline void trax_sum_executed(uint64_t *differences, size_t count) {
+  for (size_t i = 1; i < count; i++)
+    differences[i] += differences[i - 1];
 }
 
 enum { TRAX_READER_FILES = 3 };

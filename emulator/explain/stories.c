@@ -1,4 +1,4 @@
-/* A thread logs its charges. At the end of an item the log is dropped, unless the item's story is kept: then it is
+/* A thread logs its passages. At the end of an item the log is dropped, unless the item's story is kept: then it is
    added up. So is the log of a long item each time it is full. */
 #include "explain/stories.h"
 #include "explain/places.h"
@@ -8,15 +8,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LOG_ENTRIES = 1 << 23, LEAST_LOG = 1 << 10, MOST_LOG = 1 << 14 }; /* of all threads; of one */
-enum { INDEX_BITS = 19, MARK = 31, MOST_CYCLES = 255 };
+enum { LOG_BYTES = 1 << 25, LEAST_LOG = 1 << 14, MOST_LOG = 1 << 17 }; /* of all threads; of one */
 
-/* Small, since the logs of all threads are written at once. More cycles are several entries. */
-struct entry {
-  /* TRAX_CAUSE_ISSUED: of `cycles` instructions from the index on. Cause MARK: a ray begins, of the kind `cycles`. */
-  uint32_t index : INDEX_BITS, cause : 5, cycles : 8;
+/* The begin of a passage in the log. Its pieces and its charges follow. */
+struct logged {
+  uint32_t pieces, charged;
+  uint32_t latest; /* the instruction before the passage */
+  uint32_t kind;   /* of the ray that begins with the passage; TRAX_NO_RAY: none */
 };
-_Static_assert(sizeof(struct entry) == 4 && (int)TRAX_CAUSE_COUNT <= MARK, "the bits of an entry suffice");
 
 /* The sums of a log. */
 struct draft {
@@ -31,8 +30,8 @@ struct draft {
 };
 
 struct story_thread {
-  struct entry *log;
-  size_t logged;
+  uint8_t *log;
+  size_t logged;       /* bytes */
   uint32_t latest;     /* the instruction that it issued last */
   struct draft *draft; /* of what no longer is in the log; NULL: nothing */
 };
@@ -122,22 +121,52 @@ static void add_code(struct draft *draft, uint32_t index, unsigned cause, uint32
   code[cause] += cycles;
 }
 
-static bool add_entry(struct draft *draft, struct entry entry) {
-  if (entry.cause == MARK)
-    return begin_ray(draft, entry.cycles);
-  if (entry.cause != TRAX_CAUSE_ISSUED)
-    add_code(draft, entry.index, entry.cause, entry.cycles);
-  for (uint32_t i = 0; entry.cause == TRAX_CAUSE_ISSUED && i < entry.cycles; i++)
-    add_code(draft, entry.index + i, TRAX_CAUSE_ISSUED, 1);
-  draft->rays[draft->ray_count - 1].cycles[entry.cause] += entry.cycles;
-  pass_time(draft, entry.cause, entry.cycles);
+static void add_cycles(struct draft *draft, unsigned cause, uint32_t cycles) {
+  draft->rays[draft->ray_count - 1].cycles[cause] += cycles;
+  pass_time(draft, cause, cycles);
+}
+
+static void add_issued(struct draft *draft, uint32_t index, uint32_t count) {
+  for (uint32_t i = 0; i < count; i++)
+    add_code(draft, index + i, TRAX_CAUSE_ISSUED, 1);
+  add_cycles(draft, TRAX_CAUSE_ISSUED, count);
+}
+
+/* False: out of memory. */
+static bool add_passage(struct draft *draft, const struct logged *logged, const struct trax_piece *piece,
+                        const struct trax_charged *charged) {
+  const struct trax_charged *const end = charged + logged->charged;
+  uint32_t begin = 0, latest = logged->latest; /* begin: the number of the piece's first instruction */
+  for (const struct trax_piece *const pieces_end = piece + logged->pieces; piece < pieces_end;
+       begin += piece++->count) {
+    uint32_t issued = 0;
+    for (; charged < end && charged->at < begin + piece->count; charged++) {
+      const uint32_t before = charged->at - begin;
+      add_issued(draft, piece->index + issued, before - issued);
+      issued = before;
+      const uint32_t jump = before ? piece->index + before - 1 : latest;
+      if (charged->cause == TRAX_CAUSE_HALTED) /* a halted thread ends no item */
+        continue;
+      add_code(draft, charged->cause == TRAX_CAUSE_BRANCH ? jump : charged->index, charged->cause, charged->cycles);
+      add_cycles(draft, charged->cause, charged->cycles);
+    }
+    if (logged->kind != TRAX_NO_RAY && !begin_ray(draft, logged->kind)) /* a trap, which is a passage of its own */
+      return false;
+    add_issued(draft, piece->index + issued, piece->count - issued);
+    latest = piece->index + piece->count - 1;
+  }
   return true;
 }
 
 static void add_log(struct trax_stories *stories, struct story_thread *thread, struct draft *draft) {
-  for (size_t i = 0; i < thread->logged; i++)
-    if (!add_entry(draft, thread->log[i]))
+  for (const uint8_t *at = thread->log, *const end = at + thread->logged; at < end;) {
+    const struct logged *logged = (const void *)at;
+    const struct trax_piece *piece = (const void *)(logged + 1);
+    const struct trax_charged *charged = (const void *)(piece + logged->pieces);
+    if (!add_passage(draft, logged, piece, charged))
       stories->explain->out_of_memory = true;
+    at = (const void *)(charged + logged->charged);
+  }
   thread->logged = 0;
 }
 
@@ -151,43 +180,30 @@ static __attribute__((noinline)) void empty_log(struct trax_stories *stories, st
   thread->logged = 0;
 }
 
-static void log_entry(struct trax_stories *stories, struct story_thread *thread, uint32_t index, unsigned cause,
-                      uint32_t cycles) {
-  if (thread->logged == stories->log_size)
-    empty_log(stories, thread);
-  thread->log[thread->logged++] = (struct entry){.index = index, .cause = cause, .cycles = cycles};
-}
-
-static void log_charge(struct trax_stories *stories, struct story_thread *thread, uint32_t index,
-                       const struct trax_charged *charged) {
-  uint64_t left = charged->cause == TRAX_CAUSE_HALTED ? 0 : charged->cycles; /* a halted thread ends no item */
-  for (; left > MOST_CYCLES; left -= MOST_CYCLES)
-    log_entry(stories, thread, index, charged->cause, MOST_CYCLES);
-  if (left)
-    log_entry(stories, thread, index, charged->cause, (uint32_t)left);
-}
-
 void trax_stories_add(struct trax_stories *stories, const struct trax_passage *passage) {
   struct story_thread *thread = &stories->threads[passage->thread];
-  const struct trax_charged *charged = passage->charged, *const end = charged + passage->charged_count;
-  uint32_t begin = 0; /* the number of the piece's first instruction */
-  for (size_t i = 0; i < passage->pieces; begin += passage->piece[i++].count) {
-    const struct trax_piece *piece = &passage->piece[i];
-    uint32_t logged = 0; /* instructions */
-    for (; charged < end && charged->at < begin + piece->count; charged++) {
-      const uint32_t before = charged->at - begin;
-      if (before > logged)
-        log_entry(stories, thread, piece->index + logged, TRAX_CAUSE_ISSUED, before - logged);
-      logged = before;
-      const uint32_t jump = before ? piece->index + before - 1 : thread->latest;
-      log_charge(stories, thread, charged->cause == TRAX_CAUSE_BRANCH ? jump : charged->index, charged);
-    }
-    const unsigned kind = trax_counted_kind(passage); /* of a trap, which is a passage of its own */
-    if (kind != TRAX_NO_RAY)
-      log_entry(stories, thread, 0, MARK, kind);
-    log_entry(stories, thread, piece->index + logged, TRAX_CAUSE_ISSUED, piece->count - logged);
-    thread->latest = piece->index + piece->count - 1;
+  const struct logged logged = {.pieces = (uint32_t)passage->pieces,
+                                .charged = (uint32_t)passage->charged_count,
+                                .latest = thread->latest,
+                                .kind = trax_counted_kind(passage)};
+  const size_t pieces = passage->pieces * sizeof *passage->piece,
+               charged = passage->charged_count * sizeof *passage->charged, needed = sizeof logged + pieces + charged;
+  if (!passage->count)
+    return;
+  thread->latest = passage->last;
+  if (thread->logged + needed > stories->log_size)
+    empty_log(stories, thread);
+  if (needed > stories->log_size) {
+    if (thread->draft && !add_passage(thread->draft, &logged, passage->piece, passage->charged))
+      stories->explain->out_of_memory = true;
+    return;
   }
+  uint8_t *const to = thread->log + thread->logged;
+  memcpy(to, &logged, sizeof logged);
+  memcpy(to + sizeof logged, passage->piece, pieces);
+  if (charged)
+    memcpy(to + sizeof logged + pieces, passage->charged, charged);
+  thread->logged += needed;
 }
 
 /* --- stories --- */
@@ -302,23 +318,19 @@ bool trax_stories_have(const struct trax_stories *stories, uint32_t place) {
   return false;
 }
 
-bool trax_stories_fit(const struct trax_explain *explain) {
-  return trax_places_count(explain->places) + 2 <= 1u << INDEX_BITS;
-}
-
 struct trax_stories *trax_stories_create(struct trax_explain *explain) {
   struct trax_stories *stories = calloc(1, sizeof *stories);
   if (!stories)
     return NULL;
   stories->explain = explain;
   stories->thread_count = explain->machine->stats.threads;
-  stories->log_size = LOG_ENTRIES / stories->thread_count;
+  stories->log_size = LOG_BYTES / stories->thread_count;
   stories->log_size = stories->log_size < LEAST_LOG ? LEAST_LOG : stories->log_size;
   stories->log_size = stories->log_size > MOST_LOG ? MOST_LOG : stories->log_size;
   stories->threads = calloc(stories->thread_count, sizeof *stories->threads);
   bool complete = stories->threads && (stories->draft = new_draft(stories));
   for (uint64_t i = 0; complete && i < stories->thread_count; i++)
-    complete = (stories->threads[i].log = malloc(stories->log_size * sizeof(struct entry)));
+    complete = (stories->threads[i].log = malloc(stories->log_size));
   if (complete)
     return stories;
   trax_stories_destroy(stories);

@@ -37,8 +37,6 @@ struct trax_story {
 
 struct trax_stories;
 
-/* False: the program has too many instructions. */
-bool trax_stories_fit(const struct trax_explain *explain);
 struct trax_stories *trax_stories_create(struct trax_explain *explain); /* NULL: out of memory */
 void trax_stories_destroy(struct trax_stories *stories);                /* which may be NULL */
 void trax_stories_add(struct trax_stories *stories, const struct trax_passage *passage);

@@ -40,6 +40,11 @@ struct waits {
   size_t count, capacity;
   struct trax_map pair_of, record_of; /* (awaited, waiting) to a number; (this number, object) to that of a record */
   uint32_t *latest_of;                /* [places]: the latest record of the waiting instruction, + 1 */
+  const struct trax_region **region_of; /* [places]: of the latest access of the instruction that was waited for */
+  struct bank {
+    uint32_t begin, last, object; /* of the latest access that waited for its bank */
+    uint32_t cycles;              /* that are not in a record yet */
+  } * banks;                      /* [places] */
   uint8_t *slow;    /* [places]: the register, if it may be waited for, + SLOW_ACCESS of a memory access */
   uint32_t *others; /* [places + 1]: of the instructions before, those that are waited for without global memory */
 };
@@ -66,11 +71,37 @@ static struct record *record_of(struct waits *waits, struct record wanted) {
 }
 
 static void add(struct waits *waits, const struct writer *awaited, uint32_t waiting, unsigned column, uint64_t cycles) {
-  const uint32_t object = awaited->accesses ? (uint32_t)trax_objects_part_at(&waits->objects, awaited->address) + 1 : 0;
+  const uint32_t object = awaited->accesses ? (uint32_t)trax_objects_region_again(&waits->objects, awaited->address,
+                                                                                  &waits->region_of[awaited->index])
+                                                      ->number +
+                                                  1
+                                            : 0;
   struct record *record =
       record_of(waits, (struct record){.awaited = awaited->index, .object = object, .waiting = waiting});
   if (record)
     record->cycles[column] += cycles;
+}
+
+static void add_bank(struct waits *waits, uint32_t index) {
+  struct bank *bank = &waits->banks[index];
+  struct record *record =
+      bank->cycles ? record_of(waits, (struct record){.awaited = index, .object = bank->object, .waiting = index})
+                   : NULL;
+  if (record)
+    record->cycles[BANK] += bank->cycles;
+  bank->cycles = 0;
+}
+
+/* An access waits for its bank. An access that has not been issued has no address. */
+static void wait_for_bank(struct waits *waits, uint32_t index, const struct trax_accessed *accessed, uint32_t cycles) {
+  struct bank *bank = &waits->banks[index];
+  if (bank->cycles > UINT32_MAX / 2 ||
+      (accessed ? accessed->address - bank->begin > bank->last - bank->begin || !bank->object : bank->object != 0)) {
+    add_bank(waits, index);
+    const struct trax_region *region = accessed ? trax_objects_region(&waits->objects, accessed->address) : NULL;
+    *bank = region ? (struct bank){region->begin, region->last, (uint32_t)region->number + 1, 0} : (struct bank){0};
+  }
+  bank->cycles += cycles;
 }
 
 /* What the instructions before `end` of a passage have written. */
@@ -128,11 +159,11 @@ static void add_passage(void *self, const struct trax_passage *passage) {
     /* Only a memory access waits for a bank. If it has not been issued, its address is not known. A fence that waits
        for its thread's stores waits for no register. */
     const bool accesses = own < end && own->at == charged->at;
-    const struct writer itself = {charged->index, accesses ? own->address : 0, accesses};
     if (charged->cause == TRAX_CAUSE_DCACHE_BANK) {
-      add(waits, &itself, charged->index, BANK, charged->cycles);
+      wait_for_bank(waits, charged->index, accesses ? own : NULL, charged->cycles);
       continue;
     }
+    const struct writer itself = {charged->index, accesses ? own->address : 0, accesses};
     if (passage->count)
       write_up_to(waits, writers, &written, charged->at);
     add(waits, charged->rd ? &writers[charged->rd] : &itself, charged->index, charged->cause - TRAX_CAUSE_DATA_LOCAL,
@@ -183,6 +214,14 @@ static trax_status put_table(void *self, FILE *out, trax_error *error) {
   return TRAX_OK;
 }
 
+static trax_status add_banks(void *self, trax_error *error) {
+  struct waits *waits = self;
+  (void)error;
+  for (uint32_t i = 0; i < trax_places_count(waits->reader.explain->places); i++)
+    add_bank(waits, i);
+  return TRAX_OK;
+}
+
 static trax_status open_waits(void *self, trax_error *error) {
   struct waits *waits = self;
   const struct trax_explain *explain = waits->reader.explain;
@@ -192,7 +231,9 @@ static trax_status open_waits(void *self, trax_error *error) {
   waits->latest_of = trax_explain_array(trax_places_count(explain->places) + 2, sizeof *waits->latest_of, error);
   waits->slow = trax_explain_array(trax_places_count(explain->places) + 2, sizeof *waits->slow, error);
   waits->others = trax_explain_array(trax_places_count(explain->places) + 3, sizeof *waits->others, error);
-  if (!waits->writers || !waits->latest_of || !waits->slow || !waits->others)
+  waits->region_of = trax_explain_array(trax_places_count(explain->places) + 2, sizeof *waits->region_of, error);
+  waits->banks = trax_explain_array(trax_places_count(explain->places) + 2, sizeof *waits->banks, error);
+  if (!waits->writers || !waits->latest_of || !waits->region_of || !waits->banks || !waits->slow || !waits->others)
     return TRAX_ERROR;
   const uint32_t local = explain->machine->config.tp.local_latency_cycles;
   for (uint32_t i = 0; i < trax_places_count(explain->places); i++) {
@@ -214,6 +255,8 @@ static void close_waits(void *self) {
   trax_objects_release(&waits->objects);
   free(waits->writers);
   free(waits->latest_of);
+  free(waits->region_of);
+  free(waits->banks);
   free(waits->slow);
   free(waits->others);
   free(waits->records);
@@ -227,4 +270,5 @@ const struct trax_reader_kind trax_waits_reader = {
     .in_page = true,
     .open = open_waits,
     .passage = add_passage,
+    .end = add_banks,
     .close = close_waits};

@@ -60,10 +60,12 @@ void trax_fast_report(const struct trax_chip *chip, uint64_t cycles);
 void trax_fast_count_rays(struct trax_tm *tm, unsigned number, int32_t code, uint32_t value);
 void trax_fast_settle_rays(struct trax_tm *tm);
 /* Notifies an observer of the refusals of the current cycle. */
-void trax_fast_notify_refusals(const struct trax_tm *tm, const struct trax_fast_refused *refused);
-/* For an observer of stretches: records the accesses by TPs that issue in this cycle, `issued`, as far as they belong
-   to bursts; tells it of the instruction at pc, which was executed at issue; of the steps before `end` of the current
-   burst, of which it does not know yet; of those that were issued. */
+void trax_fast_notify_refusals(struct trax_tm *tm, const struct trax_fast_refused *refused);
+/* For an observer of stretches: logs the refusals of some TPs' heads that are not in the log yet; records the accesses
+   by TPs that issue in this cycle, `issued`, as far as they belong to bursts; tells it of the instruction at pc, which
+   was executed at issue; of the steps before `end` of the current burst, of which it does not know yet; of those that
+   were issued. */
+void trax_fast_log_refusals(struct trax_tm *tm, uint64_t tps);
 void trax_fast_log_accesses(struct trax_tm *tm, uint64_t issued);
 void trax_fast_tell_single(struct trax_tm *tm, unsigned number, uint32_t pc, const struct trax_decoded *inst);
 void trax_fast_tell_steps(struct trax_tm *tm, unsigned number, unsigned end, uint32_t next_pc);

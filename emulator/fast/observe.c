@@ -9,17 +9,75 @@ static struct trax_thread_log *log_of(const struct trax_tm *tm, unsigned tp) {
   return &tm->observer->logs[tm->number * tm->tps + tp];
 }
 
-void trax_tm_tell_charge(const struct trax_tm *tm, unsigned tp, trax_cause cause, uint64_t since, uint64_t cycles) {
+void trax_tm_tell_charge(struct trax_tm *tm, unsigned tp, trax_cause cause, uint64_t since, uint64_t cycles) {
   uint64_t until;
   unsigned rd = 0;
   if (!cycles || cause == TRAX_CAUSE_ISSUED)
     return;
   if (trax_is_wait(cause)) /* its value may have arrived, but only after `since` */
     trax_tp_wait(&tm->tp[tp], since, &until, &rd);
-  if (tm->observer->stretch)
+  if (tm->observer->stretch) {
+    trax_fast_log_refusals(tm, tm->unlogged.tps & (uint64_t)1 << tp);
     trax_log_charge(tm->observer, log_of(tm, tp), trax_fast_next_of_stretch(tm, tp), cause, rd, cycles);
-  else if (tm->observer->charge)
+  } else if (tm->observer->charge)
     tm->observer->charge(tm->observer->context, tm->number, tp, cause, rd, since, cycles);
+}
+
+/* --- refusals --- */
+
+void trax_fast_log_refusals(struct trax_tm *tm, uint64_t tps) {
+  tm->unlogged.tps &= ~tps;
+  for (; tps; tps &= tps - 1) {
+    const unsigned tp = trax_first(tps);
+    trax_log_charge(tm->observer, log_of(tm, tp), trax_fast_next_of_stretch(tm, tp), (trax_cause)tm->unlogged.cause[tp],
+                    0, tm->unlogged.cycles[tp]);
+    tm->unlogged.cause[tp] = 0;
+  }
+}
+
+/* A byte for each of several TPs, since many TPs are refused in a cycle. */
+typedef uint8_t bytes16 __attribute__((vector_size(16), may_alias));
+typedef uint64_t halves __attribute__((vector_size(16), may_alias));
+
+static __attribute__((noinline)) void log_bytes(struct trax_tm *tm, unsigned first, halves chosen) {
+  uint64_t tps = 0;
+  for (unsigned half = 0; half < 2; half++)
+    for (unsigned i = 0; i < 8; i++)
+      tps |= (chosen[half] >> 8 * i & 1) << (first + 8 * half + i);
+  trax_fast_log_refusals(tm, tm->unlogged.tps & tps);
+}
+
+/* Counts a refusal of the TPs `refused`, 16 TPs from `first` on. */
+static inline void count_refusals(struct trax_tm *tm, unsigned first, uint32_t refused, trax_cause cause) {
+  bytes16 *const causes = (bytes16 *)&tm->unlogged.cause[first], *const cycles = (bytes16 *)&tm->unlogged.cycles[first];
+  const bytes16 bits = {1, 2, 4, 8, 16, 32, 64, 128, 1, 2, 4, 8, 16, 32, 64, 128};
+  const uint64_t ones = 0x0101010101010101;
+  const bytes16 chosen = (bytes16)(((bytes16)(halves){(refused & 0xFF) * ones, (refused >> 8) * ones} & bits) != 0);
+  const bytes16 now = chosen & (uint8_t)cause;
+  halves others =
+      (halves)((bytes16)((*causes != now) & (*causes != 0)) & chosen) | (halves)((bytes16)(*cycles == 0xFF) & chosen);
+  if (others[0] | others[1])
+    log_bytes(tm, first, others);
+  const bytes16 same = (bytes16)(*causes == now) & chosen;
+  *cycles = (*cycles & (same | ~chosen)) + (chosen & 1);
+  *causes = (*causes & ~chosen) | now;
+}
+
+void trax_fast_notify_refusals(struct trax_tm *tm, const struct trax_fast_refused *refused) {
+  const uint64_t *const losers = (const uint64_t *)refused;
+  for (unsigned i = 0; i < TRAX_FAST_REFUSALS; i++) {
+    const trax_cause cause = trax_fast_refusal_causes[i];
+    uint64_t rest = losers[i];
+    if (tm->observer->stretch) {
+      for (unsigned first = 0; first < tm->tps; first += 16)
+        if (rest >> first & 0xFFFF)
+          count_refusals(tm, first, rest >> first & 0xFFFF, cause);
+      tm->unlogged.tps |= rest;
+      continue;
+    }
+    for (; rest; rest &= rest - 1)
+      trax_tm_notify_charge(tm, trax_first(rest), cause, tm->now, 1);
+  }
 }
 
 static uint32_t result_of(const struct trax_tp *tp, const struct trax_decoded *inst) {
@@ -118,6 +176,7 @@ void trax_fast_tell_steps(struct trax_tm *tm, unsigned number, unsigned end, uin
 }
 
 void trax_fast_tell_issued(struct trax_tm *tm, unsigned number) {
+  trax_fast_log_refusals(tm, tm->unlogged.tps & (uint64_t)1 << number);
   if (!((tm->executes_at_issue | tm->ended) >> number & 1))
     trax_fast_tell_steps(tm, number, tm->heads.at[number], trax_fast_head_timing(tm, number)->pc);
 }

@@ -25,6 +25,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 /* The outcome of an access to global memory: bits of trax_issue.outcome. */
 enum {
@@ -61,11 +62,13 @@ struct trax_piece {
 };
 
 /* Charges and accesses name the instruction by its number in the stretch. A charge belongs to the instruction before
-   whose issue it came. */
+   whose issue it came. Neighbouring charges may have the same cause. They are small, since they are many. */
 struct trax_charged {
-  uint32_t cycles, index;
-  uint8_t at, cause, rd;
+  uint32_t index;
+  uint32_t at : 8, cause : 5, rd : 5, cycles : 14;
 };
+enum { TRAX_MOST_CHARGED = (1 << 14) - 1 /* cycles */ };
+_Static_assert(TRAX_CAUSE_COUNT <= 32 && TRAX_NUM_REGISTERS <= 32, "the bits of a charge suffice");
 
 /* Of global memory. */
 struct trax_accessed {
@@ -113,23 +116,16 @@ struct trax_observer {
 /* For engines: adds a charge before the instruction `at` to a log. */
 static inline void trax_log_charge(struct trax_observer *observer, struct trax_thread_log *log, unsigned at,
                                    trax_cause cause, unsigned rd, uint64_t cycles) {
-  struct trax_charged *latest = log->charged_count ? &log->charged[log->charged_count - 1] : NULL;
-  if (latest && latest->at == at && latest->cause == cause && latest->rd == rd &&
-      latest->cycles + cycles <= UINT32_MAX) {
-    latest->cycles += (uint32_t)cycles;
-    return;
-  }
-  for (; cycles; cycles -= cycles < UINT32_MAX ? cycles : UINT32_MAX) {
+  for (uint64_t left = cycles, part; left; left -= part) {
     if (log->charged_count == log->charged_capacity &&
         !trax_grow((void **)&log->charged, log->charged_count, &log->charged_capacity, sizeof *log->charged)) {
       observer->lost = true;
       return;
     }
-    log->charged[log->charged_count++] =
-        (struct trax_charged){.cycles = cycles < UINT32_MAX ? (uint32_t)cycles : UINT32_MAX,
-                              .at = (uint8_t)at,
-                              .cause = (uint8_t)cause,
-                              .rd = (uint8_t)rd};
+    part = left < TRAX_MOST_CHARGED ? left : TRAX_MOST_CHARGED;
+    const struct trax_charged charged = {
+        .at = at & 0xFF, .cause = cause & 31, .rd = rd & 31, .cycles = part & TRAX_MOST_CHARGED};
+    memcpy(&log->charged[log->charged_count++], &charged, sizeof charged); /* at once, without a look at the log */
   }
 }
 

@@ -32,7 +32,7 @@ static void count_local(struct trax_tm_stats *stats) {
 }
 
 /* The causes of refusals, in the order of struct trax_fast_refused and of the counters. */
-static const trax_cause refusal_causes[TRAX_FAST_REFUSALS] = {
+const trax_cause trax_fast_refusal_causes[TRAX_FAST_REFUSALS] = {
 #define CAUSE(X, ID, ...) TRAX_CAUSE_##ID,
     TRAX_CAUSE_ICACHE_BANK, TRAX_SHARED_UNITS(CAUSE, ) TRAX_CAUSE_DCACHE_BANK
 #undef CAUSE
@@ -43,22 +43,8 @@ static void charge_refusals(struct trax_tm *tm) {
   for (unsigned bit = 0; bit < 64; bit++)
     for (unsigned refused = 0; refused < TRAX_FAST_REFUSALS; refused++)
       for (uint64_t tps = tm->refusal_counts.planes[bit][refused]; tps; tps &= tps - 1)
-        tm->tp_stats[trax_first(tps)].cycles[refusal_causes[refused]] += (uint64_t)1 << bit;
+        tm->tp_stats[trax_first(tps)].cycles[trax_fast_refusal_causes[refused]] += (uint64_t)1 << bit;
   memset(&tm->refusal_counts, 0, sizeof tm->refusal_counts);
-}
-
-void trax_fast_notify_refusals(const struct trax_tm *tm, const struct trax_fast_refused *refused) {
-  const uint64_t *const losers = (const uint64_t *)refused;
-  struct trax_observer *const observer = tm->observer;
-  for (unsigned i = 0; i < TRAX_FAST_REFUSALS; i++)
-    for (uint64_t rest = losers[i]; rest; rest &= rest - 1) {
-      const unsigned tp = trax_first(rest);
-      if (observer->stretch)
-        trax_log_charge(observer, &observer->logs[tm->number * tm->tps + tp], trax_fast_next_of_stretch(tm, tp),
-                        refusal_causes[i], 0, 1);
-      else
-        trax_tm_notify_charge(tm, tp, refusal_causes[i], tm->now, 1);
-    }
 }
 
 /* Returns how many steps of the current burst have been issued. */
@@ -72,7 +58,7 @@ static void read_charges(const struct trax_tm *tm, unsigned number, uint64_t *ch
   charges[TRAX_CAUSE_ISSUED] += tm->tp[number].issued + issued_of_burst(tm, number);
   for (unsigned bit = 0; bit < 64; bit++)
     for (unsigned refused = 0; refused < TRAX_FAST_REFUSALS; refused++)
-      charges[refusal_causes[refused]] += (tm->refusal_counts.planes[bit][refused] >> number & 1) << bit;
+      charges[trax_fast_refusal_causes[refused]] += (tm->refusal_counts.planes[bit][refused] >> number & 1) << bit;
 }
 
 void trax_fast_count_rays(struct trax_tm *tm, unsigned number, int32_t code, uint32_t value) {

@@ -208,6 +208,7 @@ static ALWAYS_INLINE void issue(const struct tm_cycle *cycle, const bool wide) {
       issue_observed(cycle->tm, quick, slow, cycle->t);
       return;
     }
+    trax_fast_log_refusals(cycle->tm, cycle->granted & cycle->tm->unlogged.tps);
     trax_fast_log_accesses(cycle->tm, cycle->granted & cycle->banks);
   }
   for (uint64_t loads = quick & cycle->banks; loads; loads &= loads - 1)

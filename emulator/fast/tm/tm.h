@@ -38,6 +38,12 @@ struct trax_tm {
   FILE *output;                         /* the guest's; NULL discards it */
   struct trax_observer *observer;       /* NULL: none */
   uint8_t told[TRAX_MAX_TPS_PER_TM];    /* steps of the burst of which the observer knows; only for stretches */
+  /* The same: refusals of each TP's head that are not in its log yet, cycles of one cause, and the TPs with some. */
+  struct trax_fast_unlogged {
+    uint64_t tps;
+    _Alignas(16) uint8_t cause[TRAX_MAX_TPS_PER_TM];
+    _Alignas(16) uint8_t cycles[TRAX_MAX_TPS_PER_TM];
+  } unlogged;
   struct trax_tp *tp;                   /* [tps] */
   struct trax_icache *icache;           /* [icaches] */
   uint32_t icaches;
@@ -105,9 +111,9 @@ static inline bool trax_tm_has_one_awake(const struct trax_tm *tm) {
 }
 
 /* Notifies the observer, which must exist, of a charge. */
-void trax_tm_tell_charge(const struct trax_tm *tm, unsigned tp, trax_cause cause, uint64_t since, uint64_t cycles);
+void trax_tm_tell_charge(struct trax_tm *tm, unsigned tp, trax_cause cause, uint64_t since, uint64_t cycles);
 /* Notifies an observer of a charge. */
-static inline void trax_tm_notify_charge(const struct trax_tm *tm, unsigned tp, trax_cause cause, uint64_t since,
+static inline void trax_tm_notify_charge(struct trax_tm *tm, unsigned tp, trax_cause cause, uint64_t since,
                                          uint64_t cycles) {
   if (__builtin_expect(tm->observer != NULL, false))
     trax_tm_tell_charge(tm, tp, cause, since, cycles);
