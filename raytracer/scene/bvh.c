@@ -134,8 +134,6 @@ static trax_status choose_splits(float *factor, struct scene_duplicates *duplica
     result = scene_splits_suit(&suit, mesh, duplicates, error);
     *factor = suit ? TRAX_DEFAULT_SPLITS : 0;
   }
-  if (*factor <= 1)
-    scene_duplicates_release(duplicates);
   return result;
 }
 
@@ -154,9 +152,14 @@ trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *me
   float factor;
   struct scene_duplicates duplicates = {0};
   result = choose_splits(&factor, &duplicates, mesh, options, error);
-  if (result != TRAX_OK)
+  if (result != TRAX_OK) {
+    scene_duplicates_release(&duplicates);
     return result;
+  }
   const bool splits = factor > 1;
+  tree->unique = duplicates.first && !duplicates.any;
+  if (!splits)
+    scene_duplicates_release(&duplicates);
   struct trax_build_options chosen = *options; /* with the choices made */
   chosen.splits = factor;
   options = &chosen;

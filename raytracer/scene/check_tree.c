@@ -111,7 +111,7 @@ static trax_status enter_node(struct checker *checker, trax_scene_ref ref, unsig
 /* Each byte of a node is as it is written around these boxes: its frame, what is reserved, and children that are not
    there. */
 static trax_status check_bytes(const struct checker *checker, uint32_t number, const struct scene_node *node) {
-  unsigned char right[sizeof(struct trax_wide4_node)];
+  _Alignas(struct trax_wide4_node) unsigned char right[sizeof(struct trax_wide4_node)];
   const enum trax_node_layout layout = checker->view->header->node_layout;
   const struct trax_node_format *format = &trax_node_formats[layout];
   scene_node_write(right, layout, node);

@@ -11,14 +11,13 @@ static void corners(float out[9], const struct trax_mesh *mesh, uint32_t triangl
 }
 
 static uint64_t hash_of(const struct trax_mesh *mesh, uint32_t triangle) {
-  float values[9];
-  corners(values, mesh, triangle);
+  uint32_t bits[10] = {0};
+  for (int corner = 0; corner < 3; corner++)
+    memcpy(bits + 3 * corner, mesh->vertices[mesh->triangles[triangle].vertices[corner]], 3 * sizeof *bits);
   uint64_t hash = 0;
-  for (int i = 0; i < 9; i++) {
-    uint32_t bits;
-    memcpy(&bits, &values[i], sizeof bits);
-    hash = (hash ^ bits) * 0x9E3779B97F4A7C15u;
-    hash ^= hash >> 32;
+  for (int i = 0; i < 10; i += 2) {
+    hash = (hash ^ (bits[i] | (uint64_t)bits[i + 1] << 32)) * 0x9E3779B97F4A7C15u;
+    hash ^= hash >> 29;
   }
   return hash;
 }
@@ -30,13 +29,22 @@ static bool same_place(const struct trax_mesh *mesh, uint32_t a, uint32_t b) {
   return !memcmp(left, right, sizeof left);
 }
 
+/* The last triangle at a place, with a part of its hash that is rarely the same at another place. */
+struct slot {
+  uint32_t last, tag;
+};
+
+/* Lookups go through all of memory, so those of the next triangles are under way. */
+enum { AHEAD = 16 };
+
 trax_status scene_find_duplicates(struct scene_duplicates *duplicates, const struct trax_mesh *mesh,
                                   trax_error *error) {
   const uint32_t count = mesh->triangle_count;
   size_t size = 16; /* of the table: more than half of it stays empty */
   while (size <= 2 * (size_t)count)
     size *= 2;
-  uint32_t *table = malloc(size * sizeof *table); /* the last triangle at each place */
+  struct slot *table = malloc(size * sizeof *table);
+  uint64_t hashes[AHEAD];
   uint32_t *first = malloc((count + (size_t)1) * sizeof *first), *after = malloc((count + (size_t)1) * sizeof *after);
   *duplicates = (struct scene_duplicates){first, after, false};
   if (!table || !first || !after) {
@@ -45,17 +53,25 @@ trax_status scene_find_duplicates(struct scene_duplicates *duplicates, const str
     return scene_out_of_memory(error, "BVH");
   }
   memset(table, 0xFF, size * sizeof *table);
-  for (uint32_t i = 0; i < count; i++) {
-    size_t at = hash_of(mesh, i) & (size - 1);
-    while (table[at] != SCENE_NO_DUPLICATE && !same_place(mesh, i, table[at]))
-      at = (at + 1) & (size - 1);
-    first[i] = i, after[i] = SCENE_NO_DUPLICATE;
-    if (table[at] != SCENE_NO_DUPLICATE) {
-      first[i] = first[table[at]];
-      after[table[at]] = i;
-      duplicates->any = true;
+  for (uint64_t next = 0; next < (uint64_t)count + AHEAD; next++) {
+    uint64_t *hash = &hashes[next % AHEAD];
+    if (next >= AHEAD) {
+      const uint32_t i = (uint32_t)(next - AHEAD), tag = (uint32_t)(*hash >> 32);
+      size_t at = *hash & (size - 1);
+      while (table[at].last != SCENE_NO_DUPLICATE && !(table[at].tag == tag && same_place(mesh, i, table[at].last)))
+        at = (at + 1) & (size - 1);
+      first[i] = i, after[i] = SCENE_NO_DUPLICATE;
+      if (table[at].last != SCENE_NO_DUPLICATE) {
+        first[i] = first[table[at].last];
+        after[table[at].last] = i;
+        duplicates->any = true;
+      }
+      table[at] = (struct slot){i, tag};
     }
-    table[at] = i;
+    if (next < count) {
+      *hash = hash_of(mesh, (uint32_t)next);
+      __builtin_prefetch(&table[*hash & (size - 1)]);
+    }
   }
   free(table);
   return TRAX_OK;

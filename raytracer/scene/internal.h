@@ -131,6 +131,17 @@ void scene_textures_release(struct scene_textures *textures);
    To be freed. */
 void *scene_allocate(size_t size);
 
+/* --- rank.c --- */
+
+struct scene_ranking {
+  uint64_t *keys; /* the bits of a binary64 number that is not negative */
+  uint32_t *numbers;
+};
+
+/* Sorts records by their keys, greatest first; those with equal keys keep their order. Keys change. The arrays of
+   `room` are as long; they may change places with those of the records. */
+void scene_rank(struct scene_ranking *records, struct scene_ranking *room, uint32_t count);
+
 /* --- attributes.c --- */
 
 /* Extends *array, an array of the mesh, to `count` records. New records are zero. */
@@ -236,10 +247,8 @@ static inline struct scene_box scene_empty_box(void) {
 
 static inline void scene_box_add_point(struct scene_box *box, const float point[3]) {
   for (int axis = 0; axis < 3; axis++) {
-    if (point[axis] < box->min[axis])
-      box->min[axis] = point[axis];
-    if (point[axis] > box->max[axis])
-      box->max[axis] = point[axis];
+    box->min[axis] = point[axis] < box->min[axis] ? point[axis] : box->min[axis];
+    box->max[axis] = point[axis] > box->max[axis] ? point[axis] : box->max[axis];
   }
 }
 
@@ -395,6 +404,7 @@ struct scene_tree {
   uint32_t ref_count;      /* triangles in leaves; those that were split are in several */
   struct scene_box bounds; /* of all triangles */
   bool split;              /* triangles at one place are in the order of their numbers in every leaf */
+  bool unique;             /* no two triangles are at one place */
 };
 
 trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *mesh,

@@ -419,7 +419,7 @@ trax_status trax_scene_build(struct trax_scene *scene, const struct trax_mesh *m
   const bool is_wide = trax_node_formats[options->nodes].children > 2 && tree.node_count;
   if (is_wide)
     result = scene_widen(&wide, &tree, options->nodes, error);
-  if (result == TRAX_OK && !tree.split)
+  if (result == TRAX_OK && !tree.split && !tree.unique)
     result = scene_order_duplicates(&tree, wide.leaves, mesh, error);
   else if (result == TRAX_OK && wide.leaves)
     result = scene_order_split_duplicates(&tree, wide.leaves, mesh, error);

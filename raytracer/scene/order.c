@@ -134,34 +134,24 @@ static void place_treelets(struct placing *placing, uint32_t root, uint32_t *fro
 
 /* --- lines --- */
 
-struct ranked {
-  double area;
-  uint32_t group;
-};
-
-/* Largest first; equal ones in the order of the tree, so that the order is unique. */
-static int compare_ranked(const void *a, const void *b) {
-  const struct ranked *left = a, *right = b;
-  if (left->area != right->area)
-    return left->area > right->area ? -1 : 1;
-  return left->group < right->group ? -1 : left->group > right->group;
-}
-
 /* Assigns a line to each group. Hot groups get the first lines, cold ones the lines that share the hot ones' sets, warm
    ones the others, each kind in treelet order. */
-static void assign_lines(uint32_t *lines, const struct placing *placing, struct ranked *ranked, uint32_t cache,
-                         uint32_t hot) {
-  uint32_t count = placing->placed;
-  for (uint32_t i = 0; i < count; i++)
-    ranked[i] = (struct ranked){placing->areas[placing->sequence[i]], placing->sequence[i]};
-  qsort(ranked, count, sizeof *ranked, compare_ranked);
+static void assign_lines(uint32_t *lines, const struct placing *placing, struct scene_ranking *ranked,
+                         struct scene_ranking *room, uint32_t cache, uint32_t hot) {
+  uint32_t count = 0;
+  for (uint32_t i = 0; i < placing->tree->node_count; i++) /* equal ones in the order of the tree */
+    if (placing->done[i]) {
+      memcpy(&ranked->keys[count], &placing->areas[i], sizeof *ranked->keys);
+      ranked->numbers[count++] = i;
+    }
+  scene_rank(ranked, room, count);
   uint32_t hot_count = count < hot ? count : hot, cold_count = 0;
   if (count > cache)
     cold_count = (count / cache - 1) * hot + (count % cache < hot ? count % cache : hot);
   enum { warm_kind, hot_kind, cold_kind };
   /* at first, lines has the kinds of groups */
   for (uint32_t i = 0; i < count; i++)
-    lines[ranked[i].group] = i < hot_count ? hot_kind : i >= count - cold_count ? cold_kind : warm_kind;
+    lines[ranked->numbers[i]] = i < hot_count ? hot_kind : i >= count - cold_count ? cold_kind : warm_kind;
   uint32_t next_hot = 0, next_cold = cache, next_warm = hot_count;
   for (uint32_t i = 0; i < count; i++) {
     uint32_t *line = &lines[placing->sequence[i]];
@@ -225,11 +215,12 @@ trax_status scene_order_nodes(struct scene_order *order, const struct scene_tree
   placing.sequence = malloc((count + 1) * sizeof *placing.sequence);
   placing.done = calloc(count + 1, 1);
   struct scene_box *boxes = malloc((count + 1) * sizeof *boxes);
-  struct ranked *ranked = malloc((count + 1) * sizeof *ranked);
+  uint64_t *keys = malloc((tree->inner_count + (size_t)1) * 2 * sizeof *keys);
+  uint32_t *numbers = malloc((tree->inner_count + (size_t)1) * 2 * sizeof *numbers);
   uint32_t *frontier = malloc((tree->max_depth + (size_t)1) * frontier_size * sizeof *frontier);
   trax_status result = TRAX_OK;
   if (!order->position || !order->group || !order->next || !placing.areas || !placing.sequence || !placing.done ||
-      !boxes || !ranked || !frontier) {
+      !boxes || !keys || !numbers || !frontier) {
     result = scene_out_of_memory(error, "BVH");
     scene_order_release(order);
   } else if (depth_first) {
@@ -240,7 +231,8 @@ trax_status scene_order_nodes(struct scene_order *order, const struct scene_tree
     make_groups(order, tree, placing.areas, group_size);
     place_treelets(&placing, 0, frontier);
     if (!scene_is_interrupted(interrupt)) {
-      assign_lines(order->position, &placing, ranked, cache_lines, cache_lines / 4);
+      struct scene_ranking ranked = {keys, numbers}, room = {keys + tree->inner_count, numbers + tree->inner_count};
+      assign_lines(order->position, &placing, &ranked, &room, cache_lines, cache_lines / 4);
       assign_positions(&placing, group_size);
     }
   }
@@ -252,7 +244,8 @@ trax_status scene_order_nodes(struct scene_order *order, const struct scene_tree
   free(placing.sequence);
   free(placing.done);
   free(boxes);
-  free(ranked);
+  free(keys);
+  free(numbers);
   free(frontier);
   return result;
 }

@@ -37,6 +37,7 @@ struct element {
   char name[max_name];
   uint64_t count;
   unsigned first_property, property_count;
+  bool is_vertex, is_strips;
 };
 
 struct ply_reader {

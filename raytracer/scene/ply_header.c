@@ -80,7 +80,9 @@ static trax_status read_element(struct ply_reader *reader) {
     return scene_ply_fail(reader, "an element's count is not a number");
   if (element->count > UINT32_MAX)
     return scene_ply_fail(reader, "an element's count is too large");
-  if (!strcmp(element->name, "vertex"))
+  element->is_vertex = !strcmp(element->name, "vertex");
+  element->is_strips = !strcmp(element->name, "tristrips");
+  if (element->is_vertex)
     reader->vertex_count = (uint32_t)element->count;
   element->first_property = reader->property_count;
   element->property_count = 0;

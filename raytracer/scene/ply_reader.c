@@ -70,7 +70,7 @@ static trax_status add_strips(struct ply_reader *reader, uint32_t count) {
 }
 
 static trax_status read_indices(struct ply_reader *reader, const struct property *property, int64_t count) {
-  bool strips = !strcmp(reader->current->name, "tristrips");
+  const bool strips = reader->current->is_strips;
   trax_status result = TRAX_OK;
   for (int64_t i = 0; i < count && result == TRAX_OK; i++) {
     int64_t index;
@@ -125,7 +125,7 @@ static trax_status read_record(struct ply_reader *reader, const struct element *
   }
   if (result != TRAX_OK)
     return result;
-  if (!strcmp(element->name, "vertex")) {
+  if (element->is_vertex) {
     const uint32_t number = reader->mesh->vertex_count++;
     memcpy(reader->mesh->vertices[number], values, sizeof *reader->mesh->vertices);
     if (reader->normals)
@@ -153,7 +153,7 @@ static trax_status check_elements(struct ply_reader *reader) {
       least += reader->format == ascii ? 1 : type_sizes[property->list_count ? property->list_count : property->type];
       roles |= 1u << property->role;
     }
-    vertices += !strcmp(element->name, "vertex");
+    vertices += element->is_vertex;
     if (element->count * least > (uint64_t)(reader->end - reader->at))
       return trax_fail(reader->error, "%s: cut off: too short for the %llu records of '%s' that its header tells of",
                        reader->path, (unsigned long long)element->count, element->name);
@@ -191,7 +191,14 @@ static trax_status prepare(struct ply_reader *reader, const struct trax_import_o
   const size_t count = (size_t)reader->vertex_count + 1;
   const bool normals = has_roles(reader->roles, normal_x, normal_z),
              uvs = has_roles(reader->roles, texture_u, texture_v);
+  uint64_t faces = 0;
+  for (unsigned e = 0; e < reader->element_count; e++)
+    for (unsigned i = 0; i < reader->elements[e].property_count; i++)
+      faces +=
+          reader->properties[reader->elements[e].first_property + i].role == indices ? reader->elements[e].count : 0;
   mesh->vertices = malloc(count * sizeof *mesh->vertices);
+  if (faces && faces <= UINT32_MAX && (mesh->triangles = malloc(faces * sizeof *mesh->triangles)))
+    reader->triangle_capacity = faces;
   mesh->materials = calloc(1, sizeof *mesh->materials);
   if (normals)
     reader->normals = malloc(count * sizeof *reader->normals);

@@ -24,11 +24,13 @@ static void choose_foci(struct foci *foci, const struct scene_links *links) {
     const double area = scene_half_area(node->box.min, node->box.max);
     if (area > 0 && area * FOCUS_STEP <= last) {
       for (int axis = 0; axis < 3; axis++) {
-        foci->min[axis][foci->count] = foci->coarse_min[axis][foci->count] = node->box.min[axis];
-        foci->max[axis][foci->count] = foci->coarse_max[axis][foci->count] = node->box.max[axis];
+        foci->min[axis][foci->count] = node->box.min[axis];
+        foci->max[axis][foci->count] = node->box.max[axis];
+        foci->coarse_min[foci->count][axis] = _mm_set1_ps(node->box.min[axis]);
+        foci->coarse_max[foci->count][axis] = _mm_set1_ps(node->box.max[axis]);
       }
       if (area > 0x1p-80 && area < 0x1p80) { /* else zero, a bound that is of no use but true */
-        foci->coarse_scale[foci->count] = (float)(1 / area);
+        foci->coarse_scale[foci->count] = _mm_set1_ps((float)(1 / area));
         foci->underflow += 0x1p-140 / area;
       }
       foci->scale[foci->count++] = 1 / area;
@@ -106,7 +108,8 @@ static void reinsert(struct improver *improver, uint32_t part, uint32_t place) {
     mark(improver, place);
     mark(improver, part);
   }
-  nodes[parent].child[0] = place, nodes[parent].child[1] = part;
+  if (nodes[parent].child[0] != place) /* else in order: a line that is not written stays with all threads */
+    nodes[parent].child[0] = place, nodes[parent].child[1] = part;
   if (place != beside) {
     refit_node(improver, parent);
     refit_from(improver, nodes[parent].parent);
@@ -115,32 +118,13 @@ static void reinsert(struct improver *improver, uint32_t part, uint32_t place) {
 
 /* --- the order of the parts --- */
 
-/* Sorts the nodes by expected visits, most first, then by number. keys, other: room for as many. */
-static void rank(uint32_t *ranked, uint32_t *other, uint64_t *keys, uint64_t *other_keys,
-                 const struct scene_links *links) {
-  enum { BITS = 11, SIZE = 1 << BITS };
+/* Sorts the nodes by expected visits, most first, then by number. */
+static void rank(struct scene_ranking *ranked, struct scene_ranking *room, const struct scene_links *links) {
   for (uint32_t i = 0; i < links->count; i++) {
-    memcpy(&keys[i], &links->nodes[i].visits, sizeof keys[i]); /* not negative: ordered as their bits */
-    keys[i] = ~keys[i];
-    ranked[i] = i;
+    memcpy(&ranked->keys[i], &links->nodes[i].visits, sizeof ranked->keys[i]);
+    ranked->numbers[i] = i;
   }
-  for (int shift = 0; shift < 66; shift += BITS) {
-    uint32_t starts[SIZE] = {0}, start = 0;
-    for (uint32_t i = 0; i < links->count; i++)
-      starts[keys[i] >> shift & (SIZE - 1)]++;
-    for (int i = 0; i < SIZE; i++) {
-      const uint32_t count = starts[i];
-      starts[i] = start, start += count;
-    }
-    for (uint32_t i = 0; i < links->count; i++) {
-      const uint32_t to = starts[keys[i] >> shift & (SIZE - 1)]++;
-      other_keys[to] = keys[i], other[to] = ranked[i];
-    }
-    uint64_t *const swap_keys = keys;
-    keys = other_keys, other_keys = swap_keys;
-    uint32_t *const swap = ranked;
-    ranked = other, other = swap;
-  }
+  scene_rank(ranked, room, links->count);
 }
 
 /* --- rounds --- */
@@ -155,7 +139,7 @@ struct round {
   const uint32_t *parts;
   uint32_t count, next; /* next: the first that no worker has taken */
   struct found {
-    uint32_t place;
+    uint32_t place, parent; /* parent: of the part */
     size_t first, end; /* of what was read */
     uint32_t worker;
   } found[ROUND];
@@ -198,10 +182,10 @@ static void search_some(struct scene_worker *worker, void *pointer) {
       return;
     for (uint32_t i = first; i < first + STEP && i < round->count; i++) {
       struct found *found = &round->found[i];
-      *found = (struct found){SCENE_NO_LINK, search->read_count, 0, number};
+      *found = (struct found){SCENE_NO_LINK, SCENE_NO_LINK, search->read_count, 0, number};
       fetch_ahead(&fetcher, search->links->nodes, round->parts, round->count, i);
       if (round->parts[i] != round->improver->links->root)
-        found->place = scene_find_place(search, round->parts[i]);
+        found->place = scene_find_place(search, round->parts[i]), found->parent = search->parent;
       found->end = search->read_count;
     }
   }
@@ -229,6 +213,10 @@ static bool work_round(struct round *round, struct scene_crew *crew) {
   struct search *own = &round->searches[0];
   for (uint32_t i = 0; i < round->count; i++) {
     const struct found *found = &round->found[i];
+    if (i + AHEAD < round->count && found[AHEAD].place != SCENE_NO_LINK) {
+      __builtin_prefetch(&improver->links->nodes[round->parts[i + AHEAD]]);
+      __builtin_prefetch(&improver->links->nodes[found[AHEAD].parent]);
+    }
     uint32_t place = found->place;
     if (round->parts[i] == improver->links->root)
       continue;
@@ -277,7 +265,7 @@ trax_status scene_reinsert(struct scene_links *links, unsigned passes, struct sc
   const unsigned threads = scene_crew_size(crew);
   const bool several = threads > 1;
   const size_t words = links->count / 64 + 1;
-  uint32_t *ranked = malloc(2 * (size_t)links->count * sizeof *ranked);
+  uint32_t *numbers = malloc(2 * (size_t)links->count * sizeof *numbers);
   uint64_t *keys = malloc(2 * (size_t)links->count * sizeof *keys);
   struct search *searches = calloc(threads, sizeof *searches);
   struct round *round = malloc(sizeof *round);
@@ -289,19 +277,20 @@ trax_status scene_reinsert(struct scene_links *links, unsigned passes, struct sc
   for (uint32_t i = 0; i < links->count; i++)
     links->nodes[i].visits = visits_of(&improver.foci, &links->nodes[i].box);
   trax_status result = TRAX_OK;
-  if (!ranked || !keys || !searches || !round || (several && (!improver.changed || !improver.changed_words)))
+  if (!numbers || !keys || !searches || !round || (several && (!improver.changed || !improver.changed_words)))
     result = scene_out_of_memory(error, "BVH");
   else {
     for (unsigned i = 0; i < threads; i++)
       searches[i] = (struct search){.links = links, .foci = &improver.foci, .records = several};
     *round = (struct round){.improver = &improver, .searches = searches};
   }
+  struct scene_ranking ranked = {keys, numbers}, room = {keys + links->count, numbers + links->count};
   for (unsigned pass = 0; pass < passes && result == TRAX_OK; pass++) {
-    rank(ranked, ranked + links->count, keys, keys + links->count, links);
-    result = work_pass(round, crew, ranked, links->count, options, pass, error);
+    rank(&ranked, &room, links);
+    result = work_pass(round, crew, ranked.numbers, links->count, options, pass, error);
   }
   for (unsigned i = 0; searches && i < threads; i++)
     free(searches[i].read);
-  free(improver.changed), free(improver.changed_words), free(round), free(searches), free(keys), free(ranked);
+  free(improver.changed), free(improver.changed_words), free(round), free(searches), free(keys), free(numbers);
   return result;
 }

@@ -8,11 +8,12 @@
 
 enum { MOST_FOCI = 8 };
 
-/* The foci as columns, so that two are computed at once, or four in binary32. Those beyond `count` are zero. */
+/* The foci as columns, so that two are computed at once. Those beyond `count` are zero. In binary32, each coordinate is
+   there four times, for four boxes at once. */
 struct foci {
   double min[3][MOST_FOCI], max[3][MOST_FOCI];
   double scale[MOST_FOCI]; /* the reciprocal of a box's half area */
-  float coarse_min[3][MOST_FOCI], coarse_max[3][MOST_FOCI], coarse_scale[MOST_FOCI];
+  __m128 coarse_min[MOST_FOCI][3], coarse_max[MOST_FOCI][3], coarse_scale[MOST_FOCI];
   double underflow; /* the most that underflow takes from a sum in binary32 */
   int count;
 } __attribute__((aligned(16)));

@@ -70,28 +70,35 @@ static inline double cost_beside(const struct search *search, const struct scene
 
 /* --- whether there is a better place --- */
 
-/* A lower bound of the expected visits to a node around both boxes, in binary32: rounding and underflow together take
-   less than the two constants. */
-static inline double least_visits(const struct foci *foci, __m128 part_min, __m128 part_max,
-                                  const struct scene_box *box) {
-  const __m128 low = _mm_min_ps(part_min, _mm_loadu_ps(box->min)), high = _mm_max_ps(part_max, _mm_loadu_ps(box->max));
-  const __m128 min[3] = {_mm_shuffle_ps(low, low, 0x00), _mm_shuffle_ps(low, low, 0x55),
-                         _mm_shuffle_ps(low, low, 0xAA)};
-  const __m128 max[3] = {_mm_shuffle_ps(high, high, 0x00), _mm_shuffle_ps(high, high, 0x55),
-                         _mm_shuffle_ps(high, high, 0xAA)};
-  __m128 sum = _mm_setzero_ps();
-  for (int i = 0; i < foci->count; i += 4) {
+enum { AT_ONCE = 4 };
+
+/* Lower bounds of the expected visits to nodes around the part and each of these, in binary32: rounding and underflow
+   together take less than the two constants. */
+static inline void least_visits(double bounds[AT_ONCE], const struct foci *foci, const struct scene_box *part,
+                                const struct scene_link *const links[AT_ONCE]) {
+  __m128 low[AT_ONCE], high[AT_ONCE], sum = _mm_setzero_ps();
+  for (int i = 0; i < AT_ONCE; i++) {
+    low[i] = _mm_loadu_ps(links[i]->box.min);
+    high[i] = _mm_loadu_ps(links[i]->box.max);
+  }
+  _MM_TRANSPOSE4_PS(low[0], low[1], low[2], low[3]); /* to three axes, and what stands behind */
+  _MM_TRANSPOSE4_PS(high[0], high[1], high[2], high[3]);
+  for (int axis = 0; axis < 3; axis++) {
+    low[axis] = _mm_min_ps(low[axis], _mm_set1_ps(part->min[axis]));
+    high[axis] = _mm_max_ps(high[axis], _mm_set1_ps(part->max[axis]));
+  }
+  for (int i = 0; i < foci->count; i++) {
     __m128 size[3];
     for (int axis = 0; axis < 3; axis++)
-      size[axis] = _mm_sub_ps(_mm_min_ps(max[axis], _mm_load_ps(&foci->coarse_max[axis][i])),
-                              _mm_max_ps(min[axis], _mm_load_ps(&foci->coarse_min[axis][i])));
+      size[axis] = _mm_sub_ps(_mm_min_ps(high[axis], foci->coarse_max[i][axis]),
+                              _mm_max_ps(low[axis], foci->coarse_min[i][axis]));
     const __m128 inside = _mm_cmpge_ps(_mm_min_ps(size[0], _mm_min_ps(size[1], size[2])), _mm_setzero_ps());
     const __m128 area = _mm_add_ps(_mm_mul_ps(size[0], _mm_add_ps(size[1], size[2])), _mm_mul_ps(size[1], size[2]));
-    sum = _mm_add_ps(sum, _mm_and_ps(_mm_mul_ps(_mm_load_ps(&foci->coarse_scale[i]), area), inside));
+    sum = _mm_add_ps(sum, _mm_and_ps(_mm_mul_ps(foci->coarse_scale[i], area), inside));
   }
-  sum = _mm_add_ps(sum, _mm_movehl_ps(sum, sum));
-  sum = _mm_add_ss(sum, _mm_shuffle_ps(sum, sum, 0x55));
-  return (double)_mm_cvtss_f32(sum) * (1 - 0x1p-19) - foci->underflow;
+  const __m128d factor = _mm_set1_pd(1 - 0x1p-19), underflow = _mm_set1_pd(foci->underflow);
+  _mm_storeu_pd(bounds, _mm_sub_pd(_mm_mul_pd(_mm_cvtps_pd(sum), factor), underflow));
+  _mm_storeu_pd(bounds + 2, _mm_sub_pd(_mm_mul_pd(_mm_cvtps_pd(_mm_movehl_ps(sum, sum)), factor), underflow));
 }
 
 static inline bool contains(const struct scene_box *box, const struct scene_box *part) {
@@ -151,20 +158,27 @@ static bool may_gain(struct search *search) {
     __builtin_prefetch(&nodes[beside->child[c]]);
     queue[end++] = (struct place){least, beside->child[c], 0};
   }
-  const __m128 part_min = _mm_loadu_ps(part->box.min), part_max = _mm_loadu_ps(part->box.max);
   while (first < end) {
-    const struct place place = queue[first++];
-    const struct scene_link *link = &nodes[place.node];
-    if (first > MOST_LOOKED_AT - TRAX_SCENE_MAX_DEPTH)
+    const uint32_t count = end - first < AT_ONCE ? end - first : AT_ONCE;
+    const struct scene_link *links[AT_ONCE];
+    double bounds[AT_ONCE];
+    if (first > MOST_LOOKED_AT - TRAX_SCENE_MAX_DEPTH - AT_ONCE)
       return true;
-    note(search, place.node);
-    const double cost = place.least + least_visits(search->foci, part_min, part_max, &link->box);
-    if (cost < limit)
-      return true;
-    const double further = cost - link->visits > place.least ? cost - link->visits : place.least;
-    for (int c = 0; c < 2 && link->child[0] != SCENE_NO_LINK && further + own < limit; c++) {
-      __builtin_prefetch(&nodes[link->child[c]]);
-      queue[end++] = (struct place){further, link->child[c], 0};
+    for (uint32_t i = 0; i < AT_ONCE; i++)
+      links[i] = &nodes[queue[first + (i < count ? i : 0)].node];
+    least_visits(bounds, search->foci, &part->box, links);
+    for (uint32_t i = 0; i < count; i++) {
+      const struct place place = queue[first++];
+      const struct scene_link *link = links[i];
+      note(search, place.node);
+      const double cost = place.least + bounds[i];
+      if (cost < limit)
+        return true;
+      const double further = cost - link->visits > place.least ? cost - link->visits : place.least;
+      for (int c = 0; c < 2 && link->child[0] != SCENE_NO_LINK && further + own < limit; c++) {
+        __builtin_prefetch(&nodes[link->child[c]]);
+        queue[end++] = (struct place){further, link->child[c], 0};
+      }
     }
   }
   return false;

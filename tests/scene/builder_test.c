@@ -297,8 +297,45 @@ static void test_same_as_one_by_one(void **state) {
     scene_crew_release(crews[i]);
 }
 
+struct rank {
+  double value;
+  uint32_t number;
+};
+
+static int compare_ranks(const void *a, const void *b) {
+  const struct rank *left = a, *right = b;
+  if (left->value != right->value)
+    return left->value > right->value ? -1 : 1;
+  return left->number < right->number ? -1 : left->number > right->number;
+}
+
+/* Values that are equal, or nearly so, as those of a grid's triangles are, in groups of any size. */
+static void test_rank(void **state) {
+  (void)state;
+  enum { MOST = 5000 };
+  static struct rank ranks[MOST];
+  static uint64_t keys[2][MOST];
+  static uint32_t numbers[2][MOST];
+  uint64_t random = 1;
+  for (uint32_t count = 0; count <= MOST; count = 3 * count + 1)
+    for (int groups = 1; groups <= 1000; groups *= 10) {
+      for (uint32_t i = 0; i < count; i++) {
+        random = random * 6364136223846793005u + 1442695040888963407u;
+        const double group = (double)((random >> 33) % (unsigned)groups), step = (double)(random >> 32 & 0xFFFFFFF);
+        ranks[i] = (struct rank){random >> 40 & 1 ? group : group * (1 + step * 0x1p-51), i};
+        memcpy(&keys[0][i], &ranks[i].value, sizeof ranks[i].value);
+        numbers[0][i] = i;
+      }
+      struct scene_ranking records = {keys[0], numbers[0]}, room = {keys[1], numbers[1]};
+      scene_rank(&records, &room, count);
+      qsort(ranks, count, sizeof *ranks, compare_ranks);
+      for (uint32_t i = 0; i < count; i++)
+        assert_int_equal(records.numbers[i], ranks[i].number);
+    }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_parts), cmocka_unit_test(test_same_as_embree),
-                                     cmocka_unit_test(test_same_as_one_by_one)};
+                                     cmocka_unit_test(test_rank), cmocka_unit_test(test_same_as_one_by_one)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
 /* Meshes in all formats, the odd corners of OBJ, and what must be refused. */
 #include "support.h"
 
+#include <inttypes.h>
 #include <lzma.h>
 #include <math.h>
 #include <stdlib.h>
@@ -132,6 +133,66 @@ static void test_ply_types(void **state) {
     assert_int_equal(trax_mesh_import(&mesh, &path, 1, &options, NULL, &error), TRAX_ERROR);
     assert_contains(error.message, "cut.ply:");
   }
+}
+
+/* Appends a number of one of many forms, of which some are beyond binary32. */
+static size_t append_number(char *text, uint64_t random) {
+  const int digits = (int)(random % 18) + 1, places = (int)(random >> 8 & 0xFF) % 20;
+  const double value = (double)(random >> 11) * 0x1p-53;
+  switch (random >> 5 & 7) {
+  case 0: /* halfway between two floats, or nearly so */
+    return (size_t)sprintf(text, "%.*f\n", random & 1 ? 15 : 30, 1 + ((double)(random >> 41 << 1 | 1) * 0x1p-24));
+  case 1:
+    return (size_t)sprintf(text, "%" PRIu64 "%s\n", (random >> 40 << 1 | 1) << (random >> 16 & 7),
+                           random & 1 ? "" : ".");
+  case 2:
+    return (size_t)sprintf(text, "%.*e\n", digits, value * pow(10, places * 5 - 50));
+  case 3:
+    return (size_t)sprintf(text, "%.*E\n", digits, -value * pow(10, places - 10));
+  case 4:
+    return (size_t)sprintf(text, "+%.*g\n", digits, value);
+  case 5:
+    return (size_t)sprintf(text, "%.*f\n", places, -value * 1000);
+  case 6:
+    return (size_t)sprintf(text, "-.%" PRIu64 "e-%d\n", random >> 20, places * 2);
+  default:
+    return (size_t)sprintf(text, "%.*f\n", digits, value * 100);
+  }
+}
+
+/* Numbers are those of the C library, however many digits they have. */
+static void test_numbers(void **state) {
+  (void)state;
+  enum { COUNT = 60000 };
+  char *text = malloc(256 + COUNT * (size_t)400);
+  assert_non_null(text);
+  size_t size = (size_t)sprintf(text,
+                                "ply\nformat ascii 1.0\nelement vertex %d\nproperty float x\nproperty float y\n"
+                                "property float z\nelement face 1\nproperty list int int vertex_indices\nend_header\n",
+                                COUNT / 3),
+         at = size;
+  uint64_t random = 1;
+  for (int i = 0; i < COUNT; i++) {
+    random = random * 6364136223846793005u + 1442695040888963407u;
+    size += append_number(text + size, random ^ random >> 32);
+  }
+  size += (size_t)sprintf(text + size, "+3 -0 000000000000000000000001 2\n");
+  struct trax_mesh mesh;
+  trax_error error;
+  const char *path = test_file("numbers.ply", text, size);
+  const struct trax_import_options options = {.drop_nonfinite = true};
+  if (trax_mesh_import(&mesh, &path, 1, &options, NULL, &error) != TRAX_OK)
+    fail_msg("%s", error.message);
+  assert_int_equal(mesh.vertex_count, COUNT / 3);
+  for (int i = 0; i < COUNT; i++) {
+    char *end;
+    const float right = strtof(text + at, &end);
+    if (memcmp(&right, &mesh.vertices[i / 3][i % 3], sizeof right) != 0)
+      fail_msg("%.*s", (int)(end - text - (long)at), text + at);
+    at = (size_t)(end - text);
+  }
+  trax_mesh_release(&mesh);
+  free(text);
 }
 
 static void test_compressed(void **state) {
@@ -843,6 +904,7 @@ int main(void) {
       cmocka_unit_test(test_text_formats),
       cmocka_unit_test(test_binary_ply),
       cmocka_unit_test(test_ply_types),
+      cmocka_unit_test(test_numbers),
       cmocka_unit_test(test_compressed),
       cmocka_unit_test(test_gltf),
       cmocka_unit_test(test_bombs),

@@ -14,7 +14,7 @@ from mutation import ROOT, Mutant, failure, main, relinked  # noqa: E402
 SOURCE = ROOT / "raytracer/scene"
 TREES = ("scene-builder-test", "scene-scene-test", "scene-layout-test")
 READERS = ("scene-material-test", "scene-import-test")
-TESTS = {"clip.c": TREES, "splits.c": TREES, "reinsert.c": TREES, "reinsert.h": TREES,
+TESTS = {"clip.c": TREES, "rank.c": TREES, "ply_values.c": READERS[1:], "splits.c": TREES, "reinsert.c": TREES, "reinsert.h": TREES,
          "reinsert_search.c": TREES, "sah.c": TREES, "sah_spatial.c": TREES, "texture.c": READERS[:1],
          "gltf_reader.c": READERS,
          "gltf_materials.c": READERS[:1], "gltf_meshes.c": READERS, "gltf_nodes.c": READERS}
@@ -42,11 +42,17 @@ MUTANTS = [
      "next_float((float)bounds->min[axis], true)"),
     ("clip-no-cut", "clip.c", "        add_value(&sides[1], other, value);\n", ""),
     ("too-deep", "reinsert_search.c", "height <= search->links->max_depth", "height <= 64"),
-    ("order-of-parts", "reinsert.c", "    keys[i] = ~keys[i];\n", ""),
+    ("order-of-parts", "rank.c", "= ~records->keys[i] &", "= records->keys[i] &"),
+    ("order-of-few", "rank.c", "insert(records, first, end);", "insert(records, first, first);"),
+    ("order-of-many", "rank.c", "  scatter(&run, room, count, 2 * BITS);\n", ""),
+    ("boxes-transposed", "reinsert_search.c", "links[i] = &nodes[queue[first + (i < count ? i : 0)].node]",
+     "links[i] = &nodes[queue[first].node]"),
+    ("digits-rounded-twice", "ply_values.c", "== 0x10000000)", "== 0x10000001)"),
+    ("digits-of-power", "ply_values.c", "power = (int64_t)whole - (int64_t)count;", "power = (int64_t)whole - (int64_t)count - 1;"),
     ("changes-unseen", "reinsert.c", "return any & 1;", "return false;"),
     ("stale-visits-above", "reinsert_search.c", "changed ? above->visits : node->visits", "node->visits"),
-    ("leaves-unseen", "reinsert_search.c", "if (cost < limit)\n      return true;",
-     "if (cost < 0.9 * limit)\n      return true;"),
+    ("leaves-unseen", "reinsert_search.c", "if (cost < limit)\n        return true;",
+     "if (cost < 0.9 * limit)\n        return true;"),
     ("parts-uncertain", "sah_spatial.c", "0x1p-48 * largest", "0 * largest"),
     ("triangles-uncertain", "sah_spatial.c", "0x1p-46 *", "0 *"),
     ("budget-of-two", "sah_spatial.c", "prim->budget <= 1) {", "prim->budget <= 2) {"),
