@@ -7,6 +7,7 @@
 
 static void destroy(void *context) {
   struct trax_calls *calls = context;
+  trax_descriptors_forget(calls);
   for (struct trax_name *it = calls->names, *next; it; it = next) {
     next = it->next;
     trax_folder_release(calls, it->place.folder);

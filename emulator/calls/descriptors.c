@@ -40,6 +40,8 @@ void trax_descriptor_open(struct trax_calls *calls, uint32_t number, const struc
   place->references = 0;
   if (place->file)
     place->file->opens++;
+  if (place->folder)
+    trax_folder_refer(place->folder);
   trax_descriptor_share(calls, number, place);
 }
 
@@ -50,7 +52,10 @@ static int close_descriptor(struct trax_calls *calls, uint32_t number) {
   calls->descriptors[number] = NULL;
   if (number == STDOUT_FILENO)
     calls->machine->calls.print = trax_calls_print;
-  if (--opened->references || !file)
+  if (--opened->references)
+    return 0;
+  trax_folder_release(calls, opened->folder);
+  if (!file)
     return 0;
   if (--file->opens == 0 && !calls->deferred) {
     failure = trax_commit_file(calls, file);
@@ -67,6 +72,9 @@ void trax_descriptors_begin(struct trax_calls *calls) {
 }
 
 void trax_descriptors_forget(struct trax_calls *calls) {
+  for (uint32_t i = 0; i < TRAX_MOST_DESCRIPTORS; i++)
+    if (calls->opened[i].references)
+      trax_folder_release(calls, calls->opened[i].folder);
   memset(calls->opened, 0, sizeof calls->opened);
   memset(calls->descriptors, 0, sizeof calls->descriptors);
   calls->machine->calls.print = trax_calls_print;
@@ -111,6 +119,8 @@ int32_t trax_serve_read(struct trax_calls *calls, const struct trax_host_call *c
   struct trax_opened *opened = trax_descriptor_find(calls, call->words[1]);
   if (!opened || (opened->flags & 3) == TRAX_OPEN_WRITE)
     return -EBADF;
+  if (opened->folder)
+    return -EISDIR;
   if (opened->offset > (uint64_t)INT64_MAX - count)
     return -EINVAL;
   uint32_t got = left_of(opened, count);
@@ -183,7 +193,7 @@ int32_t trax_serve_seek(struct trax_calls *calls, const struct trax_host_call *c
   struct trax_opened *opened = trax_descriptor_find(calls, call->words[1]);
   if (!opened)
     return -EBADF;
-  if (opened->kind != TRAX_OPENED_FILE && opened->kind != TRAX_OPENED_NOTHING)
+  if (opened->kind != TRAX_OPENED_FILE && opened->kind != TRAX_OPENED_NOTHING && !opened->folder)
     return -ESPIPE;
   uint8_t *bytes = trax_host_call_bytes(call, call->words[2], 8, true);
   int64_t offset;

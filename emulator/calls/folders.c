@@ -322,6 +322,18 @@ int trax_place_find(struct trax_calls *calls, const char *path, enum trax_follow
   return failure;
 }
 
+int trax_place_enter(struct trax_calls *calls, struct trax_place *place) {
+  struct walk walk = {.calls = calls, .here = place->folder};
+  const int here = trax_folder_descriptor(calls, place->folder);
+  const int failure = place->last != TRAX_LAST_NAME ? 0 : here < 0 ? -here : enter(&walk, here, place->name);
+  if (failure)
+    return failure;
+  place->folder = walk.here;
+  place->last = TRAX_LAST_HERE;
+  strcpy(place->name, ".");
+  return 0;
+}
+
 void trax_place_release(struct trax_calls *calls, struct trax_place *place) {
   trax_folder_release(calls, place->folder);
   place->folder = NULL;
@@ -335,11 +347,12 @@ int trax_place_stat(struct trax_calls *calls, const struct trax_place *place, st
 }
 
 static void put_folder(FILE *stream, const struct trax_folder *folder) {
-  if (folder->parent)
+  if (folder->parent) {
     put_folder(stream, folder->parent);
+    if (ftello(stream) && strcmp(folder->parent->name, "/") != 0)
+      fputc('/', stream);
+  }
   fputs(folder->name, stream);
-  if (*folder->name && strcmp(folder->name, "/") != 0)
-    fputc('/', stream);
 }
 
 char *trax_place_path(const struct trax_place *place) {
@@ -349,7 +362,9 @@ char *trax_place_path(const struct trax_place *place) {
   if (!stream)
     return NULL;
   put_folder(stream, place->folder);
-  fputs(place->name, stream);
+  const off_t length = ftello(stream);
+  if (!length || strcmp(place->name, ".") != 0) /* a folder has one path */
+    fprintf(stream, "%s%s", length && strcmp(place->folder->name, "/") != 0 ? "/" : "", place->name);
   if (fclose(stream) == 0)
     return path;
   free(path);

@@ -57,6 +57,8 @@ int trax_place_find(struct trax_calls *calls, const char *path, enum trax_follow
 void trax_place_release(struct trax_calls *calls, struct trax_place *place);
 /* lstat of the host. */
 int trax_place_stat(struct trax_calls *calls, const struct trax_place *place, struct stat *status);
+/* Goes into the folder at the place, which then is the folder itself. */
+int trax_place_enter(struct trax_calls *calls, struct trax_place *place);
 /* The path of the place below an allowed folder, by which the program finds it; from malloc. */
 char *trax_place_path(const struct trax_place *place);
 /* The folder's descriptor, which the next two calls leave open, or an error number times -1. */
@@ -162,14 +164,16 @@ enum trax_opened_kind {
   TRAX_OPENED_INPUT,
   TRAX_OPENED_OUTPUT,
   TRAX_OPENED_ERRORS,
-  TRAX_OPENED_NOTHING
+  TRAX_OPENED_NOTHING,
+  TRAX_OPENED_FOLDER
 };
 
-/* What descriptors refer to: a file, a standard stream, or nothing (/dev/null). */
+/* What descriptors refer to: a file, a folder, a standard stream, or nothing (/dev/null). */
 struct trax_opened {
   enum trax_opened_kind kind;
   uint32_t flags;
   struct trax_file *file;
+  struct trax_folder *folder; /* a reference */
   uint64_t offset;
   unsigned references; /* descriptors; 0: not in use */
 };

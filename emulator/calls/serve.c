@@ -1,11 +1,14 @@
 /* The calls with paths, and the choice of the call by its number. */
+#define _GNU_SOURCE /* faccessat with AT_EACCESS */
 #include "calls/internal.h"
 
 #include "machine/machine.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /* --- the program's memory --- */
 
@@ -46,6 +49,10 @@ static int check_open(struct trax_calls *calls, const struct trax_place *place, 
     return EEXIST;
   if (S_ISDIR(kind))
     return EISDIR;
+  if (kind && flags & TRAX_OPEN_FOLDER)
+    return ENOTDIR;
+  if (S_ISLNK(kind))
+    return ELOOP;
   if (kind && place->slash)
     return ENOTDIR;
   if (kind && !S_ISREG(kind))
@@ -88,22 +95,43 @@ static int find_or_create(struct trax_calls *calls, const struct trax_place *pla
   return 0;
 }
 
+/* Opens the folder at the place, which then is the folder itself. */
+static int open_folder(struct trax_calls *calls, uint32_t number, uint32_t flags, struct trax_place *place) {
+  int failure = trax_place_enter(calls, place);
+  if (failure)
+    return failure;
+  /* From the folder itself, "." would also need the right to look up names in it. */
+  struct trax_folder *const folder = place->folder, *const parent = folder->parent;
+  const int descriptor = trax_folder_descriptor(calls, parent ? parent : folder);
+  if (descriptor < 0)
+    return -descriptor;
+  if (faccessat(descriptor, parent ? folder->name : ".", R_OK, AT_EACCESS) != 0)
+    return errno;
+  const struct trax_opened opened = {.kind = TRAX_OPENED_FOLDER, .flags = flags, .folder = folder};
+  trax_descriptor_open(calls, number, &opened);
+  return 0;
+}
+
 static int32_t open_file(struct trax_calls *calls, const struct trax_host_call *call) {
   const uint32_t flags = call->words[2];
   const bool creates = flags & TRAX_OPEN_CREATE, is_new = creates && flags & TRAX_OPEN_NEW;
-  const enum trax_follow follow = is_new ? TRAX_FOLLOW_NONE : creates ? TRAX_FOLLOW_NAMES : TRAX_FOLLOW_ALL;
+  const bool no_link = flags & TRAX_OPEN_NO_LINK;
+  const enum trax_follow follow = is_new || (creates && no_link) ? TRAX_FOLLOW_NONE
+                                  : creates                      ? TRAX_FOLLOW_NAMES
+                                  : no_link                      ? TRAX_FOLLOW_SLASH
+                                                                 : TRAX_FOLLOW_ALL;
   struct trax_place place;
   struct trax_file *file;
   char path[PATH_MAX];
   const uint32_t number = trax_descriptor_free(calls, 0);
   if (number == TRAX_MOST_DESCRIPTORS)
     return -EMFILE;
-  if ((flags & 3) == 3)
+  if ((flags & 3) == 3 || (creates && flags & TRAX_OPEN_FOLDER))
     return -EINVAL;
   int failure = read_path(call, call->words[1], path);
   if (!failure && is_nothing(path)) {
-    if (is_new)
-      return -EEXIST;
+    if (is_new || flags & TRAX_OPEN_FOLDER)
+      return is_new ? -EEXIST : -ENOTDIR;
     trax_descriptor_open(calls, number, &(struct trax_opened){.kind = TRAX_OPENED_NOTHING, .flags = flags});
     return (int32_t)number;
   }
@@ -112,7 +140,9 @@ static int32_t open_file(struct trax_calls *calls, const struct trax_host_call *
     failure = trax_place_find(calls, path, follow, &place);
   if (!failure)
     failure = find_or_create(calls, &place, flags, &file);
-  if (!failure)
+  if (failure == EISDIR && (flags & (3 | TRAX_OPEN_CREATE | TRAX_OPEN_TRUNCATE)) == TRAX_OPEN_READ)
+    failure = open_folder(calls, number, flags, &place);
+  else if (!failure)
     trax_descriptor_open(calls, number, &(struct trax_opened){.file = file, .flags = flags});
   trax_files_forget(calls);
   trax_place_release(calls, &place);
@@ -141,19 +171,36 @@ static int32_t put_file_stat(const struct trax_host_call *call, const struct tra
 }
 
 static int32_t put_host_stat(struct trax_calls *calls, const struct trax_host_call *call,
-                             const struct trax_place *place) {
+                             const struct trax_place *place, const struct stat *status) {
+  const uint32_t kind = S_ISREG(status->st_mode)   ? TRAX_MODE_FILE
+                        : S_ISDIR(status->st_mode) ? TRAX_MODE_FOLDER
+                        : S_ISLNK(status->st_mode) ? TRAX_MODE_LINK
+                                                   : TRAX_MODE_OTHER;
+  return put_stat(call, kind | (status->st_mode & 0700), (uint64_t)(kind == TRAX_MODE_FILE ? status->st_size : 0),
+                  trax_file_number(calls, place));
+}
+
+/* Of what the host has at the place. */
+static int32_t put_place_stat(struct trax_calls *calls, const struct trax_host_call *call,
+                              const struct trax_place *place) {
   struct stat status;
   const int failure = trax_place_stat(calls, place, &status);
   if (failure)
     return -failure;
   if (place->slash && !S_ISDIR(status.st_mode))
     return -ENOTDIR;
-  const uint32_t kind = S_ISREG(status.st_mode)   ? TRAX_MODE_FILE
-                        : S_ISDIR(status.st_mode) ? TRAX_MODE_FOLDER
-                        : S_ISLNK(status.st_mode) ? TRAX_MODE_LINK
-                                                  : TRAX_MODE_OTHER;
-  return put_stat(call, kind | (status.st_mode & 0700), (uint64_t)(kind == TRAX_MODE_FILE ? status.st_size : 0),
-                  trax_file_number(calls, place));
+  return put_host_stat(calls, call, place, &status);
+}
+
+/* Of an open folder. */
+static int32_t put_folder_stat(struct trax_calls *calls, const struct trax_host_call *call,
+                               struct trax_folder *folder) {
+  const struct trax_place place = {.folder = folder, .last = TRAX_LAST_HERE, .name = "."};
+  const int descriptor = trax_folder_descriptor(calls, folder);
+  struct stat status;
+  if (descriptor < 0)
+    return descriptor;
+  return fstat(descriptor, &status) == 0 ? put_host_stat(calls, call, &place, &status) : -errno;
 }
 
 static int32_t stat_path(struct trax_calls *calls, const struct trax_host_call *call) {
@@ -172,7 +219,7 @@ static int32_t stat_path(struct trax_calls *calls, const struct trax_host_call *
   if (!failure && name)
     failure = name->file ? place.slash ? ENOTDIR : -put_file_stat(call, name->file) : ENOENT;
   else if (!failure)
-    failure = -put_host_stat(calls, call, &place);
+    failure = -put_place_stat(calls, call, &place);
   trax_files_forget(calls);
   trax_place_release(calls, &place);
   return -failure;
@@ -182,7 +229,9 @@ static int32_t stat_descriptor(struct trax_calls *calls, const struct trax_host_
   const struct trax_opened *opened = trax_descriptor_find(calls, call->words[1]);
   if (!opened)
     return -EBADF;
-  return opened->file ? put_file_stat(call, opened->file) : put_other_stat(call, opened->kind);
+  return opened->folder ? put_folder_stat(calls, call, opened->folder)
+         : opened->file ? put_file_stat(call, opened->file)
+                        : put_other_stat(call, opened->kind);
 }
 
 /* --- names --- */
@@ -209,6 +258,19 @@ static int32_t rename_file(struct trax_calls *calls, const struct trax_host_call
   return -failure;
 }
 
+/* Writes bytes to the program if they fit; how many there are, or an error number times -1. */
+static int32_t put_bytes(const struct trax_host_call *call, const char *from, size_t size) {
+  if (size > INT32_MAX)
+    return -EOVERFLOW;
+  if (size <= call->words[3]) {
+    uint8_t *bytes = trax_host_call_bytes(call, call->words[2], (uint32_t)size, true);
+    if (!bytes)
+      return -EFAULT;
+    memcpy(bytes, from, size);
+  }
+  return (int32_t)size;
+}
+
 static int32_t list_folder(struct trax_calls *calls, const struct trax_host_call *call) {
   char *names = NULL;
   struct trax_place place;
@@ -216,18 +278,31 @@ static int32_t list_folder(struct trax_calls *calls, const struct trax_host_call
   int failure = find_place(calls, call, 1, TRAX_FOLLOW_ALL, &place);
   if (!failure)
     failure = trax_folder_list(calls, &place, &names, &size);
-  if (!failure && size > INT32_MAX)
-    failure = EOVERFLOW;
-  if (!failure && size <= call->words[3]) {
-    uint8_t *bytes = trax_host_call_bytes(call, call->words[2], (uint32_t)size, true);
-    if (bytes)
-      memcpy(bytes, names, size);
-    else
-      failure = EFAULT;
-  }
+  const int32_t result = failure ? -failure : put_bytes(call, names, size);
   free(names);
   trax_place_release(calls, &place);
-  return failure ? -failure : (int32_t)size;
+  return result;
+}
+
+/* The path of an open folder. ENOENT: it has been removed, or another one has its name. */
+static int32_t folder_path(struct trax_calls *calls, const struct trax_host_call *call) {
+  const struct trax_opened *opened = trax_descriptor_find(calls, call->words[1]);
+  const struct trax_folder *folder = opened ? opened->folder : NULL;
+  struct trax_place place = {.folder = opened ? opened->folder : NULL, .name = "."};
+  struct stat status;
+  if (!folder)
+    return opened ? -ENOTDIR : -EBADF;
+  if (folder->parent) {
+    place.folder = folder->parent;
+    snprintf(place.name, sizeof place.name, "%s", folder->name);
+    const int failure = trax_place_stat(calls, &place, &status);
+    if (failure || status.st_dev != folder->device || status.st_ino != folder->inode)
+      return failure ? -failure : -ENOENT;
+  }
+  char *path = trax_place_path(&place);
+  const int32_t result = path ? put_bytes(call, path, strlen(path) + 1) : -ENOMEM;
+  free(path);
+  return result;
 }
 
 int32_t trax_calls_serve(void *context, struct trax_host_call *call) {
@@ -264,6 +339,8 @@ int32_t trax_calls_serve(void *context, struct trax_host_call *call) {
     return list_folder(calls, call);
   case TRAX_HOST_DUPLICATE:
     return trax_serve_duplicate(calls, call);
+  case TRAX_HOST_FOLDER:
+    return folder_path(calls, call);
   default:
     return -TRAX_HOST_NO_CALL;
   }

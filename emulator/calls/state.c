@@ -3,7 +3,7 @@
      struct header
      files times: struct file_record, and of a file that is kept `pages` times its number in 4 bytes and a page
      names times: struct name_record, and the path
-     descriptors times: struct descriptor_record
+     descriptors times: struct descriptor_record, and the path of a folder
 
    A file is kept if the host does not have it. Another one is read again, and must be what it was. Input that has been
    read is read again, and must be what it was. */
@@ -41,7 +41,8 @@ struct name_record {
 struct descriptor_record {
   uint64_t offset;
   uint32_t number, kind, file, flags; /* file: the how manyeth, or no_file */
-  uint32_t same, zero;                /* the lowest descriptor of the same open file */
+  uint32_t same;                      /* the lowest descriptor of the same open file */
+  uint32_t path;                      /* bytes */
 };
 
 /* --- saving --- */
@@ -104,6 +105,15 @@ static void put_name(struct writer *writer, const struct trax_calls *calls, cons
   free(path);
 }
 
+static void put_descriptor(struct writer *writer, const struct trax_opened *opened, struct descriptor_record *record) {
+  char *path = opened->folder ? trax_place_path(&(struct trax_place){.folder = opened->folder, .name = "."}) : NULL;
+  writer->failed |= opened->folder && !path;
+  record->path = path ? (uint32_t)strlen(path) : 0;
+  put(writer, record, sizeof *record);
+  put(writer, path, record->path);
+  free(path);
+}
+
 static XXH128_hash_t digest_of(const struct trax_stream_input *input) {
   return input->digest ? XXH3_128bits_digest(input->digest) : (XXH128_hash_t){0, 0};
 }
@@ -139,7 +149,7 @@ bool trax_calls_save(const struct trax_machine *machine, uint8_t **bytes, size_t
     record.kind = opened->kind;
     record.file = index_of(calls, opened->file);
     record.flags = opened->flags;
-    put(&writer, &record, sizeof record);
+    put_descriptor(&writer, opened, &record);
   }
   *bytes = writer.bytes;
   *size = writer.size;
@@ -291,19 +301,40 @@ static trax_status restore_name(struct restored *restored, trax_error *error) {
   return status;
 }
 
-static void restore_descriptor(struct restored *restored) {
+/* Finds a folder that was open. */
+static trax_status restore_folder(struct restored *restored, uint32_t length, struct trax_place *place,
+                                  trax_error *error) {
+  const char *text = (const char *)take(&restored->reader, length);
+  char *path = text ? strndup(text, length) : NULL;
+  if (!path)
+    return trax_fail(error, text ? "out of memory" : "its state of files is damaged");
+  int failure = trax_place_find(restored->calls, path, TRAX_FOLLOW_NONE, place);
+  if (!failure)
+    failure = trax_place_enter(restored->calls, place);
+  if (failure) {
+    trax_fail(error, "%s: the program's folder cannot be opened again: %s", path, strerror(failure));
+    trax_place_release(restored->calls, place);
+  }
+  free(path);
+  return failure ? TRAX_ERROR : TRAX_OK;
+}
+
+static trax_status restore_descriptor(struct restored *restored, trax_error *error) {
   struct trax_calls *calls = restored->calls;
   struct descriptor_record record = {0};
+  struct trax_place place = {0};
   if (!take_record(&restored->reader, &record, sizeof record))
-    return;
+    return TRAX_OK;
   const bool is_file = record.kind == TRAX_OPENED_FILE;
-  restored->reader.failed |= record.kind > TRAX_OPENED_NOTHING || record.offset > INT64_MAX ||
-                             (is_file ? record.file >= restored->file_count : record.file != no_file) ||
-                             record.number >= TRAX_MOST_DESCRIPTORS || record.same > record.number ||
-                             calls->descriptors[record.number] ||
-                             (record.same < record.number && !calls->descriptors[record.same]);
+  restored->reader.failed |=
+      record.kind > TRAX_OPENED_FOLDER || (record.kind == TRAX_OPENED_FOLDER) != !!record.path ||
+      record.offset > INT64_MAX || (is_file ? record.file >= restored->file_count : record.file != no_file) ||
+      record.number >= TRAX_MOST_DESCRIPTORS || record.same > record.number || calls->descriptors[record.number] ||
+      (record.same < record.number && !calls->descriptors[record.same]);
   if (restored->reader.failed)
-    return;
+    return TRAX_OK;
+  if (record.path && restore_folder(restored, record.path, &place, error) != TRAX_OK)
+    return TRAX_ERROR;
   if (record.same < record.number)
     trax_descriptor_share(calls, record.number, calls->descriptors[record.same]);
   else
@@ -311,7 +342,10 @@ static void restore_descriptor(struct restored *restored) {
                          &(struct trax_opened){.kind = record.kind,
                                                .flags = record.flags,
                                                .file = is_file ? restored->files[record.file] : NULL,
+                                               .folder = place.folder,
                                                .offset = record.offset});
+  trax_place_release(restored->calls, &place);
+  return TRAX_OK;
 }
 
 static trax_status restore_all(struct restored *restored, const struct header *header, trax_error *error) {
@@ -325,7 +359,7 @@ static trax_status restore_all(struct restored *restored, const struct header *h
   for (uint32_t i = 0; i < header->names && !restored->reader.failed && status == TRAX_OK; i++)
     status = restore_name(restored, error);
   for (uint32_t i = 0; i < header->descriptors && !restored->reader.failed && status == TRAX_OK; i++)
-    restore_descriptor(restored);
+    status = restore_descriptor(restored, error);
   for (uint32_t i = 0; i < header->files && !restored->reader.failed && status == TRAX_OK; i++)
     restored->reader.failed |= !restored->is_there[i];
   if (status == TRAX_OK && (restored->reader.failed || restored->reader.left))

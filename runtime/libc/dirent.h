@@ -36,8 +36,8 @@ void seekdir(DIR *folder, long place);
 int alphasort(const struct dirent **a, const struct dirent **b);
 int scandir(const char *path, struct dirent ***entries, int (*choose)(const struct dirent *),
             int (*compare)(const struct dirent **, const struct dirent **));
-DIR *fdopendir(int descriptor); /* fails: no descriptor is a folder's */
-int dirfd(DIR *folder);         /* fails */
+DIR *fdopendir(int descriptor);
+int dirfd(DIR *folder);
 
 #ifdef __cplusplus
 }

@@ -13,6 +13,8 @@
 #define O_CREAT 0x200
 #define O_TRUNC 0x400
 #define O_EXCL 0x800
+#define O_NOFOLLOW 0x100000
+#define O_DIRECTORY 0x200000
 /* Accepted without effect: what they demand is always true here. */
 #define O_NONBLOCK 0
 #define O_CLOEXEC 0

@@ -115,6 +115,7 @@ void clearerr(FILE *stream);
 
 int remove(const char *path);
 int rename(const char *from, const char *to);
+int renameat(int folder, const char *from, int to_folder, const char *to);
 #ifndef TRAX_POSIX
 /* Not here: their use is an error. */
 FILE *popen(const char *command, const char *mode) __attribute__((unavailable("there are no processes")));

@@ -48,7 +48,7 @@ int dup2(int descriptor, int other);
 int isatty(int descriptor);
 int access(const char *path, int mode);
 int unlink(const char *path);
-/* Folder AT_FDCWD (<fcntl.h>), or a path that begins with a slash: no descriptor is a folder's. */
+/* Paths from an open folder; AT_FDCWD (<fcntl.h>): from the beginning of all paths. */
 int unlinkat(int folder, const char *path, int flags);
 int faccessat(int folder, const char *path, int mode, int flags);
 int rmdir(const char *path);

@@ -1,6 +1,7 @@
 /* Listing of folders. */
 #include <dirent.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,11 +9,13 @@
 #include <unistd.h>
 
 #include "../internal/host.h"
+#include "folders.h"
 
 struct trax_folder {
   struct dirent entry;
   char *names; /* of each entry its kind (f, d, l, o), the name and a NUL */
   size_t at, end;
+  int descriptor; /* -1: none yet */
   size_t path_length;
   char path[]; /* with a slash, and room for a name */
 };
@@ -34,19 +37,44 @@ static int read_names(DIR *folder, const char *path) {
   }
 }
 
-DIR *opendir(const char *path) {
+static DIR *make(const char *path, int descriptor) {
   const size_t length = strlen(path);
   DIR *folder = calloc(1, sizeof *folder + length + 1 + sizeof folder->entry.d_name);
   if (!folder)
     return NULL;
-  if (read_names(folder, path)) {
-    closedir(folder);
-    return NULL;
-  }
+  folder->descriptor = descriptor;
   memcpy(folder->path, path, length);
   folder->path[length] = '/';
   folder->path_length = length + 1;
   return folder;
+}
+
+DIR *opendir(const char *path) {
+  DIR *folder = make(path, -1);
+  if (!folder || read_names(folder, path) == 0)
+    return folder;
+  closedir(folder);
+  return NULL;
+}
+
+DIR *fdopendir(int descriptor) {
+  char *path = __trax_folder_path(descriptor, "");
+  const int is_removed = !path && errno == ENOENT; /* it is empty then */
+  DIR *folder = path || is_removed ? make(path ? path : "", descriptor) : NULL;
+  if (folder && path && read_names(folder, path)) {
+    folder->descriptor = -1; /* stays the caller's */
+    closedir(folder);
+    folder = NULL;
+  }
+  free(path);
+  return folder;
+}
+
+int dirfd(DIR *folder) {
+  folder->path[folder->path_length] = '\0';
+  if (folder->descriptor < 0)
+    folder->descriptor = open(folder->path, O_RDONLY | O_DIRECTORY);
+  return folder->descriptor;
 }
 
 struct dirent *readdir(DIR *folder) {
@@ -67,8 +95,12 @@ struct dirent *readdir(DIR *folder) {
 }
 
 int closedir(DIR *folder) {
+  const int number = errno;
+  if (folder->descriptor >= 0)
+    close(folder->descriptor);
   free(folder->names);
   free(folder);
+  errno = number;
   return 0;
 }
 
@@ -127,17 +159,4 @@ int scandir(const char *path, struct dirent ***entries, int (*choose)(const stru
     qsort(list, count, sizeof *list, (int (*)(const void *, const void *))compare);
   *entries = list;
   return (int)count;
-}
-
-DIR *fdopendir(int descriptor) {
-  struct stat status;
-  if (fstat(descriptor, &status) == 0)
-    errno = ENOTDIR;
-  return NULL;
-}
-
-int dirfd(DIR *folder) {
-  (void)folder;
-  errno = ENOTSUP;
-  return -1;
 }

@@ -75,36 +75,6 @@ int fcntl(int descriptor, int command, ...) {
   return result;
 }
 
-/* --- paths from a folder: the one of all paths --- */
-
-static int is_here(int folder, const char *path) {
-  if (folder == AT_FDCWD || *path == '/')
-    return 1;
-  errno = EBADF;
-  return 0;
-}
-
-int openat(int folder, const char *path, int flags, ...) {
-  return is_here(folder, path) ? open(path, flags) : -1;
-}
-
-int unlinkat(int folder, const char *path, int flags) {
-  return !is_here(folder, path) ? -1 : flags & AT_REMOVEDIR ? rmdir(path) : unlink(path);
-}
-
-int faccessat(int folder, const char *path, int mode, int flags) {
-  (void)flags;
-  return is_here(folder, path) ? access(path, mode) : -1;
-}
-
-int fstatat(int folder, const char *restrict path, struct stat *restrict status, int flags) {
-  return !is_here(folder, path) ? -1 : flags & AT_SYMLINK_NOFOLLOW ? lstat(path, status) : stat(path, status);
-}
-
-int mkdirat(int folder, const char *path, mode_t mode) {
-  return is_here(folder, path) ? mkdir(path, mode) : -1;
-}
-
 int truncate(const char *path, off_t size) {
   const int descriptor = open(path, O_RDWR);
   if (descriptor < 0)

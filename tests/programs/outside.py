@@ -241,8 +241,10 @@ PROGRAMS = [
             ["make", "mawk"]], files={**DATA, "script.awk": AWK}),
     Program("gzip", "gzip", "gzip", [
         Case(["-kn9", "data.txt"]), Case(["-nc"], text(900)), Case(["-l", "data.txt.gz"]), Case(["-t", "small.txt"]),
-        Case(["-dc", "data.txt.gz"]), Case(["-dv", "data.txt.gz"], b"y\n")], [
-            ["./configure", "--host=riscv32-unknown-elf", "--build=x86_64-linux-gnu", CC], ["make"]], files=DATA),
+        Case(["-dc", "data.txt.gz"]), Case(["-dv", "data.txt.gz"], b"y\n"), Case(["-rkn", "tree", "small.txt"]),
+        Case(["-tr", "."]), Case(["-dfr", "tree"]), Case(["tree"]), Case(["-r", "missing"])], [
+            ["./configure", "--host=riscv32-unknown-elf", "--build=x86_64-linux-gnu", CC], ["make"]],
+            files={**DATA, "tree/a.txt": text(20), "tree/b/c/d.txt": text(30), "tree/b/e": b"e"}),
     # Its own VFS and its shell, which makes paths absolute. It needs tclsh.
     Program("sqlite3", "sqlite3", "sqlite3", [
         Case(["test.db"], SQL), Case(["test.db", "select count(*), sum(c) from t; pragma journal_mode;"]),

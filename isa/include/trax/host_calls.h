@@ -21,8 +21,9 @@
   X(RENAME, 11, "path, new path")                                                                                      \
   X(MAKE_FOLDER, 12, "path")                                                                                           \
   X(REMOVE_FOLDER, 13, "path")                                                                                         \
-  X(LIST, 14, "path of a folder, address, bytes: the length of the list; nothing is written if that is more")           \
-  X(DUPLICATE, 15, "descriptor, number, whether it is exactly that one or the lowest free from there: the other one")
+  X(LIST, 14, "path of a folder, address, bytes: the length of the list; nothing is written if that is more")          \
+  X(DUPLICATE, 15, "descriptor, number, whether it is exactly that one or the lowest free from there: the other one")  \
+  X(FOLDER, 16, "descriptor of a folder, address, bytes: the length of its path with a NUL; as LIST")
 
 #define TRAX_HOST_OPEN 1
 #define TRAX_HOST_CLOSE 2
@@ -39,6 +40,7 @@
 #define TRAX_HOST_REMOVE_FOLDER 13
 #define TRAX_HOST_LIST 14
 #define TRAX_HOST_DUPLICATE 15
+#define TRAX_HOST_FOLDER 16
 
 /* Flags of TRAX_HOST_OPEN: one of the first three, and others added. */
 #define TRAX_OPEN_READ 0
@@ -47,7 +49,9 @@
 #define TRAX_OPEN_APPEND 0x8
 #define TRAX_OPEN_CREATE 0x200
 #define TRAX_OPEN_TRUNCATE 0x400
-#define TRAX_OPEN_NEW 0x800 /* with TRAX_OPEN_CREATE: the file must not exist */
+#define TRAX_OPEN_NEW 0x800        /* with TRAX_OPEN_CREATE: the file must not exist */
+#define TRAX_OPEN_NO_LINK 0x100000 /* a symbolic link as the last part is an error */
+#define TRAX_OPEN_FOLDER 0x200000  /* only a folder */
 
 /* Origins of TRAX_HOST_SEEK. */
 #define TRAX_SEEK_BEGIN 0

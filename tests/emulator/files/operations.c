@@ -64,20 +64,19 @@ static int open_flags(const char *letters) {
   flags |= strchr(letters, 't') ? O_TRUNC : 0;
   flags |= strchr(letters, 'x') ? O_EXCL : 0;
   flags |= strchr(letters, 'a') ? O_APPEND : 0;
+  flags |= strchr(letters, 'd') ? O_DIRECTORY : 0;
+  flags |= strchr(letters, 'n') ? O_NOFOLLOW : 0;
   return flags;
 }
 
 static int open_file(const char *path, const char *letters) {
-  int descriptor = open(path, open_flags(letters), 0666);
-#if IS_HOST /* a program of the machine does not open folders */
+  return open(path, open_flags(letters), 0666);
+}
+
+/* File systems number the places in a folder as they like. */
+static int is_folder(int slot) {
   struct stat status;
-  if (descriptor >= 0 && fstat(descriptor, &status) == 0 && S_ISDIR(status.st_mode)) {
-    close(descriptor);
-    errno = EISDIR;
-    return -1;
-  }
-#endif
-  return descriptor;
+  return fstat(slots[slot], &status) == 0 && S_ISDIR(status.st_mode);
 }
 
 static void print_stat(char operation, int failed, const struct stat *status) {
@@ -113,10 +112,9 @@ static int by_name(const void *a, const void *b) {
 }
 
 /* The names in a folder, with their kinds. */
-static void list_names(const char *path) {
+static void list_names(DIR *stream) {
   char *names[64];
   int count = 0;
-  DIR *stream = opendir(path);
   if (!stream) {
     result('l', -1);
     return;
@@ -132,6 +130,39 @@ static void list_names(const char *path) {
   printf("l %d\n", count);
   for (int i = 0; i < count; free(names[i++]))
     printf("  %s\n", names[i]);
+}
+
+/* By a name from an open folder. */
+static void operate_from(char operation, int from, char *words[]) {
+  struct stat status;
+  switch (operation) {
+  case 'A':
+    result('A', slots[atoi(words[3])] = openat(from, words[2], open_flags(words[4]), 0666));
+    break;
+  case 'a':
+    print_stat('a', fstatat(from, words[2], &status, AT_SYMLINK_NOFOLLOW), &status);
+    break;
+  case 'v':
+    result('v', unlinkat(from, words[2], words[3][0] == 'd' ? AT_REMOVEDIR : 0));
+    break;
+  case 'k':
+    result('k', mkdirat(from, words[2], 0777));
+    break;
+  case 'e':
+    if (is_folder(atoi(words[3]))) /* of two errors Linux has another one */
+      result('e', renameat(from, words[2], slots[atoi(words[3])], words[4]));
+    break;
+  case 'X': {
+    const int same = dup(from);
+    DIR *stream = fdopendir(same);
+    if (stream)
+      rewinddir(stream); /* the host's place is one for all descriptors */
+    list_names(stream);
+    if (!stream)
+      close(same);
+    break;
+  }
+  }
 }
 
 /* By descriptor. */
@@ -150,7 +181,8 @@ static void operate_on_slot(char operation, int slot, char *words[]) {
     result('w', write(slots[slot], buffer, (size_t)atoi(words[2])));
     break;
   case 's':
-    result('s', lseek(slots[slot], strtoll(words[2], NULL, 10), atoi(words[3])));
+    if (!is_folder(slot))
+      result('s', lseek(slots[slot], strtoll(words[2], NULL, 10), atoi(words[3])));
     break;
   case 't':
     result('t', ftruncate(slots[slot], strtoll(words[2], NULL, 10)));
@@ -197,7 +229,7 @@ static void operate_on_name(char operation, char *words[]) {
     result('d', rmdir(first));
     break;
   case 'l':
-    list_names(first);
+    list_names(opendir(first));
     break;
   }
 }
@@ -252,6 +284,8 @@ static void perform(void) {
       fflush(stdout);
     else if (words[0][0] == 'o')
       result('o', slots[atoi(words[1])] = open_file(in_folder(words[2], (char[600]){0}), words[3]));
+    else if (strchr("AavkeX", words[0][0]))
+      operate_from(words[0][0], slots[atoi(words[1])], words);
     else if (strchr("crwstfDz", words[0][0]))
       operate_on_slot(words[0][0], atoi(words[1]), words);
     else if (strchr("SLiuRmdl", words[0][0]))

@@ -19,7 +19,7 @@ class Sequence:
     def __init__(self, seed, kind="all", huge=True, small=False):
         self.random = random.Random(f"{kind} {seed}")
         self.kind, self.huge, self.far = kind, huge and not small, SMALL if small else FAR
-        self.begin, self.lines, self.open, self.closed = [], [], {}, []
+        self.begin, self.lines, self.open, self.closed, self.folders = [], [], {}, [], []
         self.prepare()
         for _ in range(self.random.randrange(4, 40)):
             self.step()
@@ -94,6 +94,8 @@ class Sequence:
             "folder": 3,
             "duplicate": 2,
             "list": 2,
+            "open_folder": 2,
+            "from_folder": 3,
         }
         getattr(self, "do_" + self.random.choices(tuple(kinds), tuple(kinds.values()))[0])()
 
@@ -107,7 +109,7 @@ class Sequence:
         if slot in self.open:
             self.do_close(slot)
         flags = self.random.choice(("r", "w", "b", "b")) + "".join(
-            c for c, one in (("c", 2), ("t", 3), ("x", 8), ("a", 5)) if self.chance(one)
+            c for c, one in (("c", 2), ("t", 3), ("x", 8), ("a", 5), ("n", 6)) if self.chance(one)
         )
         if "x" in flags and "c" not in flags:
             flags = flags.replace("x", "")
@@ -134,6 +136,39 @@ class Sequence:
 
     def do_list(self):
         self.lines.append(f"l {self.name() if self.chance(3) else self.random.choice(FOLDERS + ('.',))}")
+
+    def do_open_folder(self):
+        slot = self.random.randrange(16)
+        if slot in self.open:
+            self.do_close(slot)
+        name = self.random.choice(FOLDERS + ("ll", ".", "d/..", "a", "l"))
+        self.lines.append(f"o {slot} {name} r{self.random.choice(('', 'd', 'dn', 'a'))}")
+        self.open[slot] = name
+        self.folders.append(slot)
+
+    def do_from_folder(self):
+        """Names from an open folder, or from what has its descriptor now."""
+        if not self.folders:
+            self.do_open_folder()
+        if self.kind == "rights" and any(line[0] in "dRev" for line in self.lines):
+            return  # a folder that is gone and may not be searched has two errors
+        pick = self.random
+        slot, name = pick.choice(self.folders), pick.choice(NAMES)
+        changes = () if self.kind == "pending" or self.has_links else ("v", "v", "k", "e")
+        kind = pick.choice(("A", "A", "a", "X", *changes))
+        if kind == "A":
+            other = pick.choice([i for i in range(16) if i not in self.open] or [15])
+            if other in self.open:
+                self.do_close(other)
+            flags = pick.choice(("r", "b", "bc", "wct", "rd", "rn"))
+            self.lines.append(f"A {slot} {name} {other} {flags}")
+            self.open[other] = name
+            if pick.randrange(2):
+                self.folders.append(other)
+        elif kind == "e":
+            self.lines.append(f"e {slot} {name} {pick.choice(self.folders)} {pick.choice(NAMES)}")
+        else:
+            self.lines.append(f"{kind} {slot} {name} {pick.choice('df')}")
 
     def do_read(self):
         self.lines.append(f"r {self.slot()} {self.random.choice(SIZES)}")
