@@ -14,23 +14,15 @@ import sys
 
 from tree_arrays import write_tree
 
-MOST = 7  # triangles in a leaf: larger ones become leaves below nodes with the same box
 records = list(struct.iter_unpack("<3fI3fI", pathlib.Path(sys.argv[1]).read_bytes()))
 rows, boxes = [], []
 
 
-def leaf(box, first, count):
-    row, half = len(rows), count // 2
-    rows.append((first, 0, count))
-    boxes.append(box)
-    if count > MOST:
-        rows[row] = leaf(box, first, half), leaf(box, first + half, count - half), 0
-    return row
-
-
 def node(number):
     *low, left_first, x, y, z, count = records[number]
-    row = leaf((*low, x, y, z), left_first, count)
+    row = len(rows)
+    rows.append((left_first, 0, count))
+    boxes.append((*low, x, y, z))
     if count == 0:
         rows[row] = node(left_first), node(left_first + 1), 0
     return row

@@ -118,6 +118,34 @@ def any_children(nodes, most, chance):
     return children_of
 
 
+def split_leaves(nodes, boxes):
+    """The tree that docs/own-tree.md says larger leaves become: the fewest leaves of seven at most, halved in order."""
+    rows, kept = [], []
+    none = [0] * (len(nodes[0]) - 3)
+
+    def place_leaf(number, first, count):
+        row, leaves = len(rows), -(-count // 7)
+        rows.append((first, 0, *none, count))
+        kept.append(boxes[number])
+        if leaves > 1:
+            half = count * (leaves // 2) // leaves
+            rows[row] = (place_leaf(number, first, half), place_leaf(number, first + half, count - half), *none, 0)
+        return row
+
+    def place(number):
+        *children, count = nodes[number]
+        if count:
+            return place_leaf(number, children[0], count)
+        row = len(rows)
+        rows.append(None)
+        kept.append(boxes[number])
+        rows[row] = (*[place(child) if child else 0 for child in children], 0)
+        return row
+
+    place(0)
+    return rows, kept
+
+
 def write(nodes, order, boxes, code="<i4"):
     npy("nodes.npy", code, (len(nodes), len(nodes[0])), [value for row in nodes for value in row])
     npy("order.npy", code, (len(order),), order)
@@ -172,6 +200,37 @@ def pictures():
     check({sum(map(bool, row[:-1])) for row in wide if not row[-1]} == set(range(2, 8)), "numbers of children")
     write(wide, order, wide_boxes)
     check(measure("few.obj", *TREE, *BOXES)[0] == ours, "another picture with up to 7 children")
+
+
+def large_leaves():
+    """Leaves of any size: the file is that of the tree with split leaves, and the picture the same, in every layout."""
+    call("trax-scene", "generate:fir", "-q", "--write-triangles", "t.npy")
+    triangles = read_triangles("t.npy")
+    nodes, order, boxes = median_split(triangles, 50)
+    wide_rows, wide_boxes = widen(nodes, boxes, 4, whole_levels(nodes, 2))
+    wide, whole = (wide_rows, order, wide_boxes), boxes[0]
+    middle = (whole[0] + whole[3]) / 2
+    left = [i for i in order if box_of(triangles[i])[0] <= middle]
+    right = [i for i in order if box_of(triangles[i])[3] > middle]
+    check(len(left) + len(right) > len(order), "no triangle is in two leaves")
+    halves = [whole, [*whole[:3], middle, *whole[4:]], [middle, *whole[1:]]]
+    native = "--size", "32x32", "--engine", "native", "-q"
+    call("trax-render", "generate:fir", *native, "-o", "ours.png")
+    for rows, elements, row_boxes in (
+            (nodes, order, boxes), wide, ([(0, 0, len(order))], order, [whole]),
+            ([(1, 2, 0), (0, 0, len(left)), (len(left), 0, len(right))], left + right, halves)):
+        check(max(row[-1] for row in rows) > 25, "small leaves")
+        split, split_boxes = split_leaves(rows, row_boxes)
+        check(max(row[-1] for row in split) <= 7, "large leaves")
+        for layout in "binary", "quantised", "wide4", "wide4-quantised", "wide8":
+            for name, *arrays in ("large", rows, elements, row_boxes), ("split", split, elements, split_boxes):
+                write(*arrays)
+                call("trax-scene", "generate:fir", *TREE, *BOXES, "--nodes", layout, "-q", "-o", f"{name}.trax")
+            check(pathlib.Path("large.trax").read_bytes() == pathlib.Path("split.trax").read_bytes(), layout,
+                  "another file than with split leaves", len(rows), "rows")
+            call("trax-render", "large.trax", *native, "-o", "s.png")
+            check(pathlib.Path("s.png").read_bytes() == pathlib.Path("ours.png").read_bytes(), layout,
+                  "another picture with large leaves", len(rows), "rows")
 
 
 def forms():
@@ -257,8 +316,18 @@ def refusals():
     refuse(f"its child {inner} is node")
     changed(leaf, (len(good[1]) - 1, 0, 2))
     refuse("has no place in order.npy")
-    changed(leaf, (0, 0, 8))
-    refuse("a count of 8; a leaf has 1 to 7 triangles")
+    changed(leaf, (0, 0, 11))
+    refuse("a count of 11; a leaf has 1 to 10 triangles, those of order.npy, and an inner node 0")
+    changed(leaf, (3, 0, 8))
+    refuse("a leaf of 8 triangles has no place in order.npy, which has 10")
+    write([(1, 2, 0), (0, 0, 9), (1, 0, 9)], good[1], [good[2][0]] * 3)
+    refuse("node 2: with this one's 9, leaves of more than 7 have more triangles than the 10 of order.npy")
+    write([(0, 0, 10)], good[1][1:2] + good[1][1:], good[2][:1])
+    refuse("node 0: a leaf with triangle", *TREE, *BOXES)
+    write([(0, 0, 10)], good[1], good[2][:1])
+    call("trax-scene", "big.obj", *TREE, "--depth", "1", "-q", "-o", "s.trax")
+    write([(0, 0, 15)], [*range(15)], good[2][:1])
+    refuse("node 0: the tree is deeper than 1 inner nodes", *TREE, "--depth", "1", mesh="more.obj")
     changed(leaf, (0, 0, -2))
     refuse("a count of -2")
     changed(0, (0, 0, 2))
@@ -277,7 +346,7 @@ def refusals():
     for row, message in (((1, 0, 0, 0, 0), "node 0: an inner node with 1 children; it has 2 to 4"),
                          ((0, 0, 0, 0, 0), "node 0: an inner node with 0 children"),
                          ((1, 2, 2, 0, 0), "its child 2 is node 0's, too"), ((1, 2, -1, 0, 0), "its third child is -1"),
-                         ((0, 0, 0, 0, 8), "a count of 8")):
+                         ((0, 0, 0, 0, 11), "a count of 11")):
         write([row, *wide[1:]], good[1], wide_boxes)
         refuse(message)
     write([(*row[:-1], *[0] * 5, row[-1]) for row in wide], good[1], wide_boxes)
@@ -376,6 +445,8 @@ def meshes():
     points = [(0.1 * i, (i * 7) % 5, (i * 3) % 4) for i in range(12)]
     text = "".join("v %g %g %g\n" % point for point in points)
     pathlib.Path("big.obj").write_text(text + "".join(f"f {i + 1} {i + 2} {i + 3}\n" for i in range(10)))
+    pathlib.Path("more.obj").write_text(text * 2 + "".join(f"f {i + 1} {i + 2} {i + 3}\n" for i in range(10)) +
+                                        "".join(f"f {i + 13} {i + 14} {i + 16}\n" for i in range(5)))
     pathlib.Path("one.obj").write_text("v 0 0 0\nv 4 1 0\nv 4 0 3\nf 1 2 3\n")
     pathlib.Path("twins.obj").write_text("v 0 0 0\nv 4 1 0\nv 4 0 3\nf 1 2 3\nf 1 2 3\n")
     pathlib.Path("many.obj").write_text("".join(
@@ -387,6 +458,7 @@ def main():
         os.chdir(folder)
         meshes()
         forms()
+        large_leaves()
         refusals()
         damaged()
         pictures()

@@ -83,9 +83,8 @@ def tinybvh(ours):
         pathlib.Path("indices.bin").write_bytes(struct.pack(f"<{len(order)}I", *order))
         run_example("tinybvh_tree.py", "nodes.bin", "indices.bin")
         rows = read_rows()
-        if most <= 7:  # larger leaves are halved
-            equal(len(rows), len(nodes) - 1, "nodes")
-            equal(sorted(row[::2] for row in rows if row[-1]), sorted(n[3::4] for n in nodes if n[7]), "leaves")
+        equal(len(rows), len(nodes) - 1, "nodes")
+        equal(sorted(row[::2] for row in rows if row[-1]), sorted(n[3::4] for n in nodes if n[7]), "leaves")
         check(picture(*TREE) == ours, "another picture with a tree of tinybvh's form, leaves of", most)
 
 
