@@ -224,7 +224,6 @@ uint32_t trax_ref_lines_drop(struct trax_ref_lines *lines);
 
 /* --- Operands: operands.c --- */
 void trax_ref_check_operands(struct trax_ref_tm *tm, uint64_t t);
-bool trax_ref_is_illegal(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp);
 /* The rest of step 2 of an active TP: its registers, then its access. Returns the register for which it waits; 0: none.
  */
 unsigned trax_ref_check_registers(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t);
