@@ -156,7 +156,8 @@ trax_status trax_output_open(trax_output *output, const char *path, trax_error *
   return open_temporary(output, exists ? existing.st_mode & 07777 : usual_mode(0666), error);
 }
 
-void trax_output_make_executable(trax_output *output) {
+/* Makes the file executable for everyone whom the umask permits. */
+static void make_executable(trax_output *output) {
   struct stat status;
   const int descriptor = fileno(output->file);
   if (output->temporary && fstat(descriptor, &status) == 0)
@@ -246,7 +247,7 @@ trax_status trax_write_whole(const char *path, const void *bytes, size_t size, b
   trax_status status = trax_output_open(&output, path, error);
   if (status == TRAX_OK) {
     if (executable)
-      trax_output_make_executable(&output);
+      make_executable(&output);
     fwrite(bytes, 1, size, output.file); /* trax_output_commit reports a failure */
     status = trax_output_commit(&output, error);
   }

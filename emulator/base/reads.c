@@ -72,12 +72,6 @@ void trax_reads_note(const struct stat *file) {
   append(file, READ);
 }
 
-void trax_reads_note_path(const char *path) {
-  struct stat file;
-  if (stat(path, &file) == 0)
-    append(&file, READ);
-}
-
 void trax_reads_drop(const struct stat *file) {
   append(file, DROPPED);
 }

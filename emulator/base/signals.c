@@ -17,10 +17,20 @@ volatile sig_atomic_t trax_signal;
 static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
 enum { COUNT = sizeof numbers / sizeof *numbers };
 
+static void on_signal(int number);
+
+static void restore_defaults(void) {
+  for (size_t i = 0; i < COUNT; i++) {
+    struct sigaction before;
+    if (sigaction(numbers[i], NULL, &before) == 0 && before.sa_handler == on_signal)
+      signal(numbers[i], SIG_DFL);
+  }
+}
+
 static void on_signal(int number) {
   if (!trax_signal)
     trax_signal = number;
-  trax_default_signals(); /* a second signal, of any number, ends the program */
+  restore_defaults(); /* a second signal, of any number, ends the program */
 }
 
 void trax_catch_signal(int number) {
@@ -33,14 +43,6 @@ void trax_catch_signal(int number) {
 void trax_catch_signals(void) {
   for (size_t i = 0; i < COUNT; i++)
     trax_catch_signal(numbers[i]);
-}
-
-void trax_default_signals(void) {
-  for (size_t i = 0; i < COUNT; i++) {
-    struct sigaction before;
-    if (sigaction(numbers[i], NULL, &before) == 0 && before.sa_handler == on_signal)
-      signal(numbers[i], SIG_DFL);
-  }
 }
 
 void trax_end_by_signal(void) {
@@ -69,7 +71,7 @@ pid_t trax_fork(int signal) {
   trax_hold_signals(&before);
   const pid_t parent = getpid(), child = fork();
   if (child == 0) {
-    trax_default_signals();
+    restore_defaults();
     prctl(PR_SET_PDEATHSIG, signal);
     if (getppid() != parent)
       _exit(127);

@@ -7,6 +7,9 @@
 #include <string.h>
 #include <unistd.h>
 
+/* Prints what a trap gives to descriptor 1, which is not the run's output. */
+static void print(void *calls, const uint8_t *bytes, size_t count);
+
 struct trax_opened *trax_descriptor_find(struct trax_calls *calls, uint32_t number) {
   return number < TRAX_MOST_DESCRIPTORS ? calls->descriptors[number] : NULL;
 }
@@ -29,7 +32,7 @@ void trax_descriptor_share(struct trax_calls *calls, uint32_t number, struct tra
   opened->references++;
   calls->descriptors[number] = opened;
   if (number == STDOUT_FILENO) /* what traps print goes where the descriptor does */
-    calls->machine->calls.print = opened->kind == TRAX_OPENED_OUTPUT ? NULL : trax_calls_print;
+    calls->machine->calls.print = opened->kind == TRAX_OPENED_OUTPUT ? NULL : print;
 }
 
 void trax_descriptor_open(struct trax_calls *calls, uint32_t number, const struct trax_opened *opened) {
@@ -51,7 +54,7 @@ static int close_descriptor(struct trax_calls *calls, uint32_t number) {
   int failure = 0;
   calls->descriptors[number] = NULL;
   if (number == STDOUT_FILENO)
-    calls->machine->calls.print = trax_calls_print;
+    calls->machine->calls.print = print;
   if (--opened->references)
     return 0;
   trax_folder_release(calls, opened->folder);
@@ -77,7 +80,7 @@ void trax_descriptors_forget(struct trax_calls *calls) {
       trax_folder_release(calls, calls->opened[i].folder);
   memset(calls->opened, 0, sizeof calls->opened);
   memset(calls->descriptors, 0, sizeof calls->descriptors);
-  calls->machine->calls.print = trax_calls_print;
+  calls->machine->calls.print = print;
 }
 
 /* --- calls --- */
@@ -182,7 +185,7 @@ int32_t trax_serve_write(struct trax_calls *calls, const struct trax_host_call *
   return bytes ? write_opened(calls, opened, bytes, count) : -EFAULT;
 }
 
-void trax_calls_print(void *context, const uint8_t *bytes, size_t count) {
+static void print(void *context, const uint8_t *bytes, size_t count) {
   struct trax_calls *calls = context;
   struct trax_opened *opened = calls->descriptors[STDOUT_FILENO];
   if (opened && (opened->flags & 3) != TRAX_OPEN_READ)

@@ -204,9 +204,6 @@ void trax_descriptor_share(struct trax_calls *calls, uint32_t number, struct tra
 void trax_descriptors_begin(struct trax_calls *calls);
 void trax_descriptors_forget(struct trax_calls *calls);
 
-/* Prints what a trap gives to descriptor 1, which is not the run's output. */
-void trax_calls_print(void *calls, const uint8_t *bytes, size_t count);
-
 /* The calls that take a descriptor: the result, or an error number times -1. */
 struct trax_host_call;
 int32_t trax_serve_close(struct trax_calls *calls, const struct trax_host_call *call);

@@ -298,7 +298,9 @@ static size_t end_of_contents(const trax_input *input, size_t end) {
   return end;
 }
 
-trax_status trax_image_read(const char *path, uint8_t **bytes, size_t *size, trax_error *error) {
+/* Reads an executable up to the end that its headers give, so that a device that never ends is not read for ever.
+ *bytes is from malloc. */
+static trax_status read_image(const char *path, uint8_t **bytes, size_t *size, trax_error *error) {
   trax_input input;
   trax_status status = trax_input_open(&input, path, error);
   if (status == TRAX_OK)
@@ -369,7 +371,7 @@ trax_image *trax_image_of(const char *path, const uint8_t *bytes, size_t size, t
 trax_image *trax_image_open(const char *path, trax_error *error) {
   uint8_t *bytes;
   size_t size;
-  return trax_image_read(path, &bytes, &size, error) == TRAX_OK ? image_of(path, bytes, size, error) : NULL;
+  return read_image(path, &bytes, &size, error) == TRAX_OK ? image_of(path, bytes, size, error) : NULL;
 }
 
 void trax_image_close(trax_image *image) {

@@ -79,8 +79,4 @@ size_t trax_image_variables(trax_image *image, uint32_t pc, struct trax_frame_va
    valid as long as the image. */
 size_t trax_image_folders(trax_image *image, const char *const **folders);
 
-/* Reads an executable up to the end that its headers give, so that a device that never ends is not read for ever.
-   *bytes is from malloc. Only trax_image_open checks the contents. */
-trax_status trax_image_read(const char *path, uint8_t **bytes, size_t *size, trax_error *error);
-
 #endif

@@ -28,7 +28,7 @@ static unsigned wait_for_all_registers(struct trax_ref_tm *tm, struct trax_ref_t
   return 0;
 }
 
-bool trax_ref_is_illegal(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp) {
+static bool is_illegal(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp) {
   return tp->inst.op == TRAX_OP_ILLEGAL || trax_lacks_unit(tp->inst.op, tm->config);
 }
 
@@ -46,7 +46,7 @@ void trax_ref_find_address(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint6
 void trax_ref_check_operands(struct trax_ref_tm *tm, uint64_t t) {
   for (uint32_t i = 0; i < tm->tps; i++) {
     struct trax_ref_tp *tp = &tm->tp[i];
-    if (trax_ref_active(tp) && trax_ref_is_illegal(tm, tp))
+    if (trax_ref_active(tp) && is_illegal(tm, tp))
       trax_ref_fault(tm, tp, t, TRAX_FAULT_ILLEGAL, 0);
     if (trax_ref_active(tp))
       trax_ref_wait_for_registers(tm, tp, t);

@@ -226,7 +226,6 @@ uint32_t trax_ref_lines_drop(struct trax_ref_lines *lines);
 
 /* --- Operands: operands.c --- */
 void trax_ref_check_operands(struct trax_ref_tm *tm, uint64_t t);
-bool trax_ref_is_illegal(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp);
 /* Charges a TP for the first register that is not usable, and returns it; 0: there is none. */
 unsigned trax_ref_wait_for_registers(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t);
 /* Computes the address of a memory access. A TP whose access is not allowed faults. */

@@ -66,7 +66,8 @@ static void emit_part(struct trax_translation *t, const struct trax_template_par
   }
 }
 
-const struct trax_template *trax_templates_of(const struct trax_translation *t, unsigned op) {
+/* Returns the templates of an operation, [TRAX_VARIANTS]. */
+static const struct trax_template *templates_of(const struct trax_translation *t, unsigned op) {
   return t->bursts && trax_burst_templates[op][0].hot.bytes ? trax_burst_templates[op] : trax_templates[op];
 }
 
@@ -113,7 +114,7 @@ static unsigned cost(const struct trax_translation *t, const struct trax_decoded
                      struct trax_result last) {
   const unsigned flags = trax_op_table[inst->op].flags;
   const bool a = v & TRAX_FLOAT_A, b = v & TRAX_FLOAT_B, d = v & TRAX_FLOAT_D;
-  unsigned sum = trax_templates_of(t, inst->op)[v].hot.bytes;
+  unsigned sum = templates_of(t, inst->op)[v].hot.bytes;
   if (flags & TRAX_READS_RA)
     sum += move_cost(source(t, inst->ra, a, last), a);
   if (flags & TRAX_READS_RB)
@@ -165,7 +166,7 @@ bool trax_is_always_slow(const struct trax_decoded *inst) {
 size_t trax_most_code(const struct trax_translation *t, const struct trax_decoded *inst) {
   size_t most = 0;
   for (unsigned v = 0; v < TRAX_VARIANTS; v++) {
-    const struct trax_template *const template = &trax_templates_of(t, inst->op)[v];
+    const struct trax_template *const template = &templates_of(t, inst->op)[v];
     const size_t bytes = (size_t) template->hot.bytes + template->cold.bytes;
     most = bytes > most ? bytes : most;
   }
@@ -203,7 +204,7 @@ void trax_emit_instruction(struct trax_translation *t, size_t index) {
     trax_emit_move(t, operands[d][2], source(t, inst->rd % TRAX_NO_REGISTER, d, t->last));
   if (flags & TRAX_READS_RA)
     trax_emit_move(t, operands[a][0], source(t, inst->ra, a, t->last));
-  trax_emit_template(t, &trax_templates_of(t, inst->op)[v], index);
+  trax_emit_template(t, &templates_of(t, inst->op)[v], index);
   if (!trax_goes_on(inst))
     trax_set_distance(t->stubs[--t->stub_count].place, t->at);
   t->last = (struct trax_result){0, false};

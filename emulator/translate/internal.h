@@ -104,8 +104,6 @@ bool trax_is_always_slow(const struct trax_decoded *inst);
 bool trax_goes_on(const struct trax_decoded *inst);
 /* Returns the bytes of its largest template. */
 size_t trax_most_code(const struct trax_translation *t, const struct trax_decoded *inst);
-/* Returns the templates of an operation, [TRAX_VARIANTS]. */
-const struct trax_template *trax_templates_of(const struct trax_translation *t, unsigned op);
 void trax_emit_template(struct trax_translation *t, const struct trax_template *template, size_t index);
 void trax_emit_cold(struct trax_translation *t, struct trax_stub stub);
 void trax_emit_instruction(struct trax_translation *t, size_t index);

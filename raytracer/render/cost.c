@@ -125,8 +125,8 @@ static uint32_t colour_of(uint64_t value, uint64_t white) {
   return pixel;
 }
 
-trax_status trax_costs_paint(const struct trax_costs *costs, const struct trax_cost_summary *summary,
-                             struct trax_picture *picture, trax_error *error) {
+static trax_status paint(const struct trax_costs *costs, const struct trax_cost_summary *summary,
+                         struct trax_picture *picture, trax_error *error) {
   if (trax_picture_init(picture, costs->width, costs->height, error) != TRAX_OK)
     return TRAX_ERROR;
   for (size_t i = 0; i < (size_t)costs->width * costs->height; i++)
@@ -137,7 +137,7 @@ trax_status trax_costs_paint(const struct trax_costs *costs, const struct trax_c
 trax_status trax_costs_write_picture(const struct trax_costs *costs, const struct trax_cost_summary *summary,
                                      const char *path, trax_error *error) {
   struct trax_picture picture;
-  if (trax_costs_paint(costs, summary, &picture, error) != TRAX_OK)
+  if (paint(costs, summary, &picture, error) != TRAX_OK)
     return TRAX_ERROR;
   const trax_status status = trax_picture_write(&picture, path, error);
   trax_picture_release(&picture);

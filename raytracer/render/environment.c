@@ -122,8 +122,8 @@ static trax_status make_aliases(struct trax_environment *environment, trax_error
   return TRAX_OK;
 }
 
-trax_status trax_environment_make(struct trax_environment *environment, const struct trax_picture *picture,
-                                  float strength, double turn, trax_error *error) {
+static trax_status make_texels(struct trax_environment *environment, const struct trax_picture *picture, float strength,
+                               double turn, trax_error *error) {
   *environment = (struct trax_environment){.radiance = calloc(TEXELS, sizeof *environment->radiance),
                                            .probability = calloc(TEXELS, sizeof *environment->probability),
                                            .aliases = calloc(TEXELS, sizeof *environment->aliases)};
@@ -152,7 +152,7 @@ trax_status trax_environment_read(struct trax_environment *environment, const ch
   if (status == TRAX_OK)
     status = check(&picture, path, error);
   if (status == TRAX_OK)
-    status = trax_environment_make(environment, &picture, strength, turn, error);
+    status = make_texels(environment, &picture, strength, turn, error);
   trax_picture_release(&picture);
   return status;
 }

@@ -19,9 +19,6 @@ struct trax_environment {
    light that is not finite or negative. Release it in any case. */
 trax_status trax_environment_read(struct trax_environment *environment, const char *path, float strength, double turn,
                                   trax_error *error);
-/* Makes the texels of a picture's floats. */
-trax_status trax_environment_make(struct trax_environment *environment, const struct trax_picture *picture,
-                                  float strength, double turn, trax_error *error);
 void trax_environment_release(struct trax_environment *environment);
 
 #endif

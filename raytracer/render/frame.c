@@ -99,8 +99,9 @@ trax_status trax_normalise(struct trax_scene *scene, struct trax_view *view, int
   return TRAX_OK;
 }
 
-/* The margin added to each side of a box, so that rounding never makes a ray miss the box of a triangle
-   that it hits. In units of 2^-24 and of D, the greatest distance along an axis between a ray's origin and the scene:
+/* The margin added to each side of a box for rays that begin at the eye or nearer to the scene, so that rounding never
+   makes a ray miss the box of a triangle that it hits. In units of 2^-24 and of D, the greatest distance along an axis
+   between a ray's origin and the scene:
    - a ray's triangle test sees every vertex displaced across the ray by 6 (the shear's factor, from a reciprocal of
    error 5)
      + 4 (translation and shear) + 3 (edge values): 13;
@@ -111,7 +112,7 @@ trax_status trax_normalise(struct trax_scene *scene, struct trax_view *view, int
    the grid's (2) in place of one subtraction: 4 more;
    32 is above the sum. As the margin is added to a ray's origin, it must be no less than that coordinate's rounding:
    hence the doubling and the second term. */
-float trax_box_margin(const struct trax_scene_header *header, const float eye[3]) {
+static float box_margin(const struct trax_scene_header *header, const float eye[3]) {
   double distance = 0, magnitude = greatest(greatest(greatest(0, header->bounds_min), header->bounds_max), eye);
   for (int i = 0; i < 3; i++) {
     double low = header->bounds_min[i], high = header->bounds_max[i];
@@ -237,7 +238,7 @@ trax_status trax_frame_init(struct trax_frame *frame, const struct trax_scene *s
   if (scene->normals)
     params->normals_distance = sections[TRAX_SCENE_NORMALS].offset - sections[TRAX_SCENE_TRIANGLES].offset;
   params->features = features;
-  params->box_margin = trax_box_margin(scene->header, view->eye);
+  params->box_margin = box_margin(scene->header, view->eye);
   if (set_grid(params, scene, error) != TRAX_OK) {
     trax_frame_release(frame);
     return TRAX_ERROR;

@@ -58,9 +58,6 @@ trax_status trax_normalise(struct trax_scene *scene, struct trax_view *view, int
 void trax_scale_view(struct trax_view *view, int exponent);
 void trax_scale_scene(struct trax_scene *scene, int exponent);
 
-/* The margin by which the traversal widens boxes, for rays that begin at the eye or nearer to the scene. */
-float trax_box_margin(const struct trax_scene_header *header, const float eye[3]);
-
 /* scene and view as trax_normalise left them; scene must outlive the frame. */
 trax_status trax_frame_init(struct trax_frame *frame, const struct trax_scene *scene, const struct trax_view *view,
                             const struct trax_frame_options *options, trax_error *error);
@@ -237,9 +234,7 @@ void trax_costs_add(void *context, const struct trax_item_cost *cost, bool last)
 trax_status trax_costs_summarise(const struct trax_costs *costs, struct trax_cost_summary *summary, trax_error *error);
 /* Numbers: PFM if the path ends so, else CSV (x, y, value). */
 trax_status trax_costs_write(const struct trax_costs *costs, const char *path, trax_error *error);
-/* False colours, as a picture and as a PNG. */
-trax_status trax_costs_paint(const struct trax_costs *costs, const struct trax_cost_summary *summary,
-                             struct trax_picture *picture, trax_error *error);
+/* False colours, as a PNG. */
 trax_status trax_costs_write_picture(const struct trax_costs *costs, const struct trax_cost_summary *summary,
                                      const char *path, trax_error *error);
 void trax_costs_print(const struct trax_costs *costs, const struct trax_cost_summary *summary, FILE *out);
@@ -286,8 +281,6 @@ struct trax_simulated_options {
   bool is_twin;                               /* the program visits the nodes and triangles that the twin does */
 };
 
-/* The size of the program's buffer `paths` on this machine; 0: nothing uses it. */
-uint32_t trax_path_bytes(const trax_machine *machine, const struct trax_frame *frame);
 /* Whether the loaded program has the symbol. */
 bool trax_program_has(const trax_machine *machine, const char *symbol);
 /* Loads the program and binds what it reads. */

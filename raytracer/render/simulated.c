@@ -96,7 +96,8 @@ static trax_status bind_record(trax_machine *machine, const struct trax_render_p
   return trax_machine_bind(machine, "record", NULL, (uint32_t)size, error);
 }
 
-uint32_t trax_path_bytes(const trax_machine *machine, const struct trax_frame *frame) {
+/* The size of the program's buffer `paths` on this machine; 0: nothing uses it. */
+static uint32_t path_bytes(const trax_machine *machine, const struct trax_frame *frame) {
   double threads = 0;
   trax_stats_get(machine, "threads", &threads);
   return frame->params->features & TRAX_PATH_FEATURES ? TRAX_PATH_BYTES * (uint32_t)threads : 0;
@@ -137,7 +138,7 @@ trax_status trax_simulated_load(trax_machine *machine, const struct trax_frame *
   if (status == TRAX_OK)
     status = trax_machine_bind(machine, "image", NULL, trax_frame_image_bytes(frame), error);
   if (status == TRAX_OK && trax_program_has(machine, "paths"))
-    status = trax_machine_bind(machine, "paths", NULL, trax_path_bytes(machine, frame), error);
+    status = trax_machine_bind(machine, "paths", NULL, path_bytes(machine, frame), error);
   if (status == TRAX_OK && trax_program_has(machine, "record"))
     status = bind_record(machine, frame->params, error);
   return status;

@@ -10,12 +10,7 @@ import shutil
 import sys
 import time
 
-from compare import main as comparison
-from report import docs, make
-from report.paper import Paper
-from report.results import Results
 from report.table import seconds
-from report.tables import print_tables
 from trax_eval import runners
 from trax_eval.estimate import estimate
 from trax_eval.finished import forget_damaged, is_intact
@@ -29,7 +24,6 @@ from trax_eval.tools import Tools
 from trax_eval.util import Problem, check_files, complain, nearest, remark
 from trax_eval.values import Areas
 
-from . import completion, space
 from .options import OPTIONS, described, job_parser, new_parser
 
 HELP = """\
@@ -171,6 +165,9 @@ def make_runs(options, tools, data, command, begin, files, folder, sweeps):
     failed = runners.run_all(out, tools, labels, options)
     results = collect(out, tools, Areas(data / "paper"), command, time.monotonic() - begin)
     if not options.quiet:
+        from report.paper import Paper
+        from report.results import Results
+        from report.tables import print_tables
         spent = math.fsum(run["host"]["processor_seconds"] for run in results["runs"]
                           if run["key"] in labels and (run.get("host") or {}).get("processor_seconds"))
         print_tables(Results(results), Paper(data / "paper"), [sweep.name for sweep in sweeps], sys.stdout)
@@ -178,12 +175,14 @@ def make_runs(options, tools, data, command, begin, files, folder, sweeps):
             f"{len(labels) - failed} runs are there, {failed} failed, {without} could not be prepared; "
             f"they took {seconds(spent) or '0 s'} of a processor; {out / 'results.json'}"
         )
-    unreported = (options.all or options.report) and make.main(
-        [str(out / "results.json"), "-o", str(out / "report.html")])
-    return 1 if failed or without or unreported else 0, results, plans
+    if options.all or options.report:
+        from report import make
+        failed += make.main([str(out / "results.json"), "-o", str(out / "report.html")])
+    return 1 if failed or without else 0, results, plans
 
 
 def explore_space(arguments, tools, data):
+    from . import space
     begin, options = time.monotonic(), parse(arguments)
     files, folder = choose(options, data)
     command = shlex.join(["trax-eval", "space", *arguments])
@@ -206,13 +205,16 @@ def run_one_job(arguments, tools):
 
 
 def dispatch(arguments, tools, data):
+    """What one command alone needs is imported by it: it would double the time of every start."""
     if arguments[:1] == ["compare"]:
+        from compare import main as comparison
         return comparison.main(arguments[1:], tools, data)
     if arguments[:1] == ["fetch-scenes"]:
-        from fetch import main as fetch  # the network's modules would be a third of every start
+        from fetch import main as fetch
         return fetch.main(arguments[1:], tools)
     if arguments[:1] == ["space"]:
         if "-h" in arguments or "--help" in arguments:
+            from . import space
             print(space.HELP, end="")
             return 0
         return explore_space(arguments[1:], tools, data)
@@ -220,6 +222,7 @@ def dispatch(arguments, tools, data):
         print(help_text(data), end="")
         return 0
     if arguments == ["--help-completion"]:
+        from . import completion
         print(completion.script(data, [path.stem for path in experiments(data)]))
         return 0
     if "--version" in arguments:
@@ -228,8 +231,10 @@ def dispatch(arguments, tools, data):
     if arguments[:1] == ["job"]:
         return run_one_job(arguments[1:], tools)
     if arguments[:1] == ["report"]:
+        from report import make
         return make.main(arguments[1:])
     if arguments[:1] == ["docs"]:
+        from report import docs
         return docs.main(arguments[1:])
     if arguments[:1] == ["new-sweep"]:
         raise Problem(

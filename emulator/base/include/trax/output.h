@@ -25,8 +25,6 @@ typedef struct trax_output {
 } trax_output;
 
 trax_status trax_output_open(trax_output *output, const char *path, trax_error *error);
-/* Makes the file executable for everyone whom the umask permits. */
-void trax_output_make_executable(trax_output *output);
 /* Closes and renames the file. On an error the temporary file is removed, and an earlier file of that name stays. */
 trax_status trax_output_commit(trax_output *output, trax_error *error);
 void trax_output_discard(trax_output *output);

@@ -20,7 +20,6 @@ void trax_reads_begin(void);
 /* Notes a file that was read, or that a simulated program has written. Devices, pipes and folders are ignored.
    trax_input_open and the list of trax/files.h call it for their files. */
 void trax_reads_note(const struct stat *file);
-void trax_reads_note_path(const char *path);
 /* Drops a file that the program itself has made and may make anew; its inode may be that of a file that was read and is
    gone. */
 void trax_reads_drop(const struct stat *file);

@@ -21,8 +21,6 @@ extern volatile sig_atomic_t trax_signal;
 void trax_catch_signals(void);
 /* Handles one more signal in the same way. */
 void trax_catch_signal(int number);
-/* Restores the default actions. */
-void trax_default_signals(void);
 /* fork() with the default actions in the child. After a plain fork() the child would have the handlers until it calls
    exec, and would only note a signal. The child receives `signal` when the thread that calls this ends. */
 pid_t trax_fork(int signal);
