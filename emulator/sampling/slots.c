@@ -230,6 +230,15 @@ void trax_slots_destroy(struct trax_slots *slots) {
   free(slots);
 }
 
+/* How many cycles the end took longer than expected. A thread that was in a long slot at a jump is still in it: in the
+   exact run this slot may have ended long before. */
+static double late_end(const struct trax_slots *slots, uint64_t t) {
+  const struct trax_slot_plan *plan = &slots->plan;
+  const double expected =
+      trax_slot_plan_cost_before(plan, plan->asked.slots) - trax_slot_plan_cost_before(plan, plan->last);
+  return fmax((double)t - slots->begun - expected * slots->unit_cycles / slots->unit_cost, 0);
+}
+
 trax_status trax_slots_finish(struct trax_slots *slots, uint64_t t, trax_error *error) {
   struct trax_machine *machine = slots->run->machine;
   struct trax_sampling_stats *stats = &machine->stats.sampling;
@@ -266,8 +275,8 @@ trax_status trax_slots_finish(struct trax_slots *slots, uint64_t t, trax_error *
   const double cycles = slots->exact_cycles + middle.total;
   machine->stats.cycles = (uint64_t)llround(cycles);
   stats->windows = slots->done;
-  const double half = half_of(&middle);
-  stats->low = fmax(cycles - half, slots->exact_cycles);
+  const double half = half_of(&middle), late = late_end(slots, t);
+  stats->low = fmax(cycles - half, slots->exact_cycles) - late;
   stats->high = cycles + half;
   stats->detailed_slots -= slots->slots_left_out;
   trax_slot_counts_estimate(&slots->counts, &slots->plan.asked);

@@ -4,6 +4,7 @@
 #include "trax/output.h"
 
 #include <string.h>
+#include <sys/stat.h>
 
 /* The sampler's numbers have 16 bits (device/sampler.h). */
 #define MOST_OCCLUSION_POINTS (1u << 16)
@@ -70,6 +71,12 @@ static trax_status check_rays(const struct options *options, trax_error *error) 
   return TRAX_OK;
 }
 
+/* A device, a pipe or a folder. */
+static bool is_special(const char *path) {
+  struct stat found;
+  return stat(path, &found) == 0 && !S_ISREG(found.st_mode);
+}
+
 trax_status options_check(const struct options *options, trax_error *error) {
   if (options->mesh_count == 0)
     return trax_fail(error, "no mesh given; trax-render --help shows how");
@@ -91,6 +98,10 @@ trax_status options_check(const struct options *options, trax_error *error) {
   }
   if (options->frames > 1 && !options->output)
     return trax_fail(error, "--frames needs -o PICTURE.png: each picture has its number in the name");
+  if (options->frames > 1 && (trax_output_descriptor(options->output) >= 0 || is_special(options->output)))
+    return trax_fail(error, "--frames: %s is no file that could have a number in its name", options->output);
+  if (options->import.animation && !options->import.moves)
+    return trax_fail(error, "--animation without --at");
   if (options->hits && (options->frames > 1 || options->sampled))
     return trax_fail(error, "--hits is about one whole picture");
   if (options->layers && !(options->output && trax_output_has_ending(options->output, "exr")))

@@ -64,7 +64,7 @@ trax_status trax_rays_read(struct trax_rays *rays, const char *path, trax_error 
     status = trax_fail(error, "%s: not a binary file of rays, as --ray-trace writes it", path);
   else if (rays->header.exact > 1)
     status = trax_fail(error, "%s: `exact` is %u, neither 0 nor 1", path, rays->header.exact);
-  else if (abs(rays->header.exponent) > 300)
+  else if (rays->header.exponent < -300 || rays->header.exponent > 300)
     status = trax_fail(error, "%s: no scene is scaled by 2^%d", path, rays->header.exponent);
   else if ((size - sizeof rays->header) % sizeof *rays->records != 0)
     status = trax_fail(error, "%s: ray %zu is cut off", path, (size - sizeof rays->header) / sizeof *rays->records + 1);
@@ -121,6 +121,9 @@ trax_status trax_rays_frame(struct trax_frame *frame, struct trax_scene *scene, 
   if (scene->instances)
     return trax_fail(error, "--rays traces no rays of a scene with instances (--flatten)");
   trax_scale_scene(scene, rays->header.exponent);
+  if (!are_finite(scene->header->bounds_min) || !are_finite(scene->header->bounds_max))
+    return trax_fail(error, "the rays are of another scene: this one has no coordinates times 2^%d",
+                     rays->header.exponent);
   const float *farthest = farthest_origin(rays, scene->header);
   memcpy(view.eye, farthest, sizeof view.eye);
   if (trax_normalise(scene, &view, &exponent, error) != TRAX_OK)

@@ -11,7 +11,7 @@
 #define MOST_CONDITION 0x1p14
 
 /* The greatest of the rows' sums of magnitudes: how much a vector's greatest component grows at most. */
-static double norm(const float m[3][3]) {
+static double norm(const float (*m)[3]) {
   double most = 0;
   for (int row = 0; row < 3; row++)
     most = fmax(most, fabs((double)m[row][0]) + fabs((double)m[row][1]) + fabs((double)m[row][2]));

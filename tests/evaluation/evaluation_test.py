@@ -349,6 +349,8 @@ REFUSED = [
     ('{"name": "x", "set": {"trax-render --smooth": "yes"}}', "--smooth takes no value"),
     ('{"name": "x", "set": {"trax-render --siz": "9x9"}}',
      "set.trax-render --siz: --size is what trax-eval says itself"),
+    ('{"name": "x", "set": {"trax-render --pixel": "1,1"}}',
+     "set.trax-render --pixel: --pixel is what trax-eval says itself"),
     ('{"name": "x", "set": {"trax-render --pre": "d"}}',
      "set.trax-render --pre: --prepare writes files, and trax-eval itself says which"),
     ('{"name": "x", "set": {"trax-render --views": true}}',
@@ -467,7 +469,7 @@ def test_refusals(evaluation, scratch):
 
 
 READING = {"trax-scene": ("tree", "tree-triangles", "tree-boxes", "refit"),
-           "trax-render": ("view", "environment", "explore-against")}  # options with files that are not refused
+           "trax-render": ("view", "environment")}  # options with files that are not refused
 
 
 def refuse_writing(evaluation, scratch, complete):

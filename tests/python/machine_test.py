@@ -119,6 +119,43 @@ def test_errors_have_places(programs, manifest):
         trax.prepare("no-such.ply", folder="nowhere", options=("--paths", "many"))
 
 
+def test_no_output_is_an_input(programs, manifest, tmp_path):
+    """Files that a machine was made of stay, by whichever name an explanation would be written."""
+    other = tmp_path / "other.elf"
+    other.symlink_to(programs["triple"])
+    chip = tmp_path / "chip.cfg"
+    chip.write_text("chip: { tms = 1; };\n")
+    for program, path in ((programs["triple"], programs["triple"]), (programs["triple"], other),
+                          (programs["triple"], chip), (manifest, manifest),
+                          (manifest, os.path.join(os.path.dirname(manifest), "program.elf"))):
+        with open(path, "rb") as file:
+            before = file.read()
+        with pytest.raises(trax.TraxError, match="is an input"):
+            trax.Machine(program, str(chip)).run(explore=path)
+        with open(path, "rb") as file:
+            assert file.read() == before
+    twice = str(tmp_path / "x.html")
+    with pytest.raises(trax.TraxError, match="twice"):
+        trax.Machine(programs["triple"]).run(explore=twice, profile=twice)
+    with pytest.raises(trax.TraxError, match="is an input"):
+        trax.Machine(programs["triple"]).run(explore=twice, against=twice)
+    assert sorted(os.listdir(tmp_path)) == ["chip.cfg", "other.elf"]
+
+
+def test_a_picture_is_whole_or_the_earlier_one(tmp_path):
+    place = tmp_path / "picture.png"
+    place.write_bytes(b"earlier")
+    with pytest.raises(ValueError):
+        trax.Picture(numpy.zeros((2, 3, 1), numpy.uint8)).save(place)
+    assert place.read_bytes() == b"earlier" and os.listdir(tmp_path) == ["picture.png"]
+    link = tmp_path / "link.png"
+    link.symlink_to(place)
+    picture = trax.Picture(numpy.zeros((2, 3, 4), numpy.uint8))
+    picture.save(link)
+    picture.save("/dev/null")
+    assert link.is_symlink() and place.read_bytes() == picture.png()
+
+
 def test_linear_pixels_become_bytes_by_the_srgb_curve():
     """By hand: 255 times the curve, rounded; below 0.0031308 it is a line."""
     pixels = numpy.array([[[0.5, 0.2, 0.001, 1], [2, -1, numpy.nan, 0]]], numpy.float32)

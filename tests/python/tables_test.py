@@ -7,6 +7,7 @@ import subprocess
 import sys
 
 import numpy
+import pytest
 
 import trax
 
@@ -64,6 +65,15 @@ def test_results_of_an_evaluation(tmp_path):
     table = trax.results(tmp_path / "out/results.json")
     assert list(table["config"]) == ["1x32", "2x32"] and set(table["status"]) == {"done"}
     assert (table["width"] == 8).all() and table["cycles"][0] > table["cycles"][1] > 0
+
+
+def test_results_of_something_else(tmp_path):
+    for name, content in (("none.json", None), ("bytes.json", b"\xff\xfe"), ("list.json", b"[1]"),
+                          ("empty.json", b"{}"), ("runs.json", b'{"runs": [3]}')):
+        if content is not None:
+            (tmp_path / name).write_bytes(content)
+        with pytest.raises(trax.TraxError, match=name):
+            trax.results(tmp_path / name)
 
 
 def test_wheel(tmp_path):

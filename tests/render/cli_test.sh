@@ -98,6 +98,10 @@ refuse "--orbit: '1,2,3' is not" "$render" "$box" -o x.png --orbit 1,2,3
 refuse "--frames: '0' is not a whole number" "$render" "$box" -o x.png --frames 0
 refuse '--frames makes pictures only' "$render" "$box" -o x.png --frames 2 --stats s.json
 refuse '--frames makes pictures only' "$render" "$box" -o x.png --frames 2 --id-picture i.png
+for output in - /dev/stdout /dev/null .; do
+  refuse "--frames: $output is no file" "$render" "$box" -o $output --frames 2
+done
+refuse '--animation without --at' "$render" "$box" -o x.png --animation run
 refuse 'the meshes have no cameras' "$render" "$box" -o x.png --view file:main
 refuse 'is the eye itself' "$render" "$box" -o x.png --eye 1,2,3 --look-at 1,2,3
 refuse 'in which the eye looks' "$render" "$box" -o x.png --eye 1,2,3 --look-at 1,2,5 --up 0,0,1

@@ -102,7 +102,8 @@ def check_refusals(rays, file):
     refused("ray 3: its interval has no end", bytes_=changed(28, "<f", float("inf")))
     refused("ray 3: there is no such kind", bytes_=changed(38, "<B", 8))
     refused("of another scene", bytes_=changed(0, "<f", 1e30))
-    refused("scaled by 2^4096", bytes_=file[:24] + struct.pack("<i", 4096) + file[28:])
+    for exponent, words in ((4096, "scaled by 2^4096"), (-1 << 31, "scaled by 2^-2147483648"), (300, "times 2^300")):
+        refused(words, bytes_=file[:24] + struct.pack("<i", exponent) + file[28:])
     refused("`exact` is 2", bytes_=file[:28] + struct.pack("<I", 2) + file[32:])
     refused("no-such.bin", other="no-such.bin")
     pathlib.Path("bad.bin").write_bytes(file)

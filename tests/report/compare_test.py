@@ -4,6 +4,7 @@ on random statistics: a run does not differ from itself, the parts add up to the
 against B with the other sign, and a figure that is changed is found. Then the files beside the statistics, folders,
 sampled runs, bad input, and the page in a browser. --keep leaves pages and pictures in a folder, to be looked at."""
 
+import base64
 import contextlib
 import copy
 import fractions
@@ -12,6 +13,7 @@ import json
 import os
 import pathlib
 import random
+import re
 import shutil
 import struct
 import subprocess
@@ -363,7 +365,8 @@ class Files(Scratch):
                 shutil.copy(self.folder / f"{run}.json", self.place / name / f"r{number}.json")
         shutil.copy(self.folder / "a.html", self.place / "after/page.html")
         (self.place / "after/list.json").write_text("[1]")
-        (self.place / "after/folder.json").mkdir()
+        for folder in ("folder.json", "folder.html"):
+            (self.place / "after" / folder).mkdir()
         found = json.loads(self.command("--json", "before", "after", folder=self.place).stdout)
         self.assertEqual((sorted(found["runs"]), found["only_a"], found["only_b"]), (["r0", "r1"], [], ["page"]))
         self.assertEqual(found["runs"]["r0"]["cycles"]["difference"], -found["runs"]["r1"]["cycles"]["difference"])
@@ -410,10 +413,34 @@ class Files(Scratch):
             self.assertIn(said, run.stderr)
             self.assertEqual((run.stdout, run.stderr.count("\n")), ("", 1))
         (self.place / "c.json").write_text(json.dumps(good))
-        for name, content in (("c.folded", "what\n"), ("c.png", "GIF89a")):
+        for name, content in (("c.folded", "what\n"), ("c.folded", f"main;issued {'9' * 5000}\n"), ("c.png", "GIF89a")):
             (self.place / name).write_text(content)
             self.assertIn(name, self.command("c.json", "c.json", status=1, folder=self.place).stderr)
             (self.place / name).unlink()
+        # Another table beside the statistics, and one with figures that no run has, are not the kinds of its rays.
+        head, cycles = "kind,rays,thread_cycles,issued\n", good["thread_cycles"]
+        for content in ("a,b\n1,2\n", f"{head}primary,1e999,{cycles},1\n", f"{head}primary,1,{cycles},{10**400}\n",
+                        f"{head}primary,1,{cycles},{'x' * 200000}\n", f"{head}primary,1,{cycles},{'9' * 5000}\n"):
+            (self.place / "c.csv").write_text(content)
+            found = json.loads(self.command("--json", "c.json", "c.json", folder=self.place).stdout)
+            self.assertNotIn("kinds", found)
+
+    def test_forged_pages(self):
+        """A value of another type or size anywhere in the data of a page is an error that names the page."""
+        text = (self.folder / "a.html").read_text()
+        begin, data, end = re.split(r'(?<=id="data">)([A-Za-z0-9+/=]*)', text, maxsplit=1)
+        page = json.loads(zlib.decompress(base64.b64decode(data)))
+        last = page["instructions"][-2]  # the one behind it is no instruction
+        function = last[4][0][0]
+        for place, key, value in ((page["names"], function, 7), (last[5], 0, 10**400), (last[5], 0, "1"),
+                                  (page["picture"], "width", -1), (page["picture"], "height", 0),
+                                  (page, "ray_kinds", 3), (page, "names", {})):
+            kept, place[key] = place[key], value
+            packed = base64.b64encode(zlib.compress(json.dumps(page).encode())).decode()
+            (self.place / "forged.html").write_text(begin + packed + end)
+            place[key] = kept
+            run = self.command("forged.html", self.folder / "a.json", status=1, folder=self.place)
+            self.assertRegex(run.stderr, "^trax-sim: error: forged.html: is no page of --explore .*\n$")
 
     def test_bad_use(self):
         a, b = self.folder / "a.json", self.folder / "b.json"

@@ -261,6 +261,58 @@ static void some_of_it(void **state) {
   end(&exact);
 }
 
+/* One item in the middle takes half of the exact run, in which the others go on beside it. */
+enum { LONG_ITEM = 2600, LOG2_TURNS = 13 };
+
+static size_t items_with_a_long_one(uint32_t *words) {
+  uint32_t plain[BODY + 64];
+  const size_t plain_count = item_program(plain);
+  size_t n = 0, next = 0;
+  for (size_t from = 0; from < plain_count; from++) {
+    if (plain[from] == I(AINC, 10, 12, 0))
+      next = n;
+    if (plain[from] == I(ANDI, 20, 10, 31)) {
+      words[n++] = I(XORI, 16, 10, LONG_ITEM);
+      words[n++] = I(ADDI, 16, 16, -1);
+      words[n++] = I(SRLI, 16, 16, 31); /* 1: it was 0 */
+      words[n++] = I(SLLI, 16, 16, LOG2_TURNS);
+      words[n++] = I(SRLI, 20, 10, 5);
+      words[n++] = R(ADD, 20, 20, 16);
+    } else {
+      words[n++] = plain[from];
+    }
+  }
+  words[n - 2] = B(BEQ, 0, 0, ((int32_t)next - (int32_t)(n - 2)) * 4);
+  words[next + 1] = B(BGE, 10, 11, ((int32_t)(n - 1) - (int32_t)(next + 1)) * 4);
+  return n;
+}
+
+/* A thread that is in a long item at a jump may be the last to end. The interval includes the exact run, which has
+   passed the item by then. */
+static void a_long_item(void **state) {
+  (void)state;
+  uint32_t program[BODY + 64];
+  const size_t count = items_with_a_long_one(program);
+  const struct trax_config config = plain_config();
+  struct run exact = run_alone(&config, program, count, "fast", 0, 1);
+  const double truth = (double)exact.bench.machine->stats.cycles;
+  unsigned hits = 0, late = 0;
+  for (uint64_t seed = 1; seed <= seeds(); seed++) {
+    trax_slot_sampling asked = some;
+    asked.seed = seed;
+    asked.fraction = 0.1, asked.unit = 64, asked.warm_up = 64;
+    struct run sampled = run_with(&config, program, count, &(trax_run_options){.slots = &asked, .host_threads = 1});
+    const struct trax_stats *stats = &sampled.bench.machine->stats;
+    assert_int_equal(sampled.bench.status, TRAX_OK);
+    hits += stats->sampling.low <= truth && truth <= stats->sampling.high;
+    late += (double)stats->cycles - stats->sampling.low > 1.5 * (stats->sampling.high - (double)stats->cycles);
+    end(&sampled);
+  }
+  assert_in_range(hits, least_hits(), seeds());
+  assert_in_range(late, 1, seeds() - 1); /* not in runs that leave the item out */
+  end(&exact);
+}
+
 /* The choice and the result depend on the seed alone. */
 static void repeatable(void **state) {
   (void)state;
@@ -467,10 +519,13 @@ static void refusals(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(quantiles),          cmocka_unit_test(by_hand),        cmocka_unit_test(coverage),
-      cmocka_unit_test(everything),         cmocka_unit_test(some_of_it),     cmocka_unit_test(repeatable),
-      cmocka_unit_test(as_asked),           cmocka_unit_test(several_queues), cmocka_unit_test(refusals),
-      cmocka_unit_test(refusals_of_queues), cmocka_unit_test(large_sizes),    cmocka_unit_test(large_tiles),
+      cmocka_unit_test(quantiles),          cmocka_unit_test(by_hand),
+      cmocka_unit_test(coverage),           cmocka_unit_test(everything),
+      cmocka_unit_test(some_of_it),         cmocka_unit_test(a_long_item),
+      cmocka_unit_test(repeatable),         cmocka_unit_test(as_asked),
+      cmocka_unit_test(several_queues),     cmocka_unit_test(refusals),
+      cmocka_unit_test(refusals_of_queues), cmocka_unit_test(large_sizes),
+      cmocka_unit_test(large_tiles),
   };
   return cmocka_run_group_tests(tests, guess, NULL);
 }

@@ -3,6 +3,8 @@
 import dataclasses
 import functools
 import json
+import os
+import stat
 
 import numpy
 
@@ -21,6 +23,23 @@ def flat(statistics, before=""):
         elif not isinstance(value, list):
             found[before + name] = value
     return found
+
+
+def identity(file):
+    """Of a path or descriptor: what a regular file is, whatever its name; None of what may be written at any time."""
+    try:
+        found = os.stat(file)
+    except OSError:
+        return os.path.realpath(file)
+    return (found.st_dev, found.st_ino) if stat.S_ISREG(found.st_mode) else None
+
+
+def texts(value):
+    """All strings of a JSON value."""
+    if isinstance(value, str):
+        yield value
+    for item in value.values() if isinstance(value, dict) else value if isinstance(value, list) else ():
+        yield from texts(item)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -71,11 +90,16 @@ class Machine:
     program may read and write. Errors: TraxError."""
     def __init__(self, program, chip=None, settings=None, arguments=None, folders=None):
         self._manifest, self._ran, self._stop = None, False, ffi.new("int *")
+        self._inputs = [program, *([] if chip is None or isinstance(chip, Config) else [chip])]
         error = new_error()
         if lib.trax_manifest_is(encoded(program)):
             found = lib.trax_manifest_read(encoded(program), error)
             self._require(found, error)
             self._manifest = ffi.gc(found, lib.trax_manifest_release)
+            with open(program, "rb") as file:
+                folder = os.path.dirname(os.fsdecode(program))
+                paths = [os.path.join(folder, name) for name in texts(json.load(file)) if "\0" not in name]
+            self._inputs += filter(os.path.isfile, paths)
         self.config = self._configuration(chip, settings, error)
         made = lib.trax_machine_create(self.config.handle, error)
         self._require(made, error)
@@ -163,6 +187,7 @@ class Machine:
             options.engine = keep[-1]
         if input is not None:
             options.input = ffi.cast("FILE *", input)
+        self._check_outputs(explain, [] if input is None else [input.fileno()])
         if self._manifest:
             options.total_items = lib.trax_manifest_items(self._manifest)
         report = self._explanation(explain, keep, error)
@@ -180,6 +205,18 @@ class Machine:
     def interrupt(self):
         """Ends the run that is under way in another thread, by the exception Interrupted there."""
         self._stop[0] = 1
+
+    def _check_outputs(self, explain, inputs):
+        """No file of an explanation may be an input of the run, and none may be written twice."""
+        names = {name: value for name, value in explain.items()
+                 if not isinstance(value, int) and name not in ("item_buffer", "title", "against")}
+        known = {identity(file) for file in (*self._inputs, *inputs, *(
+            [explain["against"]] if "against" in explain else []))} - {None}
+        for name, path in names.items():
+            which = identity(path)
+            if which in known:
+                raise TraxError(f"{path}: {name} is an input of the run, or is written twice")
+            known |= {which} - {None}
 
     def _explanation(self, explain, keep, error):
         if not explain:

@@ -1,7 +1,9 @@
 """Pictures."""
 
 import dataclasses
+import os
 import struct
+import threading
 import zlib
 
 import numpy
@@ -40,9 +42,21 @@ class Picture:
                 chunk(b"IDAT", zlib.compress(rows.tobytes())) + chunk(b"IEND", b""))
 
     def save(self, path):
-        """Writes a PNG file."""
-        with open(path, "wb") as file:
-            file.write(self.png())
+        """Writes a PNG file, whole or not at all."""
+        data, target = self.png(), os.path.realpath(path)
+        if os.path.exists(target) and not os.path.isfile(target):  # a device or a pipe
+            with open(target, "wb") as file:
+                file.write(data)
+            return
+        beside = f"{target}.{os.getpid()}.{threading.get_native_id()}"
+        try:
+            with open(beside, "wb") as file:
+                file.write(data)
+            os.replace(beside, target)
+        except BaseException:
+            if os.path.exists(beside):
+                os.unlink(beside)
+            raise
 
     def _repr_png_(self):
         return self.png()

@@ -5,6 +5,7 @@ import itertools
 import json
 import os
 
+from ._library import TraxError
 from .machine import Machine, flat
 
 
@@ -49,12 +50,17 @@ def results(path):
     """The runs of a results.json of trax-eval as a pandas.DataFrame: a row for each run with scene, program, chip,
     workload, size, variant, mode, its settings, derived values and statistics."""
     import pandas
-    with open(path, encoding="utf-8") as file:
-        value = json.load(file)
-    rows = []
-    for run in value["runs"]:
-        row = {name: run.get(name) for name in ("scene", "program", "config", "workload", "variant", "mode", "status")}
-        row |= dict(zip(("width", "height"), run["size"])) | run.get("set", {})
-        rows.append(row | {name: figure for name, figure in (flat(run.get("values") or {}) |
-                                                             flat(run.get("stats") or {})).items() if name not in row})
-    return pandas.DataFrame(rows)
+    try:
+        with open(path, encoding="utf-8") as file:
+            return pandas.DataFrame([row_of(run) for run in json.load(file)["runs"]])
+    except OSError as error:
+        raise TraxError(f"{path}: {error.strerror}") from error
+    except (ValueError, KeyError, TypeError, AttributeError) as error:
+        raise TraxError(f"{path}: is no results.json of trax-eval ({type(error).__name__}: {error})") from error
+
+
+def row_of(run):
+    row = {name: run.get(name) for name in ("scene", "program", "config", "workload", "variant", "mode", "status")}
+    row |= dict(zip(("width", "height"), run["size"])) | run.get("set", {})
+    figures = flat(run.get("values") or {}) | flat(run.get("stats") or {})
+    return row | {name: figure for name, figure in figures.items() if name not in row}

@@ -18,6 +18,8 @@ def read_png(path):
         width, height, depth, kind, _, _, interlaced = struct.unpack(">IIBBBBB", data[16:29])
         if depth != 8 or kind not in CHANNELS or interlaced or width * height * 4 > FILE_LIMIT:
             raise ValueError("only pictures of 8 bits a channel, not interlaced, are read")
+        if not width * height:
+            raise ValueError("it has no pixels")
         place, packed = len(SIGNATURE), []
         while place < len(data):
             size, name = struct.unpack(">I4s", data[place:place + 8])

@@ -25,6 +25,11 @@ def is_number(value):
     return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
+def is_figure(value):
+    """A number that a run can have: its quotients and sums are finite."""
+    return is_number(value) and (value == 0 or TINIEST < abs(value) < LARGEST)
+
+
 def flat(value, name=""):
     """The leaves of a JSON value, by their names with dots."""
     if isinstance(value, (dict, list)) and value:
@@ -52,8 +57,7 @@ def check_statistics(path, stats):
         need(isinstance(stats.get(name), dict), f'"{name}" is no object')
     need(isinstance(stats["configuration"].get("chip", {}), dict), '"configuration.chip" is no object')
     for name, value in flat(stats):
-        need(not is_number(value) or value == 0 or TINIEST < abs(value) < LARGEST,
-             f'"{name}" is no figure that a run can have')
+        need(not is_number(value) or is_figure(value), f'"{name}" is no figure that a run can have')
     for cause, cycles in stats["causes"].items():
         need(is_number(cycles), f'"causes.{cause}" is no number')
     sampled = stats.get("sampled")
@@ -131,6 +135,8 @@ class Run:
 
     def take_picture(self, picture, packed):
         width, height, at = picture["width"], picture["height"], 0
+        if min(width, height) < 1:
+            raise ValueError("a picture without pixels")
         costs, channels = {}, {}
         for group, name, *_ in picture["columns"][:-1]:
             values, at = numbers(packed, at, width * height)
@@ -164,6 +170,8 @@ def numbers(packed, at, count):
     for _ in range(count):
         value = shift = 0
         while packed[at] >= 128:
+            if shift > 63:
+                raise ValueError("a number of more than 64 bits")
             value |= (packed[at] & 127) << shift
             shift, at = shift + 7, at + 1
         values.append(value | packed[at] << shift)
@@ -172,6 +180,8 @@ def numbers(packed, at, count):
 
 
 def add(table, name, cause, cycles):
+    if not isinstance(name, str) or not is_figure(cycles):
+        raise ValueError(f"{cycles!r:.40} thread-cycles of {name!r:.40}")
     if cycles:
         row = table.setdefault(name, {})
         row[cause] = row.get(cause, 0) + cycles
@@ -188,7 +198,7 @@ def read_folded(text, path):
     for number, line in enumerate(text.splitlines(), 1):
         stack, _, cycles = line.rpartition(" ")
         *frames, cause = stack.split(";")
-        if not cycles.isdecimal() or not frames:
+        if not re.fullmatch("[0-9]{1,18}", cycles) or not frames:
             raise Problem(f'{path}:{number}: is not of the form "FUNCTION;...;CAUSE CYCLES"')
         place = frames.pop() if re.fullmatch(r".+:\d+", frames[-1]) and len(frames) > 1 else "(no line)"
         add(profile["functions"], frames[-1], cause, int(cycles))
@@ -198,15 +208,16 @@ def read_folded(text, path):
 
 def read_kinds(text):
     """--ray-kinds: a row of each kind, without the two that are sums and remainders. None: another table."""
-    rows = list(csv.DictReader(text.splitlines()))
-    if not rows or not {"kind", "rays", "thread_cycles"} <= rows[0].keys():
-        return None
     try:
-        return {row["kind"]: {name: float(value) if "." in value or "e" in value else int(value)
-                              for name, value in row.items() if name not in ("kind", "part")}
-                for row in rows if row["kind"] not in ("rest", "all")}
-    except (ValueError, TypeError):
+        rows = list(csv.DictReader(text.splitlines()))
+        if not rows or not {"kind", "rays", "thread_cycles"} <= rows[0].keys():
+            return None
+        kinds = {row["kind"]: {name: float(value) if "." in value or "e" in value else int(value)
+                               for name, value in row.items() if name not in ("kind", "part")}
+                 for row in rows if row["kind"] not in ("rest", "all")}
+    except (csv.Error, ValueError, TypeError):
         return None
+    return kinds if all(is_figure(value) for row in kinds.values() for value in row.values()) else None
 
 
 def runs_of(folder):
@@ -216,7 +227,7 @@ def runs_of(folder):
         if path.suffix == ".json" and path.is_file() and is_statistics(read_json(path, strict=False)):
             found[path.stem] = path
     for path in sorted(pathlib.Path(folder).glob("*.html")):
-        if path.stem not in found and b'id="pixels"' in read_bytes(path):
+        if path.stem not in found and path.is_file() and b'id="pixels"' in read_bytes(path):
             found[path.stem] = path
     if not found:
         raise Problem(f"{folder}: has no run, neither statistics (--stats NAME.json) nor a page (--explore NAME.html)")

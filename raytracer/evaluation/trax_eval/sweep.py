@@ -29,7 +29,7 @@ KEYS = ("name", "title", "claim", "x", "y", "y_per", "scenes", "programs", "chip
 TAKEN = {
     "trax-scene": ("check", "stats", "quiet"),
     "trax-render": ("size", "frames", "show", "config", "set", "engine", "threads", "compare", "source", "program",
-                    "sampled", "rays", "quiet")
+                    "sampled", "rays", "quiet", "pixel", "explore-against", "source-folder", "cost")
 }
 VARIANT_KEYS = ("name", "program")  # of an object in the list `set`, beside keys that are set
 
