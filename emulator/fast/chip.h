@@ -59,6 +59,8 @@ void trax_fast_report(const struct trax_chip *chip, uint64_t cycles);
    settled. */
 void trax_fast_count_rays(struct trax_tm *tm, unsigned number, int32_t code, uint32_t value);
 void trax_fast_settle_rays(struct trax_tm *tm);
+/* The causes of refusals, in the order of struct trax_fast_refused. */
+extern const trax_cause trax_fast_refusal_causes[TRAX_FAST_REFUSALS];
 /* Notifies an observer of the refusals of the current cycle. */
 void trax_fast_notify_refusals(struct trax_tm *tm, const struct trax_fast_refused *refused);
 /* For an observer of stretches: logs the refusals of some TPs' heads that are not in the log yet; records the accesses

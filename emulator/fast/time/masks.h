@@ -93,9 +93,6 @@ struct trax_fast_refused {
 };
 enum { TRAX_FAST_REFUSALS = sizeof(struct trax_fast_refused) / sizeof(uint64_t) };
 
-/* The cause of each kind. */
-extern const trax_cause trax_fast_refusal_causes[TRAX_FAST_REFUSALS];
-
 /* Bit-sliced counters of refusals for each TP and kind: planes[k] has bit k of the counters of all TPs, so that a cycle
    is counted for all TPs at once. A log of several cycles is added together, since the carries cost most. */
 enum { TRAX_FAST_LOG_BITS = 5, TRAX_FAST_LOG = (1 << TRAX_FAST_LOG_BITS) - 1 /* cycles */ };
