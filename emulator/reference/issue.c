@@ -102,8 +102,7 @@ void trax_ref_issue_of(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t 
     tm->stats->taken_branches++;
     tp->bubble_ends = t + 1 + tm->config->tp.branch_bubble_cycles;
   }
-  if (tm->machine->observer)
-    trax_ref_notify_issue(tm, tp, pc, t);
+  trax_ref_notify_issue(tm, tp, pc, t);
   tp->outcome = 0;
 }
 

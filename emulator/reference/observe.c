@@ -21,7 +21,7 @@ static uint32_t result_of(const struct trax_ref_tp *tp) {
 
 void trax_ref_notify_issue(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp, uint32_t pc, uint64_t t) {
   const struct trax_observer *observer = tm->machine->observer;
-  if (!observer->issue)
+  if (!observer || !observer->issue)
     return;
   struct trax_issue issue = {.cycle = t,
                              .tm = tm->number,

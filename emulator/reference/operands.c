@@ -1,6 +1,11 @@
 /* docs/timing.md, "Operands": step 2. */
 #include "reference/reference.h"
 
+void trax_ref_result(struct trax_ref_tp *tp, uint64_t cycle, trax_cause cause) {
+  if (trax_ref_is(tp, TRAX_WRITES_RD) && tp->inst.rd != 0) /* r0 is always usable */
+    tp->scoreboard[tp->inst.rd] = (struct trax_ref_register){.usable = cycle, .cause = cause};
+}
+
 static unsigned wait_for_operands(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t) {
   const struct {
     unsigned count, first;

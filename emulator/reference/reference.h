@@ -230,11 +230,8 @@ void trax_ref_check_operands(struct trax_ref_tm *tm, uint64_t t);
 unsigned trax_ref_wait_for_registers(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t);
 /* Computes the address of a memory access. A TP whose access is not allowed faults. */
 void trax_ref_find_address(struct trax_ref_tm *tm, struct trax_ref_tp *tp, uint64_t t);
-/* The destination register of the TP's instruction is usable from `cycle` on. r0 is always usable. */
-static inline void trax_ref_result(struct trax_ref_tp *tp, uint64_t cycle, trax_cause cause) {
-  if (trax_ref_is(tp, TRAX_WRITES_RD) && tp->inst.rd != 0)
-    tp->scoreboard[tp->inst.rd] = (struct trax_ref_register){.usable = cycle, .cause = cause};
-}
+/* The destination register of the TP's instruction is usable from `cycle` on. */
+void trax_ref_result(struct trax_ref_tp *tp, uint64_t cycle, trax_cause cause);
 
 /* --- Units: units.c --- */
 void trax_ref_grant_units(struct trax_ref_tm *tm, uint64_t t);
