@@ -125,7 +125,7 @@ static void create_translation(struct trax_chip *chip, const struct trax_run *ru
   const uint32_t banks = chip->tm->data_banks;
   const bool at_once = run->engine == &trax_fast_translated_engine;
   chip->facts = (struct trax_burst_facts){.step = chip->program.step,
-                                          .lines = chip->program.chunk_lines,
+                                          .line = chip->program.line,
                                           .blocks = chip->blocks.state,
                                           .load_step = TRAX_STEP_BANK,
                                           .bank_mask = (banks - 1) << TRAX_STEP_BANK_SHIFT,

@@ -1,6 +1,5 @@
-#include "fast/state.h"
-
 #include "fast/chip.h"
+
 #include "fast/memory/l2.h"
 
 struct visitor {

@@ -18,9 +18,12 @@ static bool all_resident(const struct trax_tm *tm, unsigned number, unsigned cou
   const unsigned icache = tm->icache_of[number];
   if (tm->chip->program.lines <= 64 && !(tp->burst.lines & ~tm->resident[icache][0]))
     return true;
-  for (unsigned i = 0; i < count; i++)
-    if (!trax_fast_is_resident(tm, icache, tm->chip->program.line[trax_fast_index(tp, i)]))
+  for (unsigned i = 0, line = TRAX_FAST_LINES; i < count; i++) {
+    const unsigned next = tm->chip->program.line[trax_fast_index(tp, i)];
+    if (next != line && !trax_fast_is_resident(tm, icache, next))
       return false;
+    line = next;
+  }
   return true;
 }
 
