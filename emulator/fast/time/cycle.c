@@ -94,7 +94,7 @@ static ALWAYS_INLINE uint64_t refuse_fetches(struct trax_tm *tm, const bool wide
 /* The TP has won its bank and looks up the line of its head. True: a hit. */
 static bool look_up(struct trax_tm *tm, unsigned number, uint64_t t) {
   struct trax_icache *icache = &tm->icache[tm->icache_of[number]];
-  if (!trax_fast_is_resident(tm, icache->number, tm->chip->program.line[trax_fast_head(tm, number)])) {
+  if (!trax_fast_is_resident(tm, tm->icache_of[number], tm->chip->program.line[trax_fast_head(tm, number)])) {
     trax_fast_export_head(tm, number);
     if (!trax_cache_tags_have(&icache->tags, trax_line_of(&icache->tags, tm->tp[number].pc))) {
       trax_icache_look_up(icache, tm, number, t); /* if the memory queue is full, the TP fetches again */
@@ -130,7 +130,7 @@ static bool classify(struct trax_tm *tm, unsigned number, uint64_t t) {
     else if (inst->is_nontemporal || inst->is_atomic)
       step |= TRAX_STEP_QUEUE;
     else
-      step |= (uint16_t)(TRAX_STEP_BANK | tp->address / 4 % tm->data_banks << TRAX_STEP_BANK_SHIFT);
+      step |= (uint16_t)(TRAX_STEP_BANK | tp->address / 4 % tm->dcache.banks << TRAX_STEP_BANK_SHIFT);
   }
   tm->tp[number].burst.step[0] = step | TRAX_STEP_SLOW;
   trax_fast_set_head(&tm->heads, number, 0);
