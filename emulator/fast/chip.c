@@ -1,7 +1,6 @@
 #include "fast/chip.h"
 
 #include "fast/epochs.h"
-#include "fast/state.h"
 #include "fast/time/variant.h"
 
 /* --- the variants --- */

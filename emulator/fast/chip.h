@@ -85,6 +85,14 @@ bool trax_fast_run_alone(struct trax_tm *tm, uint64_t t, uint64_t end);
 /* Continues the run before cycle t, after a roll back of all TPs (blocks.h), with the state in the structures. */
 void trax_fast_import(struct trax_chip *chip, uint64_t t);
 
+/* Visits all that changes during a run, except global memory, as sections (machine/section.h), for rollback and for
+   checkpoints, in an order that depends on the configuration alone. What follows from the rest between cycles
+   (import.c) has no fields. */
+void trax_state_visit(void *chip, trax_section_visitor *visit, void *context);
+/* Checks that a state's indices are within bounds, so that the run stays within its structures. Returns NULL, or the
+   reason of the refusal, in `text`. */
+const char *trax_state_check(void *chip, uint64_t t, char text[128]);
+
 /* The engine with the best variant that the host can run, and the engines of single variants. */
 extern const struct trax_engine trax_fast_engine, trax_fast_any_engine;
 /* The best variant without translation, and, for tests, with all of it at once. */

@@ -43,7 +43,7 @@ static bool create_fetch(struct trax_tm *tm) {
     tm->icache_of[i] = (uint8_t)(i / tps);
   bool complete = tm->icache && tm->fetch_rr_masks && tm->resident;
   for (uint32_t i = 0; complete && i < tm->icaches; i++)
-    complete = trax_icache_create(&tm->icache[i], i, tm);
+    complete = trax_icache_create(&tm->icache[i], tm);
   return complete;
 }
 
@@ -51,17 +51,18 @@ static bool create_data(struct trax_tm *tm) {
   if (!trax_queue_create(&tm->queue, tm->config->memory.queue_depth, trax_memory_keeps_order(tm->config)) ||
       !trax_dcache_create(&tm->dcache, tm))
     return false;
-  tm->data_banks = tm->dcache.banks;
-  while (1u << tm->data_bank_bits < tm->data_banks)
-    tm->data_bank_bits++;
   tm->serial_hits = tm->config->dcache.hit_latency_cycles > 1 || tm->dcache.tags.by_use;
   return true;
 }
 
 static bool create_units(struct trax_tm *tm) {
-  for (trax_shared unit = 0; unit < TRAX_SHARED_COUNT; unit++)
-    if (!trax_shared_unit_create(&tm->unit[unit], unit, tm->config))
+  for (trax_shared which = 0; which < TRAX_SHARED_COUNT; which++) {
+    struct trax_shared_unit *unit = &tm->unit[which];
+    unit->kind = trax_shared_kind(which, tm->config);
+    if (!trax_always_free(which, tm->config) &&
+        !(unit->free_from = calloc((size_t)unit->kind.groups * unit->kind.per_group + 1, sizeof *unit->free_from)))
       return false;
+  }
   prepare_units(&tm->fp, &tm->unit[TRAX_SHARED_FP_ADD].kind, &tm->unit[TRAX_SHARED_FP_MUL].kind);
   return true;
 }
@@ -76,7 +77,6 @@ static trax_status create_tm(struct trax_tm *tm, uint32_t number, struct trax_ch
   tm->config = &machine->config;
   tm->chip = chip;
   tm->machine = machine;
-  tm->text = chip->text;
   tm->output = output;
   tm->observer = machine->observer;
   tm->stats = &machine->tm_stats[number];
@@ -98,7 +98,7 @@ static trax_status create_tm(struct trax_tm *tm, uint32_t number, struct trax_ch
   for (unsigned i = 0; i < tps; i++) {
     struct trax_tp *tp = &tm->tp[i];
     tp->pc = tp->resume_pc = trax_machine_entry_of(machine, number * tps + i);
-    tp->inst = trax_text_at(tm->text, tp->pc);
+    tp->inst = trax_text_at(chip->text, tp->pc);
     tp->resume = trax_fast_inst_at(&chip->program, tp->pc);
     trax_fast_advance(tm, i);
   }
@@ -109,7 +109,7 @@ static void destroy_tm(struct trax_tm *tm) {
   for (uint32_t i = 0; tm->icache && i < tm->icaches; i++)
     trax_icache_destroy(&tm->icache[i]);
   for (trax_shared unit = 0; unit < TRAX_SHARED_COUNT; unit++)
-    trax_shared_unit_destroy(&tm->unit[unit]);
+    free(tm->unit[unit].free_from);
   trax_dcache_destroy(&tm->dcache);
   trax_queue_destroy(&tm->queue);
   free(tm->icache);
@@ -122,10 +122,10 @@ static void destroy_tm(struct trax_tm *tm) {
    instruction. */
 static void create_translation(struct trax_chip *chip, const struct trax_run *run) {
   const struct trax_config *const config = &chip->machine->config;
-  const uint32_t banks = chip->tm->data_banks;
+  const uint32_t banks = chip->tm->dcache.banks;
   const bool at_once = run->engine == &trax_fast_translated_engine;
   chip->facts = (struct trax_burst_facts){.step = chip->program.step,
-                                          .lines = chip->program.chunk_lines,
+                                          .line = chip->program.line,
                                           .blocks = chip->blocks.state,
                                           .load_step = TRAX_STEP_BANK,
                                           .bank_mask = (banks - 1) << TRAX_STEP_BANK_SHIFT,

@@ -1,6 +1,5 @@
-#include "fast/state.h"
-
 #include "fast/chip.h"
+
 #include "fast/memory/l2.h"
 
 struct visitor {
@@ -113,7 +112,6 @@ static void visit_l2(const struct visitor *visitor, struct trax_l2 *l2) {
   VISIT_ALL(trax_l2, l2, 1);
   VISIT_ALL(trax_waiting, l2->bank, l2->banks);
   VISIT_ALL(trax_l2_mshr, l2->mshr, l2->mshr_limit);
-  VISIT_DERIVED(l2->line, l2->mshr_limit);
   VISIT_DERIVED(l2->used, l2->mshr_limit);
   visit_tags(visitor, &l2->tags);
 }

@@ -1,6 +1,6 @@
-/* Checks a state that was read from a file (fast/state.h), which may be forged: indices are within their arrays, an
+/* Checks a state that was read from a file (trax_state_check), which may be forged: indices are within their arrays, an
    element is in one list at most, a TP in one state. With anything else that is wrong, the run stays within arrays. */
-#include "fast/state.h"
+#include "fast/chip.h"
 
 #include "fast/memory/l2.h"
 

@@ -19,7 +19,7 @@ const uint8_t *trax_emit_record(struct trax_translation *t, size_t begin, size_t
   const uint8_t *const full = t->at;
   uint64_t lines = 0;
   for (size_t i = begin; i < begin + count; i++)
-    lines |= t->bursts->lines[i];
+    lines |= (uint64_t)1 << t->bursts->line[i] % 64;
   trax_emit_byte(t, 0xB8); /* mov eax, begin */
   trax_emit_word(t, (uint32_t)begin);
   emit_near(t, "\xE9", 1, t->leave); /* jmp leave */

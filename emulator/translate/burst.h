@@ -51,7 +51,7 @@ static inline bool trax_burst_stores(const struct trax_burst *burst, unsigned lo
 /* The facts that translated bursts depend on. */
 struct trax_burst_facts {
   const uint16_t *step;  /* [instruction]: its step, unless an address decides it */
-  const uint64_t *lines; /* [instruction]: a superset of its line, as trax_burst.lines */
+  const uint16_t *line;  /* [instruction]: the index of its line */
   uint8_t *blocks;       /* the states of blocks */
   uint32_t load_step;    /* is added to the step of a load of global memory, with the bits bank_mask of address * 4 */
   uint32_t bank_mask;

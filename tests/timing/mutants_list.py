@@ -360,9 +360,8 @@ MUTANTS = [
     ("fast/time/head.c", "trax_fast_set_resident(tm, number, evicted - 1, false);",
      "(void)tm;"),
     # Lines of programs of more than 64 may be missing, too.
-    ("fast/time/head.c", "if (!trax_fast_is_resident(tm, icache, tm->chip->program.line[trax_fast_index(tp, i)]))",
-     "if (tm->chip->program.lines <= 64 &&\n"
-     "        !trax_fast_is_resident(tm, icache, tm->chip->program.line[trax_fast_index(tp, i)]))"),
+    ("fast/time/head.c", "if (next != line && !trax_fast_is_resident(tm, icache, next))",
+     "if (next != line && tm->chip->program.lines <= 64 && !trax_fast_is_resident(tm, icache, next))"),
     # Heads whose line has gone are looked at again.
     ("fast/time/head.c", "      tm->uncertain |= (uint64_t)1 << tp;",
      "      tm->uncertain |= 0;"),
@@ -399,7 +398,7 @@ MUTANTS = [
     ("fast/function/blocks.c", "i = tm->heads.load[number]; tm->watched", "i = tm->heads.load[number] + 1u; tm->watched"),
     ("fast/function/blocks.c", "  for (uint32_t i = 0; i < chip->tms; i++)\n    trax_fast_roll_back_readers",
      "  for (uint32_t i = 0; i < 1; i++)\n    trax_fast_roll_back_readers"),
-    ("fast/time/cycle.c", "    trax_fast_record_readers(tm);", "    (void)tm;"),
+    ("fast/time/cycle.c", "  trax_fast_record_readers(tm);\n", ""),
     # Stores of bursts: their words are not loaded again, they take effect at their issue, in order, and others roll back.
     ("fast/function/burst.c", "if (has_stored(&tp->burst, address, load))", "if (0)"),
     ("fast/function/burst.c", "!((burst->loads[i] ^ address) & ~3u)", "burst->loads[i] == address"),
@@ -420,7 +419,7 @@ MUTANTS = [
     ("translate/burst.c", "run->burst->load_count = run->burst->jumps = run->burst->undo_count = 0;",
      "run->burst->load_count = run->burst->jumps = 0;"),
     ("translate/burst.c", "(uint32_t)(TRAX_BURST - count)", "(uint32_t)(TRAX_BURST + 32 - count)"),
-    ("translate/burst.c", "lines |= t->bursts->lines[i];", "lines |= t->bursts->lines[i] & 1;"),
+    ("translate/burst.c", "lines |= (uint64_t)1 << t->bursts->line[i] % 64;", "lines |= 1;"),
     ("translate/burst.c", "  if (t->bursts->slow_jump) {", "  if (t->bursts->slow_jump > 1) {"),
     ("translate/sequence.c", "t->bursts && inst->imm == 4", "t->bursts && inst->imm == 5"),
     ("translate/instruction.c", "value += t->bursts->step[index] | t->bursts->slow_local;",
@@ -448,34 +447,35 @@ MUTANTS = [
     ("fast/function/program.c", "decoded->imm == TRAX_SR_CYCLE || decoded->imm == TRAX_SR_CYCLEH",
      "decoded->imm == TRAX_SR_CYCLEH"),
     # A TM that has read too early goes back.
-    ("fast/epochs.c", "if (writer && (writer->value & ~EARLY) != i) {",
+    ("fast/merge.c", "if (writer && (writer->value & ~EARLY) != i) {",
      "if (writer && (writer->value & ~EARLY) != i && (writer->value & ~EARLY) < 64) {"),
     # A word that several wrote conflicts.
-    ("fast/epochs.c", "writer->value = BY_SEVERAL |",
+    ("fast/merge.c", "writer->value = BY_SEVERAL |",
      "writer->value = tm |"),
     # What was loaded ahead and is written is loaded again.
-    ("fast/epochs.c", "  if (trax_fast_is_loaded(&chip->blocks, write->address))\n    return false;",
+    ("fast/merge.c", "  if (trax_fast_is_loaded(&chip->blocks, write->address))\n    return false;",
      "  if (trax_fast_is_loaded(&chip->blocks, write->address) && write->bytes)\n    return false;"),
     # Stores of a cycle in the TMs' order.
-    ("fast/schedule.h", "schedule->key[child + 1] < schedule->key[child];",
-     "schedule->key[child + 1] > schedule->key[child];"),
-    ("fast/schedule.h", "    if (key < schedule->key[child])", "    if (key > schedule->key[child])"),
+    ("fast/merge.c", "const uint32_t tm = trax_first(rest);\n      const struct trax_store_buffer *buffer = &merge->buffers[tm];\n"
+     "      for (size_t *i = &order->done[tm]; *i < buffer->write_count",
+     "const uint32_t tm = 63u - (uint32_t)__builtin_clzll(rest & -(rest & 1) ? rest : rest & -rest);\n"
+     "      const struct trax_store_buffer *buffer = &merge->buffers[tm];\n"
+     "      for (size_t *i = &order->done[tm]; *i < buffer->write_count"),
     # Memory is restored.
-    ("fast/epochs.c", "memcpy(chip->machine->space.bytes + undo->address, &undo->word, sizeof undo->word);",
-     "memcpy(chip->machine->space.bytes + undo->address, &undo->word, 1);"),
+    ("fast/merge.c", "memcpy(merge->chip->machine->space.bytes + undo->address, &undo->word, sizeof undo->word);",
+     "memcpy(merge->chip->machine->space.bytes + undo->address, &undo->word, 1);"),
     # The controller is restored.
     ("fast/state.c", "VISIT_DERIVED(memory, 1);", "VISIT_DERIVED(memory, 0);"),
     # Increments are noted as writes.
-    ("fast/epochs.c", "epochs->failed |= !record_writer(epochs, address, BY_CONTROLLER);",
-     "(void)address; (void)epochs;"),
+    ("fast/merge.c", "merge->failed |= !record_writer(merge, address, BY_CONTROLLER);",
+     "(void)address; (void)merge;"),
     # Requests are shown in their cycle.
-    ("fast/epochs.c", "while (trax_schedule_next(&epochs->requests) <= t) {",
-     "while (trax_schedule_next(&epochs->requests) <= t + 1) {"),
+    ("fast/merge.c", "    submit_up_to(merge, t);", "    submit_up_to(merge, t + 1);"),
     # Stores are performed before the increments of later cycles.
-    ("fast/epochs.c", "    if (!write_up_to(epochs, t))", "    if (t == 0 && !write_up_to(epochs, t))"),
+    ("fast/merge.c", "    if (!write_up_to(merge, t))", "    if (t == 0 && !write_up_to(merge, t))"),
     # Every part of the snapshot is copied.
-    ("fast/epochs.c", "section_count * (part + 1) / epochs->groups;",
-     "section_count * (part + 1) / epochs->groups - part;"),
+    ("fast/epochs.c", "piece_count * (part + 1) / parts;",
+     "piece_count * (part + 1) / parts - part;"),
     # A TM sees its own stores.
     ("fast/store_buffer.c", "if (own)\n    word",
      "if (own && own->mask == ~0u)\n    word"),
@@ -548,7 +548,8 @@ MUTANTS = [
     ("fast/time/issue.h", "trax_fast_tell_steps(tm, number, last + 1, tp->resume_pc);",
      "trax_fast_tell_steps(tm, number, last, tp->resume_pc);"),
     # --- Output ---
-    ("fast/epochs.c", "  trax_transfer_log_discard(&chip->transfers);\n  epochs->printed_count = 0;",
-     "  trax_transfer_log_discard(&chip->transfers);"),
-    ("fast/epochs.c", "  print(epochs);\n  epochs->has_snapshot = true;", "  epochs->has_snapshot = true;"),
+    ("fast/merge.c", "  trax_transfer_log_discard(&merge->chip->transfers);\n  merge->printed_count = 0;",
+     "  trax_transfer_log_discard(&merge->chip->transfers);"),
+    ("fast/epochs.c", "  trax_merge_keep(&epochs->merge);\n  epochs->has_snapshot = epochs->chip->transfers.holds = true;",
+     "  epochs->has_snapshot = epochs->chip->transfers.holds = true;"),
 ]

@@ -8,7 +8,6 @@
 
 #include "engine/layout.h"
 #include "fast/chip.h"
-#include "fast/state.h"
 #include "host/checkpoint.h"
 
 #include <inttypes.h>

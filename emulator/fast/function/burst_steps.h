@@ -21,7 +21,7 @@ static unsigned BURST(struct trax_chip *chip, struct trax_tm *tm, unsigned numbe
   const struct trax_config *const config = tm->config;
   const uint16_t slow_local = config->tp.local_latency_cycles > 1 ? TRAX_STEP_SLOW : 0;
   const uint16_t slow_jump = config->tp.branch_bubble_cycles > 0 ? TRAX_STEP_SLOW : 0;
-  const uint32_t banks = tm->data_banks, bank_mask = banks & (banks - 1) ? 0 : banks - 1;
+  const uint32_t banks = tm->dcache.banks, bank_mask = banks & (banks - 1) ? 0 : banks - 1;
   uint8_t *const blocks = chip->blocks.state;
   const uint64_t accessible = chip->machine->space.size - TRAX_NULL_END;
   const uint32_t input = chip->blocks.input, input_bytes = chip->blocks.input_bytes;

@@ -17,11 +17,10 @@ trax_status trax_l2_create(struct trax_l2 **result, const struct trax_config *co
   l2->mshr_limit = config->l2.mshrs;
   l2->bank = trax_waiting_create(l2->banks);
   l2->mshr = calloc(l2->mshr_limit, sizeof *l2->mshr);
-  l2->line = calloc(l2->mshr_limit, sizeof *l2->line);
   l2->used = calloc(l2->mshr_limit, sizeof *l2->used);
   if (!trax_cache_tags_create(&l2->tags, config->l2.bytes, config->l2.line_bytes, config->l2.ways,
                               config->l2.replacement) ||
-      !l2->bank || !l2->mshr || !l2->line || !l2->used)
+      !l2->bank || !l2->mshr || !l2->used)
     return trax_fail(error, "out of memory for the second-level cache");
   for (uint32_t i = 0; i < l2->mshr_limit; i++)
     l2->used[i] = (uint16_t)i;
@@ -37,17 +36,20 @@ void trax_l2_destroy(struct trax_l2 *l2) {
   trax_cache_tags_destroy(&l2->tags);
   free(l2->bank);
   free(l2->mshr);
-  free(l2->line);
   free(l2->used);
   free(l2);
 }
 
 /* --- lines on their way --- */
 
-/* Returns the line's index in l2->line; used_count: it is not on its way. */
+static uint32_t line_of(const struct trax_l2 *l2, const struct trax_l2_mshr *mshr) {
+  return trax_line_of(&l2->tags, mshr->request.address);
+}
+
+/* Returns the place of the line's miss register in l2->used; used_count: it is not on its way. */
 static uint32_t find(const struct trax_l2 *l2, uint32_t line) {
   uint32_t i = 0;
-  while (i < l2->used_count && l2->line[i] != line)
+  while (i < l2->used_count && line_of(l2, &l2->mshr[l2->used[i]]) != line)
     i++;
   return i;
 }
@@ -76,9 +78,8 @@ static void install(struct trax_memory *memory, struct trax_tm *tms, uint64_t t)
     uint32_t index = 0, last = --l2->used_count;
     while (l2->used[index] != id - TRAX_LINE_REQUEST)
       index++;
-    trax_cache_tags_install(&l2->tags, l2->line[index]);
+    trax_cache_tags_install(&l2->tags, line_of(l2, mshr_of(l2, id)));
     mshr_of(l2, id)->request.bytes = 0;
-    l2->line[index] = l2->line[last];
     l2->used[index] = l2->used[last];
     l2->used[last] = (uint16_t)(id - TRAX_LINE_REQUEST);
     next_to_arrive(l2);
@@ -93,7 +94,6 @@ void trax_l2_import(struct trax_memory *memory, struct trax_tm *tms) {
     l2->waiting += trax_waiting_import(memory, tms, &l2->bank[i]);
   for (uint32_t i = 0; i < l2->mshr_limit; i++)
     if (l2->mshr[i].request.bytes) {
-      l2->line[l2->used_count] = trax_line_of(&l2->tags, l2->mshr[i].request.address);
       l2->used[l2->used_count++] = (uint16_t)i;
       trax_memory_import_list(memory, tms, &l2->mshr[i].waiters);
     } else {
@@ -120,8 +120,7 @@ void trax_l2_set_arrival(struct trax_memory *memory, struct trax_tm *tms, unsign
 
 static void request_line(struct trax_memory *memory, struct trax_tm *tms, uint32_t line, trax_request_id waiter) {
   struct trax_l2 *l2 = memory->l2;
-  const uint32_t number = l2->used[l2->used_count];
-  l2->line[l2->used_count++] = line;
+  const uint32_t number = l2->used[l2->used_count++];
   l2->mshr[number] = (struct trax_l2_mshr){
       .request = {.kind = TRAX_REQUEST_DATA_LINE, .address = line << l2->tags.line_shift, .bytes = l2->line_cost},
       .arrival = TRAX_NEVER,

@@ -27,8 +27,7 @@ struct trax_l2 {
   uint32_t mshr_limit;
   struct trax_waiting *bank; /* [banks] */
   struct trax_l2_mshr *mshr; /* [mshr_limit] */
-  uint32_t *line;            /* [mshr_limit]: numbers of the lines on their way, used_count of them, and */
-  uint16_t *used;            /* [mshr_limit]: their miss registers, then the free ones */
+  uint16_t *used;            /* [mshr_limit]: used_count miss registers of lines on their way, then the free ones */
 };
 
 trax_status trax_l2_create(struct trax_l2 **l2, const struct trax_config *config, trax_error *error);

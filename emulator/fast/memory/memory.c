@@ -42,17 +42,9 @@ unsigned trax_waiting_arbitrate(struct trax_waiting *waiting) {
 
 trax_request_id trax_waiting_take(struct trax_memory *memory, struct trax_tm *tms, struct trax_waiting *waiting,
                                   unsigned number) {
-  trax_request_id id;
-  bool is_last;
-  if (memory->keeps_order) {
-    const struct trax_queue *queue = &tms[number].queue;
-    id = number << TRAX_REQUEST_BITS | trax_queue_first_waiting(queue);
-    is_last = queue->started + 1 == queue->submitted;
-  } else {
-    id = trax_memory_take_first(memory, tms, &waiting->list[number]);
-    is_last = waiting->list[number].first == TRAX_NO_REQUEST;
-  }
-  waiting->tms &= ~((uint64_t)is_last << number);
+  const trax_request_id id = trax_memory_take_first(memory, tms, &waiting->list[number]);
+  if (waiting->list[number].first == TRAX_NO_REQUEST)
+    waiting->tms &= ~((uint64_t)1 << number);
   return id;
 }
 
@@ -170,10 +162,26 @@ static void serve(struct trax_memory *memory, struct trax_tm *tms, struct trax_s
   trax_memory_finish(memory, tms, number, id, transfer(memory, number, request, space, t));
 }
 
-static void serve_channel(struct trax_memory *memory, struct trax_tm *tms, struct trax_space *space, unsigned number,
-                          uint64_t t) {
+/* The same if the TMs' queues are rings. */
+static void serve_ring(struct trax_memory *memory, struct trax_tm *tms, struct trax_space *space, uint64_t t) {
+  struct trax_waiting *waiting = memory->channel[0].waiting;
+  struct trax_tm *tm = &tms[trax_waiting_arbitrate(waiting)];
+  struct trax_request *request = trax_queue_first_waiting(&tm->queue);
+  waiting->tms &= ~((uint64_t)(++tm->queue.started == tm->queue.submitted) << tm->number);
+  memory->waiting--;
+  trax_memory_notify(memory, 0, tm->number << TRAX_REQUEST_BITS, request, t);
+  request->completion = transfer(memory, 0, request, space, t);
+  if (request->completion < tm->next_cycle)
+    tm->next_cycle = request->completion;
+}
+
+static inline void serve_channel(struct trax_memory *memory, struct trax_tm *tms, struct trax_space *space,
+                                 unsigned number, uint64_t t) {
   while (has_waiting(&memory->channel[number]) && is_free(&memory->channel[number], t))
-    serve(memory, tms, space, number, t);
+    if (memory->keeps_order)
+      serve_ring(memory, tms, space, t);
+    else
+      serve(memory, tms, space, number, t);
 }
 
 /* Whether a TM without a waiting request, which the arbiter would prefer to the next TM with one, may make a request by
@@ -196,7 +204,7 @@ uint64_t trax_memory_serve_early(struct trax_memory *memory, struct trax_tm *tms
       t = free_cycle;
     if (t >= end || !memory->waiting || may_be_overtaken(memory, tms, count, t))
       break;
-    serve(memory, tms, space, 0, t);
+    serve_ring(memory, tms, space, t);
   }
   return t;
 }
@@ -205,7 +213,10 @@ void trax_memory_cycle(struct trax_memory *memory, struct trax_tm *tms, struct t
   if (memory->l2 && memory->l2->waiting)
     trax_l2_cycle(memory, tms, t);
   for (unsigned i = 0; i < memory->channels && memory->waiting; i++)
-    (memory->dram ? trax_memory_serve_dram : serve_channel)(memory, tms, space, i, t);
+    if (memory->dram)
+      trax_memory_serve_dram(memory, tms, space, i, t);
+    else
+      serve_channel(memory, tms, space, i, t);
 }
 
 bool trax_memory_has_waiting(const struct trax_memory *memory) {

@@ -5,11 +5,9 @@
 
 #include <stdlib.h>
 
-static const uint8_t kinds[] = {[TRAX_REQUEST_INSTRUCTION_LINE] = TRAX_TRANSFER_INSTRUCTION_LINE,
-                                [TRAX_REQUEST_DATA_LINE] = TRAX_TRANSFER_DATA_LINE,
-                                [TRAX_REQUEST_LOAD] = TRAX_TRANSFER_LOAD,
-                                [TRAX_REQUEST_WRITE] = TRAX_TRANSFER_WRITE,
-                                [TRAX_REQUEST_ATOMIC] = TRAX_TRANSFER_ATOMIC};
+_Static_assert((int)TRAX_REQUEST_DATA_LINE == (int)TRAX_TRANSFER_DATA_LINE &&
+                   (int)TRAX_REQUEST_ATOMIC == (int)TRAX_TRANSFER_ATOMIC,
+               "requests have the numbers of their transfers");
 
 void trax_transfer_log_add(struct trax_transfer_log *log, uint64_t cycle, unsigned channel, uint32_t tm,
                            const struct trax_request *request) {
@@ -18,7 +16,7 @@ void trax_transfer_log_add(struct trax_transfer_log *log, uint64_t cycle, unsign
                                          .address = request->address,
                                          .bytes = request->bytes,
                                          .tm = is_l2 ? TRAX_TRANSFER_NO_TM : (int16_t)tm,
-                                         .kind = is_l2 ? TRAX_TRANSFER_L2_LINE : kinds[request->kind],
+                                         .kind = is_l2 ? TRAX_TRANSFER_L2_LINE : request->kind,
                                          .channel = (uint8_t)channel};
   if (!log->holds)
     log->to->transfer(log->to->context, &transfer);

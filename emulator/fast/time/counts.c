@@ -90,14 +90,10 @@ static void count_burst(struct trax_tm *tm, unsigned number) {
 }
 
 /* Adds (sign 1) or removes (sign -1) the executed instructions that have not been issued. */
-static void count_unissued(struct trax_tm *tm, int64_t sign) {
+static void count_unissued(struct trax_tm *tm, int sign) {
   for (unsigned tp = 0; tp < tm->tps; tp++)
     if (!((tm->executes_at_issue | tm->ended) >> tp & 1))
-      for (unsigned i = tm->heads.at[tp]; i <= tm->heads.last[tp]; i++) {
-        const uint32_t index = trax_fast_index(&tm->tp[tp], i);
-        tm->count_deltas[index] += sign;
-        tm->count_deltas[index + 1] -= sign;
-      }
+      trax_fast_count_steps(tm, tp, tm->heads.at[tp], tm->heads.last[tp] + 1u, sign);
 }
 
 void trax_fast_settle(struct trax_chip *chip) {

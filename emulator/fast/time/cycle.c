@@ -94,7 +94,7 @@ static ALWAYS_INLINE uint64_t refuse_fetches(struct trax_tm *tm, const bool wide
 /* The TP has won its bank and looks up the line of its head. True: a hit. */
 static bool look_up(struct trax_tm *tm, unsigned number, uint64_t t) {
   struct trax_icache *icache = &tm->icache[tm->icache_of[number]];
-  if (!trax_fast_is_resident(tm, icache->number, tm->chip->program.line[trax_fast_head(tm, number)])) {
+  if (!trax_fast_is_resident(tm, tm->icache_of[number], tm->chip->program.line[trax_fast_head(tm, number)])) {
     trax_fast_export_head(tm, number);
     if (!trax_cache_tags_have(&icache->tags, trax_line_of(&icache->tags, tm->tp[number].pc))) {
       trax_icache_look_up(icache, tm, number, t); /* if the memory queue is full, the TP fetches again */
@@ -130,7 +130,7 @@ static bool classify(struct trax_tm *tm, unsigned number, uint64_t t) {
     else if (inst->is_nontemporal || inst->is_atomic)
       step |= TRAX_STEP_QUEUE;
     else
-      step |= (uint16_t)(TRAX_STEP_BANK | tp->address / 4 % tm->data_banks << TRAX_STEP_BANK_SHIFT);
+      step |= (uint16_t)(TRAX_STEP_BANK | tp->address / 4 % tm->dcache.banks << TRAX_STEP_BANK_SHIFT);
   }
   tm->tp[number].burst.step[0] = step | TRAX_STEP_SLOW;
   trax_fast_set_head(&tm->heads, number, 0);
@@ -189,97 +189,53 @@ static ALWAYS_INLINE void fetch_and_check(struct trax_tm *tm, const bool wide, u
   tm->ready |= passed;
 }
 
-/* A cycle of a TM. */
-struct tm_cycle {
-  struct trax_tm *tm;
-  uint64_t t, woken, granted, slow, banks;
-  struct trax_fast_refused refused;
-};
-
-static ALWAYS_INLINE void begin(struct tm_cycle *cycle) {
-  cycle->tm->now = cycle->t;
-  cycle->woken = wake(cycle->tm, cycle->t);
-}
-
-static ALWAYS_INLINE void issue(const struct tm_cycle *cycle, const bool wide) {
-  const uint64_t quick = cycle->granted & ~cycle->slow, slow = cycle->granted & cycle->slow;
-  if (__builtin_expect(cycle->tm->observer != NULL, false)) {
-    if (!cycle->tm->observer->stretch) {
-      issue_observed(cycle->tm, quick, slow, cycle->t);
+/* Step 5; banks: the TPs that have requested a bank. */
+static ALWAYS_INLINE void issue(struct trax_tm *tm, const bool wide, uint64_t granted, uint64_t slow, uint64_t banks,
+                                uint64_t t) {
+  const uint64_t quick = granted & ~slow;
+  slow &= granted;
+  if (__builtin_expect(tm->observer != NULL, false)) {
+    if (!tm->observer->stretch) {
+      issue_observed(tm, quick, slow, t);
       return;
     }
-    trax_fast_log_refusals(cycle->tm, cycle->granted & cycle->tm->unlogged.tps);
-    trax_fast_log_accesses(cycle->tm, cycle->granted & cycle->banks);
+    trax_fast_log_refusals(tm, granted & tm->unlogged.tps);
+    trax_fast_log_accesses(tm, granted & banks);
   }
-  for (uint64_t loads = quick & cycle->banks; loads; loads &= loads - 1)
-    trax_fast_set_load(cycle->tm, trax_first(loads), cycle->tm->heads.load[trax_first(loads)] + 1u);
+  for (uint64_t loads = quick & banks; loads; loads &= loads - 1)
+    trax_fast_set_load(tm, trax_first(loads), tm->heads.load[trax_first(loads)] + 1u);
   if (slow)
-    issue_in_order(cycle->tm, quick, slow, cycle->t);
+    issue_in_order(tm, quick, slow, t);
   else
-    issue_quickly(cycle->tm, wide, quick);
+    issue_quickly(tm, wide, quick);
 }
 
-static ALWAYS_INLINE void end(const struct tm_cycle *cycle) {
-  struct trax_tm *const tm = cycle->tm;
-  if (trax_fast_count(&tm->refusal_counts, &cycle->refused))
+static ALWAYS_INLINE void simulate(struct trax_tm *tm, const bool wide, uint64_t t) {
+  struct trax_fast_refused refused = {0};
+  uint64_t slow, banks;
+  tm->now = t;
+  fetch_and_check(tm, wide, wake(tm, t), &refused, t);
+  const uint64_t granted = grant(tm, wide, &refused, &slow, &banks, t);
+  issue(tm, wide, granted, slow, banks, t);
+  if (trax_fast_count(&tm->refusal_counts, &refused))
     trax_fast_count_log(&tm->refusal_counts);
   if (__builtin_expect(tm->observer != NULL, false))
-    trax_fast_notify_refusals(tm, &cycle->refused);
-  tm->next_cycle = tm->awake ? cycle->t + 1 : trax_tm_next_cycle(tm, cycle->t);
+    trax_fast_notify_refusals(tm, &refused);
+  tm->next_cycle = tm->awake ? t + 1 : trax_tm_next_cycle(tm, t);
 }
-
-/* Simulates a cycle of one TM, or of two independent TMs, whose steps are interleaved: while the host waits for results
-   of one TM, it executes instructions of the other. */
-static ALWAYS_INLINE void run_cycles(struct tm_cycle one, struct tm_cycle other, const bool two, const bool wide) {
-  begin(&one);
-  if (two)
-    begin(&other);
-  fetch_and_check(one.tm, wide, one.woken, &one.refused, one.t);
-  if (two)
-    fetch_and_check(other.tm, wide, other.woken, &other.refused, other.t);
-  one.granted = grant(one.tm, wide, &one.refused, &one.slow, &one.banks, one.t);
-  if (two)
-    other.granted = grant(other.tm, wide, &other.refused, &other.slow, &other.banks, other.t);
-  issue(&one, wide);
-  if (two)
-    issue(&other, wide);
-  end(&one);
-  if (two)
-    end(&other);
-}
-
-_Static_assert(TRAX_FAST_INTERLEAVED == 2, "run_cycles simulates at most two TMs");
 
 static void run_cycle(struct trax_tm *tm, uint64_t t) {
-  const struct tm_cycle cycle = {.tm = tm, .t = t};
   if (tm->wide)
-    run_cycles(cycle, cycle, false, true);
+    simulate(tm, true, t);
   else
-    run_cycles(cycle, cycle, false, false);
+    simulate(tm, false, t);
 }
 
-static inline bool runs(const struct trax_tm *tm, uint64_t end) {
-  return tm->next_cycle < end && !tm->buffer->stop && !tm->fault.kind;
-}
-
-static ALWAYS_INLINE void run_two(struct trax_tm *one, struct trax_tm *other, uint64_t end, const bool wide) {
-  while (runs(one, end) && runs(other, end))
-    run_cycles((struct tm_cycle){.tm = one, .t = one->next_cycle},
-               (struct tm_cycle){.tm = other, .t = other->next_cycle}, true, wide);
-}
-
-static void run_epoch(struct trax_chip *chip, uint32_t first, uint32_t count, uint64_t end) {
-  struct trax_tm *const one = &chip->tm[first], *const other = one + count - 1;
-  for (struct trax_tm *tm = one; tm <= other; tm++)
-    trax_fast_record_readers(tm);
-  if (count > 1 && one->wide)
-    run_two(one, other, end, true);
-  else if (count > 1)
-    run_two(one, other, end, false);
-  for (struct trax_tm *tm = one; tm <= other; tm++)
-    while (runs(tm, end))
-      if (!trax_tm_has_one_awake(tm) || !trax_fast_run_alone(tm, tm->next_cycle, end))
-        run_cycle(tm, tm->next_cycle);
+static void run_epoch(struct trax_tm *tm, uint64_t end) {
+  trax_fast_record_readers(tm);
+  while (tm->next_cycle < end && !tm->buffer->stop && !tm->fault.kind)
+    if (!trax_tm_has_one_awake(tm) || !trax_fast_run_alone(tm, tm->next_cycle, end))
+      run_cycle(tm, tm->next_cycle);
 }
 
 #ifndef TRAX_FAST_VARIANT

@@ -17,10 +17,10 @@ static ALWAYS_INLINE uint64_t grant_banks(struct trax_tm *tm, const bool wide, u
   /* Lane i: the TPs whose bank number has i in its lowest two bits. */
   const trax_fast_lanes by_low_bits = ((none + bit[0]) ^ even) & ((none + bit[1]) ^ lower);
   trax_fast_lanes winner;
-  if (__builtin_expect(tm->data_banks <= 2 * TRAX_FAST_LANES, true)) {
+  if (__builtin_expect(tm->dcache.banks <= 2 * TRAX_FAST_LANES, true)) {
     const trax_fast_lanes first = by_low_bits & (none + (requesters & ~bit[2]));
     TRAX_FAST_ARBITRATE(trax_fast_lanes, &tm->data_bank_rr_masks[0], first, &winner);
-    if (tm->data_banks > TRAX_FAST_LANES) {
+    if (tm->dcache.banks > TRAX_FAST_LANES) {
       const trax_fast_lanes second = by_low_bits & (none + (requesters & bit[2]));
       trax_fast_lanes other;
       TRAX_FAST_ARBITRATE(trax_fast_lanes, &tm->data_bank_rr_masks[1], second, &other);
@@ -30,9 +30,9 @@ static ALWAYS_INLINE uint64_t grant_banks(struct trax_tm *tm, const bool wide, u
     winner = none;
     trax_fast_transpose(&tm->heads, wide, TRAX_STEP_BANK_SHIFT + 3, 1, bit + 3);
     trax_fast_transpose(&tm->heads, wide, TRAX_STEP_BANK_SHIFT + 4, 2, bit + 4);
-    for (uint32_t first = 0; first < tm->data_banks; first += TRAX_FAST_LANES) {
+    for (uint32_t first = 0; first < tm->dcache.banks; first += TRAX_FAST_LANES) {
       uint64_t requesting = requesters;
-      for (uint32_t k = 2; k < tm->data_bank_bits; k++)
+      for (uint32_t k = 2; k < TRAX_FAST_BANK_BITS; k++)
         requesting &= first >> k & 1 ? bit[k] : ~bit[k];
       const trax_fast_lanes four = by_low_bits & (none + requesting);
       trax_fast_lanes other;
@@ -51,10 +51,10 @@ static __attribute__((noinline)) uint64_t in_filling_banks(struct trax_tm *tm, u
   uint64_t found = 0;
   trax_fast_transpose(&tm->heads, tm->wide, TRAX_STEP_BANK_SHIFT + 3, 1, bit + 3);
   trax_fast_transpose(&tm->heads, tm->wide, TRAX_STEP_BANK_SHIFT + 4, 2, bit + 4);
-  for (uint32_t bank = 0; bank < tm->data_banks; bank++)
+  for (uint32_t bank = 0; bank < tm->dcache.banks; bank++)
     if (tm->dcache.fills_end[bank] > t) {
       uint64_t here = requesters;
-      for (uint32_t k = 0; k < tm->data_bank_bits; k++)
+      for (uint32_t k = 0; k < TRAX_FAST_BANK_BITS; k++)
         here &= bank >> k & 1 ? bit[k] : ~bit[k];
       found |= here;
     }

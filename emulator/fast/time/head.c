@@ -18,9 +18,12 @@ static bool all_resident(const struct trax_tm *tm, unsigned number, unsigned cou
   const unsigned icache = tm->icache_of[number];
   if (tm->chip->program.lines <= 64 && !(tp->burst.lines & ~tm->resident[icache][0]))
     return true;
-  for (unsigned i = 0; i < count; i++)
-    if (!trax_fast_is_resident(tm, icache, tm->chip->program.line[trax_fast_index(tp, i)]))
+  for (unsigned i = 0, line = TRAX_FAST_LINES; i < count; i++) {
+    const unsigned next = tm->chip->program.line[trax_fast_index(tp, i)];
+    if (next != line && !trax_fast_is_resident(tm, icache, next))
       return false;
+    line = next;
+  }
   return true;
 }
 
@@ -92,17 +95,23 @@ void trax_fast_export_head(struct trax_tm *tm, unsigned number) {
   tp->address = tp->inst->bytes ? tm->heads.address[number] : 0;
 }
 
+void trax_fast_count_steps(struct trax_tm *tm, unsigned number, unsigned from, unsigned to, int sign) {
+  for (unsigned i = from; i < to; i++) {
+    const uint32_t index = trax_fast_index(&tm->tp[number], i);
+    tm->count_deltas[index] += sign;
+    tm->count_deltas[index + 1] -= sign;
+  }
+}
+
 void trax_fast_end_burst(struct trax_tm *tm, unsigned number, unsigned executed, unsigned issued) {
   struct trax_tp *tp = &tm->tp[number];
   tp->issued += issued;
   tp->jumps += tp->burst.jumps;
-  for (unsigned i = issued; i < executed; i++) { /* takes the steps that are not issued off the counts */
-    const uint32_t index = trax_fast_index(tp, i);
+  trax_fast_count_steps(tm, number, issued, executed, -1);
+  for (unsigned i = issued; i < executed; i++) {
     const uint32_t next =
         i + 1 < executed ? trax_fast_index(tp, i + 1) : (uint32_t)(tp->resume - tm->chip->program.inst);
-    tm->count_deltas[index]--;
-    tm->count_deltas[index + 1]++;
-    tp->jumps -= next != index + 1;
+    tp->jumps -= next != trax_fast_index(tp, i) + 1;
   }
 }
 

@@ -58,6 +58,8 @@ static inline void trax_fast_set_load(struct trax_tm *tm, unsigned tp, unsigned 
 void trax_fast_refill(struct trax_tm *tm, unsigned tp);
 /* Writes the head to the TP's structure, which tm.c and tp.c use: inst, pc, address. */
 void trax_fast_export_head(struct trax_tm *tm, unsigned tp);
+/* Adds `sign` to the numbers of executions of the steps from `from` to `to`. */
+void trax_fast_count_steps(struct trax_tm *tm, unsigned tp, unsigned from, unsigned to, int sign);
 /* Ends the TP's burst of `executed` steps, of which the first `issued` were issued; the others count as not executed.
  */
 void trax_fast_end_burst(struct trax_tm *tm, unsigned tp, unsigned executed, unsigned issued);

@@ -6,18 +6,14 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-struct trax_chip;
 struct trax_tm;
 struct trax_fast_refusal_counts;
-
-enum { TRAX_FAST_INTERLEAVED = 2 }; /* the most TMs that run_epoch interleaves */
 
 struct trax_fast_variant {
   /* Simulates a cycle of a TM, arrivals included, and sets its next_cycle. */
   void (*cycle)(struct trax_tm *tm, uint64_t t);
-  /* Simulates an epoch (epochs.h): all cycles before `end` of the `count` TMs from `first` on, at most
-     TRAX_FAST_INTERLEAVED. A TM that stops or faults is left at that cycle. */
-  void (*run_epoch)(struct trax_chip *chip, uint32_t first, uint32_t count, uint64_t end);
+  /* Simulates an epoch of a TM (epochs.h): all cycles before `end`, or up to one in which it stops or faults. */
+  void (*run_epoch)(struct trax_tm *tm, uint64_t end);
   /* Adds the log of refusals to the counters. */
   void (*count_log)(struct trax_fast_refusal_counts *counts);
 };

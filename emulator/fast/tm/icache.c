@@ -4,8 +4,7 @@
 
 #include <stdlib.h>
 
-bool trax_icache_create(struct trax_icache *icache, uint32_t number, const struct trax_tm *tm) {
-  icache->number = number;
+bool trax_icache_create(struct trax_icache *icache, const struct trax_tm *tm) {
   icache->pending = calloc(tm->tps, sizeof *icache->pending);
   return trax_cache_tags_create(&icache->tags, tm->config->icache.bytes, tm->config->icache.line_bytes,
                                 tm->config->icache.ways, TRAX_REPLACE_FIFO) &&
@@ -38,7 +37,7 @@ void trax_icache_look_up(struct trax_icache *icache, struct trax_tm *tm, unsigne
   }
   tm->stats->icache_misses++;
   trax_tm_request(tm, (struct trax_request){.kind = TRAX_REQUEST_INSTRUCTION_LINE,
-                                            .icache = (uint8_t)icache->number,
+                                            .icache = tm->icache_of[tp],
                                             .line = line,
                                             .address = line << icache->tags.line_shift,
                                             .bytes = tm->config->icache.line_bytes});

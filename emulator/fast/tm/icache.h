@@ -19,13 +19,12 @@ struct trax_icache_pending {
 #define TRAX_ICACHE_STATE(X, S) X(S, uint32_t, pending_count, ) /* lines on their way */
 struct trax_icache {
   TRAX_ICACHE_STATE(TRAX_FIELD, )
-  uint32_t number;
   struct trax_cache_tags tags;
   struct trax_icache_pending *pending; /* [tps], the first pending_count in use */
   uint64_t evicted;                    /* the number of the line that the latest arrival replaced, + 1; 0: none */
 };
 
-bool trax_icache_create(struct trax_icache *icache, uint32_t number, const struct trax_tm *tm);
+bool trax_icache_create(struct trax_icache *icache, const struct trax_tm *tm);
 void trax_icache_destroy(struct trax_icache *icache);
 
 /* Looks up the line of the pc of a TP that has won its bank. Then the TP holds its instruction, sleeps until the line's

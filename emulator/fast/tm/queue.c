@@ -43,8 +43,6 @@ static bool is_before(const struct trax_queue *queue, uint32_t a, uint32_t b) {
 
 void trax_queue_start(struct trax_queue *queue, uint32_t index) {
   uint32_t at = queue->started++;
-  if (!queue->heap)
-    return;
   for (; at && is_before(queue, index, queue->heap[(at - 1) / 2]); at = (at - 1) / 2)
     queue->heap[at] = queue->heap[(at - 1) / 2];
   queue->heap[at] = (uint16_t)index;

@@ -61,7 +61,7 @@ void trax_queue_destroy(struct trax_queue *queue);
 void trax_queue_push_unsubmitted(struct trax_queue *queue, struct trax_request request);
 /* Makes what follows from the requests, none of which is unsubmitted. */
 void trax_queue_import(struct trax_queue *queue);
-/* The completion of a request has become known; in a ring, of the oldest one that waited. */
+/* Enters a request, whose completion has become known, into the heap. */
 void trax_queue_start(struct trax_queue *queue, uint32_t index);
 void trax_queue_pop_heap(struct trax_queue *queue);
 
@@ -86,10 +86,10 @@ static inline struct trax_request *trax_queue_oldest(const struct trax_queue *qu
   return &queue->requests[queue->oldest];
 }
 
-/* Returns the place of the oldest request of a ring that has not been served. */
-static inline uint32_t trax_queue_first_waiting(const struct trax_queue *queue) {
+/* Returns the oldest request of a ring that has not been served. */
+static inline struct trax_request *trax_queue_first_waiting(const struct trax_queue *queue) {
   const uint32_t index = queue->oldest + queue->started;
-  return index < queue->depth ? index : index - queue->depth;
+  return &queue->requests[index < queue->depth ? index : index - queue->depth];
 }
 
 /* Whether place `index` of a ring is one of the first `count` from the oldest one on. */

@@ -34,7 +34,6 @@ struct trax_tm {
   struct trax_chip *chip;
   const struct trax_config *config;
   struct trax_machine *machine;
-  const struct trax_text *text;
   FILE *output;                         /* the guest's; NULL discards it */
   struct trax_observer *observer;       /* NULL: none */
   uint8_t told[TRAX_MAX_TPS_PER_TM];    /* steps of the burst of which the observer knows; only for stretches */
@@ -86,7 +85,6 @@ struct trax_tm {
   bool simple_fetch;
   uint32_t vectors;
   trax_fast_lanes *fetch_rr_masks;
-  uint32_t data_banks, data_bank_bits;
   bool serial_hits; /* data-cache hits are served one by one: they update the scoreboard or the LRU order */
   uint64_t (*resident)[TRAX_FAST_LINES / 64]; /* [icaches]: a bit for each line of the program that the cache holds */
   uint8_t icache_of[TRAX_MAX_TPS_PER_TM];

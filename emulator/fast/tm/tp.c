@@ -120,7 +120,7 @@ bool trax_tp_execute(struct trax_tm *tm, unsigned number, uint64_t t) {
   if (next_pc == pc + 4)
     tp->inst++;
   else
-    tp->inst = trax_text_at(tm->text, next_pc);
+    tp->inst = trax_text_at(tm->chip->text, next_pc);
   tp->pc = next_pc;
   return true;
 }

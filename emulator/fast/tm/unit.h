@@ -16,9 +16,6 @@ struct trax_shared_unit {
   TRAX_SHARED_UNIT_STATE(TRAX_FIELD, )
 };
 
-bool trax_shared_unit_create(struct trax_shared_unit *unit, trax_shared which, const struct trax_config *config);
-void trax_shared_unit_destroy(struct trax_shared_unit *unit);
-
 /* The number of elements of free_from. */
 static inline size_t trax_shared_unit_count(const struct trax_shared_unit *unit) {
   return unit->free_from ? (size_t)unit->kind.groups * unit->kind.per_group : 0;
