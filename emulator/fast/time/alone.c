@@ -53,6 +53,24 @@ static bool store(struct trax_tm *tm, unsigned number, unsigned at, unsigned loa
   return true;
 }
 
+/* Whether the line of step `at` is resident and its operands are usable. `line`: the one that was found latest. */
+static bool is_ready(struct trax_tm *tm, unsigned number, unsigned at, uint32_t *line, uint64_t t) {
+  const struct trax_tp *tp = &tm->tp[number];
+  const struct trax_fast_timing *timing = &tm->chip->program.timing[trax_fast_index(tp, at)];
+  if (tm->uncertain >> number & 1) {
+    const struct trax_cache_tags *tags = &tm->icache[tm->icache_of[number]].tags;
+    const uint32_t own = trax_line_of(tags, timing->pc);
+    if (own != *line && !trax_cache_tags_have(tags, own))
+      return false;
+    *line = own;
+  }
+  for (uint32_t rest = timing->waits & tm->busy_registers[number]; rest; rest &= rest - 1)
+    if (tp->usable[trax_first(rest)] > t)
+      return false;
+  tm->busy_registers[number] &= ~timing->waits;
+  return true;
+}
+
 bool trax_fast_run_alone(struct trax_tm *tm, uint64_t t, uint64_t end) {
   const uint64_t begin = t;
   const unsigned number = trax_first(tm->awake);
@@ -61,14 +79,17 @@ bool trax_fast_run_alone(struct trax_tm *tm, uint64_t t, uint64_t end) {
       tm->dcache.all_fills_end > t || tm->ended >> number & 1)
     return false;
   end = trax_tm_quiet_until(tm, t, end);
-  unsigned at = tm->heads.at[number], last = tm->heads.last[number], load = tm->heads.load[number];
-  if (((tm->busy | tm->uncertain) >> number & 1) && tm->heads.check_at[number] < last)
-    last = tm->heads.check_at[number];
+  const unsigned last = tm->heads.last[number];
+  const bool checks = (tm->busy | tm->uncertain) >> number & 1;
+  unsigned at = tm->heads.at[number], load = tm->heads.load[number];
+  uint32_t line = UINT32_MAX; /* none */
   const struct trax_cache_tags *const tags = &tm->dcache.tags;
   uint64_t hits = 0;
   struct used used = {0};
   for (; t < end && at < last; t++, at++) {
     const unsigned step = tp->burst.step[at], kind = step & TRAX_STEP_KIND;
+    if (checks && !is_ready(tm, number, at, &line, t))
+      break;
     if (kind == TRAX_STEP_BANK) {
       if (step & TRAX_STEP_SLOW ? !store(tm, number, at, load, t)
                                 : !trax_cache_tags_have(tags, trax_line_of(tags, tp->burst.loads[load])))
@@ -82,8 +103,10 @@ bool trax_fast_run_alone(struct trax_tm *tm, uint64_t t, uint64_t end) {
     used.kinds |= 1u << (kind >> 1);
     used.fetch_banks |= (uint64_t)1 << (step >> TRAX_STEP_FETCH_SHIFT);
   }
+  tm->busy &= ~((uint64_t)!tm->busy_registers[number] << number);
   if (t == begin)
     return false;
+  tm->heads.check_at[number] = (uint8_t)at; /* if it is still busy or uncertain */
   tm->stats->icache_hits += t - begin;
   tm->stats->dcache_hits += hits;
   pass_arbiters(tm, number, &used);
