@@ -413,7 +413,7 @@ MUTANTS = [
     ("fast/time/head.c", "tp->alone || tp->burst.stored ? bit : 0", "tp->alone ? bit : 0"),
     ("fast/time/issue.h", "decoded->bytes, t))\n    trax_fast_roll_back_tp(tm, number);",
      "decoded->bytes, t))\n    (void)tm;"),
-    ("fast/time/alone.c", "if (trax_burst_stores(&tp->burst, load) &&", "if (0 &&"),
+    ("fast/time/alone.c", "(trax_burst_stores(&tp->burst, load) &&", "(0 &&"),
     ("translate/burst.h", "(burst->undo + TRAX_BURST) - 1 - load", "(burst->undo + TRAX_BURST) - 1 - load % 4"),
     # Local memory is as it was.
     ("fast/function/blocks.c", ": tp->local + (undo->address - TRAX_LOCAL_BASE),",
@@ -530,7 +530,9 @@ MUTANTS = [
     ("reference/data_cache.c", "filling ? -1 : ", "filling && !filling ? -1 : "),
     # --- One TP, one thread ---
     ("fast/time/alone.c", "used.data_banks |= (uint64_t)1 << (step >> TRAX_STEP_BANK_SHIFT & 63);", ";"),
-    ("fast/time/alone.c", "used.fetch_banks |= (uint64_t)1 << (step >> TRAX_STEP_FETCH_SHIFT);", ";"),
+    ("fast/time/alone.c", "used.fetch_banks |= (uint64_t)1 << (step >> TRAX_STEP_FETCH_SHIFT);\n  }", "}"),
+    ("fast/time/alone.c", "used.fetch_banks |= (uint64_t)1 << (step >> TRAX_STEP_FETCH_SHIFT);\n        tp->pc",
+     "tp->pc"),
     ("fast/time/alone.c", "used.kinds |= 1u << (kind >> 1);", ";"),
     ("fast/tm/tm.c", "completion < end)\n    end =", "completion < end)\n    end +="),
     ("fast/tm/tm.c", "if (t + trax_first(rotated) < end)", "if (0)"),
