@@ -72,9 +72,12 @@ static bool run_ahead(struct trax_chip *chip, uint64_t *t, uint64_t until) {
   if (!tm || !*t || !trax_tm_has_one_awake(tm))
     return false;
   const uint64_t transfer = trax_memory_next_cycle(&chip->memory, *t - 1);
+  const uint64_t requests = tm->stats->memory_requests;
   if (!trax_fast_run_alone(tm, *t, transfer < until ? transfer : until))
     return false;
-  *t = tm->next_cycle;
+  if (tm->stats->memory_requests != requests)
+    trax_memory_cycle(&chip->memory, chip->tm, &chip->machine->space, tm->now);
+  *t = tm->now + 1;
   return true;
 }
 

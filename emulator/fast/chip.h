@@ -77,9 +77,9 @@ static inline unsigned trax_fast_next_of_stretch(const struct trax_tm *tm, unsig
   return tm->heads.at[tp] - (unsigned)tm->told[tp];
 }
 
-/* Simulates cycles from t on, before `end`, of a TM in which one TP is awake, as long as it issues a step in each, and
-   makes no request. Requires that no transfer starts before `end`. False: there are no such cycles; else next_cycle is
-   set. */
+/* Simulates cycles from t on, before `end`, of a TM in which one TP is awake, as long as it issues a step in each, or
+   until it makes a request, in the last of them. Requires that no transfer starts before `end`. False: there are no
+   such cycles; else `now` is the last one, and next_cycle is set. */
 bool trax_fast_run_alone(struct trax_tm *tm, uint64_t t, uint64_t end);
 
 /* Continues the run before cycle t, after a roll back of all TPs (blocks.h), with the state in the structures. */

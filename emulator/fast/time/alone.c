@@ -1,5 +1,6 @@
 /* Cycles in which one TP of a TM is awake. Nobody else wants what it needs, so it issues a step in each cycle, as long
-   as the steps are quick, their operands usable, and their loads hit. A single thread spends most of its time so. */
+   as the steps are quick or stores, their operands usable, and their loads hit, until it makes a request. A single
+   thread spends most of its time so. */
 #include "fast/time/head.h"
 
 /* The kinds of units, and the banks, that the TP has used: their round robins go on behind it. */
@@ -19,17 +20,20 @@ static void pass_unit(struct trax_tm *tm, trax_shared which, unsigned number) {
   }
 }
 
-static void set_fetch_rr_mask(struct trax_tm *tm, uint32_t icache, uint32_t bank, uint64_t rr_mask) {
-  if (tm->simple_fetch)
-    *trax_fast_fetch_rr_mask(&tm->fetch_rr_masks16, tm->wide, icache, bank) = (uint16_t)(rr_mask >> 16 * icache);
-  else
-    ((uint64_t *)(tm->fetch_rr_masks + icache * tm->vectors))[bank] = rr_mask;
+static void pass_fetch_banks(struct trax_tm *tm, uint32_t icache, uint64_t banks, uint64_t rr_mask) {
+  if (tm->simple_fetch) {
+    uint16_t *const first = trax_fast_fetch_rr_mask(&tm->fetch_rr_masks16, tm->wide, icache, 0);
+    const unsigned caches = tm->wide ? 4 : 2;
+    for (; banks; banks &= banks - 1)
+      first[trax_first(banks) * caches] = (uint16_t)(rr_mask >> 16 * icache);
+  }
+  for (uint64_t *masks = (uint64_t *)(tm->fetch_rr_masks + icache * tm->vectors); banks; banks &= banks - 1)
+    masks[trax_first(banks)] = rr_mask;
 }
 
 static void pass_arbiters(struct trax_tm *tm, unsigned number, const struct used *used) {
   const uint64_t behind = ~(uint64_t)1 << number;
-  for (uint64_t rest = used->fetch_banks; rest; rest &= rest - 1)
-    set_fetch_rr_mask(tm, tm->icache_of[number], trax_first(rest), behind);
+  pass_fetch_banks(tm, tm->icache_of[number], used->fetch_banks, behind);
   for (uint64_t rest = used->data_banks; rest; rest &= rest - 1)
     ((uint64_t *)tm->data_bank_rr_masks)[trax_first(rest)] = behind;
   for (trax_shared unit = TRAX_SHARED_FP_ADD; unit <= TRAX_SHARED_INT_MUL; unit++)
@@ -37,38 +41,62 @@ static void pass_arbiters(struct trax_tm *tm, unsigned number, const struct used
       pass_unit(tm, unit, number);
 }
 
-/* Serves a slow step if it is a store of the burst that needs no place in the memory queue. */
+/* Serves a slow step if it is a store, unless it needs a place in the memory queue and gets none. */
 static bool store(struct trax_tm *tm, unsigned number, unsigned at, unsigned load, uint64_t t) {
   struct trax_tp *tp = &tm->tp[number];
   const struct trax_fast_timing *timing = &tm->chip->program.timing[trax_fast_index(tp, at)];
-  if (!timing->decoded->is_store || !tm->config->memory.write_combining ||
-      (tp->run_begin != tp->run_end && !trax_tp_combines(tp, tp->burst.loads[load], timing->decoded->bytes)))
+  if (!timing->decoded->is_store || !trax_queue_has_place(&tm->queue) ||
+      (trax_burst_stores(&tp->burst, load) && !trax_fast_store(tm, number, load, timing->decoded->bytes, t)))
     return false;
   tp->inst = timing->decoded;
   tp->pc = timing->pc;
   tp->address = tp->burst.loads[load];
-  if (trax_burst_stores(&tp->burst, load) && !trax_fast_store(tm, number, load, timing->decoded->bytes, t))
-    return false;
+  tm->now = t; /* of a request */
   trax_tm_serve(tm, number, t);
   return true;
 }
 
+/* Whether the operands of step `at` are usable. */
+static bool has_operands(struct trax_tm *tm, unsigned number, uint32_t waits, uint64_t t) {
+  for (uint32_t rest = waits & tm->busy_registers[number]; rest; rest &= rest - 1)
+    if (tm->tp[number].usable[trax_first(rest)] > t)
+      return false;
+  tm->busy_registers[number] &= ~waits;
+  return true;
+}
+
 bool trax_fast_run_alone(struct trax_tm *tm, uint64_t t, uint64_t end) {
-  const uint64_t begin = t;
-  const unsigned number = trax_first(tm->awake);
+  const uint64_t begin = t, requests = tm->stats->memory_requests;
+  const unsigned number = trax_first(tm->awake), first = tm->heads.at[number], last = tm->heads.last[number];
   struct trax_tp *tp = &tm->tp[number];
   if (((tm->holding | tm->executes_at_issue) >> number & 1) || tm->recheck || tm->serial_hits || tm->observer ||
       tm->dcache.all_fills_end > t || tm->ended >> number & 1)
     return false;
   end = trax_tm_quiet_until(tm, t, end);
-  unsigned at = tm->heads.at[number], last = tm->heads.last[number], load = tm->heads.load[number];
-  if (((tm->busy | tm->uncertain) >> number & 1) && tm->heads.check_at[number] < last)
-    last = tm->heads.check_at[number];
+  const bool busy = tm->busy >> number & 1, uncertain = tm->uncertain >> number & 1;
   const struct trax_cache_tags *const tags = &tm->dcache.tags;
+  struct trax_icache *const icache = &tm->icache[tm->icache_of[number]];
+  const uint32_t line_bytes = tm->config->icache.line_bytes;
+  unsigned at = first, load = tm->heads.load[number], next_line = first;
   uint64_t hits = 0;
   struct used used = {0};
-  for (; t < end && at < last; t++, at++) {
+  for (; t < end && at < last && tm->stats->memory_requests == requests; t++, at++) {
     const unsigned step = tp->burst.step[at], kind = step & TRAX_STEP_KIND;
+    const bool enters_line = uncertain && (at == next_line || !tp->burst.distance[at]);
+    if (busy || enters_line) {
+      const struct trax_fast_timing *timing = &tm->chip->program.timing[trax_fast_index(tp, at)];
+      if (enters_line && !trax_cache_tags_have(&icache->tags, trax_line_of(&icache->tags, timing->pc))) {
+        used.fetch_banks |= (uint64_t)1 << (step >> TRAX_STEP_FETCH_SHIFT);
+        tp->pc = timing->pc;
+        tm->now = t;
+        trax_icache_look_up(icache, tm, number, t++);
+        break;
+      }
+      if (enters_line)
+        next_line = at + (line_bytes - timing->pc % line_bytes) / 4;
+      if (busy && !has_operands(tm, number, timing->waits, t))
+        break;
+    }
     if (kind == TRAX_STEP_BANK) {
       if (step & TRAX_STEP_SLOW ? !store(tm, number, at, load, t)
                                 : !trax_cache_tags_have(tags, trax_line_of(tags, tp->burst.loads[load])))
@@ -82,14 +110,15 @@ bool trax_fast_run_alone(struct trax_tm *tm, uint64_t t, uint64_t end) {
     used.kinds |= 1u << (kind >> 1);
     used.fetch_banks |= (uint64_t)1 << (step >> TRAX_STEP_FETCH_SHIFT);
   }
+  tm->busy &= ~((uint64_t)!tm->busy_registers[number] << number);
   if (t == begin)
     return false;
-  tm->stats->icache_hits += t - begin;
+  tm->stats->icache_hits += at - first;
   tm->stats->dcache_hits += hits;
   pass_arbiters(tm, number, &used);
   trax_fast_set_load(tm, number, load);
   trax_fast_set_head(&tm->heads, number, at);
   tm->now = t - 1;
-  tm->next_cycle = t;
+  tm->next_cycle = trax_tm_next_cycle(tm, t - 1);
   return true;
 }
