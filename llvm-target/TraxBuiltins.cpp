@@ -89,7 +89,7 @@ static StringRef nameOfCheck(uint64_t Number) {
   return Number < std::size(Names) ? StringRef(Names[Number]) : "a check failed";
 }
 
-/// A check of undefined behaviour that fails ends in the trap `abort` with a message that says which it was.
+/// A check of undefined behaviour that fails ends in the trap `abort` with a message that names the check.
 static bool explainChecks(Module &M) {
   Function *Check = M.getFunction("llvm.ubsantrap");
   if (!Check)

@@ -161,7 +161,7 @@ static int32_t write_file(struct trax_opened *opened, const uint8_t *bytes, uint
   return (int32_t)count;
 }
 
-/* Writes to what is open for writing. The result is that of the call. */
+/* Writes to a descriptor that is open for writing. Returns the result of the call. */
 static int32_t write_opened(struct trax_calls *calls, struct trax_opened *opened, const uint8_t *bytes,
                             uint32_t count) {
   if (opened->kind == TRAX_OPENED_FILE)

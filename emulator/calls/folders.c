@@ -14,7 +14,7 @@
 
 enum { MOST_LINKS = 40, MOST_OPEN = 64 /* folders besides the allowed ones */ };
 
-/* Skips what does not change a name: "./" and "//" at its beginning. */
+/* Skips "./" and "//" at the beginning of a name: they do not change it. */
 static const char *plain(const char *name) {
   while (name[0] == '.' && (name[1] == '/' || name[1] == '\0')) {
     name += name[1] ? 2 : 1;

@@ -133,7 +133,7 @@ static bool has_same_file(struct trax_calls *calls, const struct trax_place *a, 
          first.st_dev == second.st_dev && first.st_ino == second.st_ino;
 }
 
-/* Renames the host's file if there is one. A file that the host does not have yet will replace what is at `to`. */
+/* Renames the host's file if there is one. A file that the host does not have yet will replace the file at `to`. */
 static int rename_at_once(struct trax_calls *calls, const struct trax_place *from, const struct trax_place *to,
                           mode_t kind, mode_t to_kind, bool is_named) {
   mode_t on_host;

@@ -1,4 +1,4 @@
-/* The run of a machine by one of the engines: beginning, advancing, end, and what is called between cycles. */
+/* The run of a machine by one of the engines: beginning, advancing, end, and the calls between cycles. */
 #define _POSIX_C_SOURCE 200809L /* clock_gettime */
 #include "engine/run.h"
 #include "calls/calls.h"

@@ -167,7 +167,7 @@ static bool execute(struct chip *chip, struct thread *thread) {
 
 /* --- slices --- */
 
-/* Executes instructions as run_slice does; what is translated, as such. */
+/* Executes instructions as run_slice does, and the translation of those that have one. */
 static enum stop run_translated(struct chip *chip, struct thread *thread, uint64_t end) {
   const size_t index = (size_t)(inst_at(&chip->text, thread->pc) - chip->text.inst);
   if (trax_translation_has(chip->translation, index)) {

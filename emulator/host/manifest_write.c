@@ -1,4 +1,4 @@
-/* Manifests: what is written of a machine that is loaded and has not run. */
+/* Writes the manifest of a machine that is loaded and has not run. */
 #include "trax/manifest.h"
 
 #include <errno.h>

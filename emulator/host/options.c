@@ -213,7 +213,7 @@ static bool takes_arguments(const char *program) {
   return takes;
 }
 
-/* Names what is wrong: the program, if that is no image, or an argument that it does not take. */
+/* Reports the error: the program is no image, or its main does not take the argument. */
 static void refuse_argument(const char *program, const char *argument, trax_error *error) {
   trax_image *image = NULL;
   if (!trax_manifest_is(program) && !(image = trax_image_open(program, error)))

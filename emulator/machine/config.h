@@ -73,7 +73,7 @@ bool trax_config_word_value(const struct trax_config_key *key, const char *word,
 static inline bool trax_config_has_words(const struct trax_config_key *key) {
   return key->kind >= TRAX_KIND_POLICY;
 }
-/* Checks that the key may have the value. The message names the key, the value and what is allowed. */
+/* Checks that the key may have the value. The message names the key, the value and the allowed values. */
 trax_status trax_config_check_value(const struct trax_config_key *key, double value, trax_error *error);
 /* Describes the values that the key may have, as in "allowed are ...". */
 enum { TRAX_CONFIG_ALLOWED = 200 };

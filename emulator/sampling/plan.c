@@ -108,7 +108,7 @@ static trax_status check_queues(const trax_slot_sampling *asked, trax_error *err
   if (!asked->tile || asked->slots % asked->tile)
     return trax_fail(error, "%u slots of several queues are not whole tiles of %u", asked->slots, asked->tile);
   if (asked->handed_out && !asked->block)
-    return trax_fail(error, "what queues have handed out needs the number of slots in a block");
+    return trax_fail(error, "the slots that queues have handed out need the number of slots in a block");
   for (uint64_t place = 0; asked->handed_out && place < asked->slots; place += asked->block) {
     const uint32_t *row = &asked->handed_out[place / asked->block * asked->queues];
     uint64_t sum = 0;

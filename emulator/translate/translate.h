@@ -49,7 +49,7 @@ void trax_translation_destroy(struct trax_translation *translation);
 /* Whether the sequence that begins with an instruction is translated. If not, it is about to be interpreted, which is
    counted. Several threads of the host may call this at the same time. */
 bool trax_translation_has(struct trax_translation *translation, size_t index);
-/* Translates what has been interpreted often. No thread of the host may execute translated code. */
+/* Translates the sequences that were interpreted often. No thread of the host may execute translated code. */
 void trax_translation_extend(struct trax_translation *translation);
 /* Runs the thread from `index` on, which is translated and at thread->pc. */
 enum trax_translated_end trax_translation_run(struct trax_translation *translation, size_t index,

@@ -4,7 +4,7 @@ packages, unchanged, by our clang and by Debian's clang-19 for 32-bit RISC-V.
 
     llvm-target/bench/outside.py --build build --work DIR [PROGRAM...]
 
-Run on request: it fetches some 20 MB with apt-get. DIR keeps what was fetched. outside/PROGRAM.c says what each does.
+Run on request: it fetches some 20 MB with apt-get. DIR keeps the sources. outside/PROGRAM.c describes each program.
 Counted are executed instructions, as quality.py does. Both sides link the runtime, each compiled by its own compiler,
 and must compute the same checksum; packing is checked by unpacking.
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What does a profile save? The ray tracer's general program with -fprofile-sample-use and without.
+"""Measures the gain of a profile: the ray tracer's general program with -fprofile-sample-use and without.
 
     llvm-target/bench/profiled.py --build build [--instrumented] SCENE...
 

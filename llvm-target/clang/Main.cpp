@@ -115,7 +115,7 @@ void compileInProcess(Driver &TheDriver, Compilation &C) {
       Job.InProcess |= IsCompilation(Job);
 }
 
-/// Runs the jobs. A compiler that crashed leaves what is needed to reproduce it, as clang does.
+/// Runs the jobs. After a crash the files that reproduce it remain, as clang leaves them.
 int execute(Driver &TheDriver, Compilation &C, bool &Crashed) {
   for (const char *Temporary : C.getTempFiles()) // the driver removes them itself only if it ends by itself
     llvm::sys::RemoveFileOnSignal(Temporary);

@@ -13,7 +13,7 @@ class Driver;
 namespace trax {
 
 /// Reports options that clang accepts for any target and this machine cannot support, and wrong values of its own
-/// options. Claims options that request what is always so here.
+/// options. Claims options that request the only behaviour that this target has.
 void refuseOptions(const clang::driver::Driver &D, const llvm::Triple &Triple, const llvm::opt::ArgList &Args);
 
 /// The registers of -ffixed-rN that can be kept free.

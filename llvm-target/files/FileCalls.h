@@ -22,8 +22,8 @@ void followRule(bool Follow);
 /// The last file that was opened for writing.
 const void *outputsSoFar();
 
-/// Writes what was collected since Since, unless the program has failed (Keep is false), and reports what could not be
-/// written as "PROGRAM: error: ...". Returns false if there was any.
+/// Writes the files collected since Since, unless the program has failed (Keep is false), and reports those that cannot
+/// be written as "PROGRAM: error: ...". Returns false if there was any.
 bool commitOutputs(const char *Program, bool Keep, const void *Since = nullptr);
 
 } // namespace trax

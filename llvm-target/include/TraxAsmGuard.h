@@ -30,10 +30,10 @@ void enterParser(const llvm::MCAsmParser *Parser);
 /// Ends the process by LLVM's fatal error, with the place of Loc in a file. Without Sources, it is the parser's place.
 [[noreturn]] void stopAssembly(const llvm::SourceMgr *Sources, llvm::SMLoc Loc, const llvm::Twine &Message);
 
-/// For a process that assembles one file: at most 200 errors in what is expanded, and 2 GB of memory.
+/// For a process that assembles one file: at most 200 errors in expansions, and 2 GB of memory.
 void limitAssembly(llvm::SourceMgr &Sources);
 
-/// Prints what is wrong with labels and the like without lines that are too long, as limitAssembly does with the rest.
+/// Leaves lines that are too long out of messages about labels and the like, as limitAssembly does for the others.
 void limitMessages(llvm::MCContext &Context);
 
 /// The expansions of one run of a parser.

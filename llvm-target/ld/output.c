@@ -113,7 +113,7 @@ static void collect_headers(ld_context *ctx, header_list *headers, string_table 
   }
 }
 
-/* A table that follows what is there; its bytes are copied by the caller. */
+/* Appends a table to the image. The caller copies its bytes. */
 static Elf32_Shdr *add_table(ld_context *ctx, header_list *headers, string_table *names, const char *name,
                              uint32_t type, size_t size, uint32_t alignment) {
   uint64_t offset = ld_align(ctx->image_size, alignment);

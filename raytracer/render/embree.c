@@ -76,7 +76,7 @@ struct double3 embree_start(const struct embree *embree, const struct placed_tri
   return plus_scaled(plus_scaled(point, bound, normal), -back, sight);
 }
 
-/* The light through a place of a pixel. *seen receives what the rays meet. */
+/* The light through a place of a pixel. *seen receives the hits of its rays. */
 static struct double3 trace_sample(const struct embree *embree, struct pixel pixel, struct place place,
                                    struct trax_layers *seen, uint64_t *rays) {
   const struct trax_render_params *params = embree->frame->params;
@@ -357,7 +357,7 @@ static trax_status find_hits(struct trax_hits *hits, const struct trax_frame *fr
       .frame = frame, .hits = hits, .exactly = exactly, .run = run, .lock = PTHREAD_MUTEX_INITIALIZER};
   const trax_status status =
       hits->triangles ? run_embree(&embree, error)
-                      : trax_fail(error, "out of memory for what %u x %u pixels hit", params->width, params->height);
+                      : trax_fail(error, "out of memory for the hits of %u x %u pixels", params->width, params->height);
   if (status != TRAX_OK)
     trax_hits_release(hits);
   return status;

@@ -82,7 +82,7 @@ static trax_status emulated_config(trax_config *config, const struct options *op
   trax_status status = trax_config_load(config, options->config ? options->config : "4x32", error);
   if (status != TRAX_OK)
     return status;
-  /* The machine's memory grows with what is rendered, unless it is set. */
+  /* The machine's memory grows with the scene and the picture, unless its size is set. */
   uint64_t bytes = 0;
   if (frame)
     bytes += frame->scene->size + frame->params_size + trax_frame_image_bytes(frame);

@@ -62,7 +62,7 @@ static bool is_nearer(const struct query *query, const struct trax_scene *source
   return order ? order < 0 : comes_first(source, hit->triangle, other->triangle);
 }
 
-/* Embree's own ray, in floats, only rules out what is too far. Its end is set behind the hit. */
+/* Embree's own ray, in floats, only rules out triangles that are too far away. Its end is set behind the hit. */
 static void nearest(const struct RTCIntersectFunctionNArguments *arguments) {
   struct query *query = (struct query *)arguments->context;
   const struct exact_part *part = arguments->geometryUserPtr;

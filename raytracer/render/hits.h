@@ -29,7 +29,7 @@ struct trax_hits_difference {
   uint32_t x, y;  /* the first of those two */
 };
 
-/* Judges answers of the device program by what is hit without error. Triangles with the same number in the mesh are the
+/* Judges answers of the device program by the exact hits. Triangles with the same number in the mesh are the
    same.
 
    In exact hits (TRAX_FEATURE_EXACT) only the distance is rounded. Another triangle is tied with the nearest one if the

@@ -27,7 +27,7 @@ trax_status cache_commit(const struct cache_work *work, const char *cache, const
                          trax_error *error);
 void cache_end(const struct cache_work *work);
 
-/* Removes what has not been used longest, but not KEY, and what was never finished. */
+/* Removes the least recently used programs, but not KEY, and unfinished ones. */
 void cache_prune(const char *cache, const char *key);
 
 #endif

@@ -23,7 +23,7 @@ static bool are_finite(const float values[3]) {
   return isfinite(values[0]) && isfinite(values[1]) && isfinite(values[2]);
 }
 
-/* What is wrong with a ray; NULL: nothing. */
+/* Returns the error of a ray; NULL: there is none. */
 static const char *fault_of(const struct trax_ray_record *ray) {
   const float size = greatest(ray->direction);
   if (!are_finite(ray->origin) || !are_finite(ray->direction))

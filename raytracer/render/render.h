@@ -286,7 +286,7 @@ bool trax_program_has(const trax_machine *machine, const char *symbol);
 /* Loads the program and binds what it reads. */
 trax_status trax_simulated_load(trax_machine *machine, const struct trax_frame *frame,
                                 const struct trax_program *program, trax_error *error);
-/* Runs what was loaded. With run.slots there is no picture: most of it is left out. */
+/* Runs the loaded program. With run.slots there is no picture, since most of it is left out. */
 trax_status trax_simulated_run(struct trax_picture *picture, const struct trax_frame *frame, trax_machine *machine,
                                const struct trax_simulated_options *options, trax_error *error);
 

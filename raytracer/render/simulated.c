@@ -91,7 +91,7 @@ static trax_status relocate(trax_machine *machine, trax_error *error) {
 static trax_status bind_record(trax_machine *machine, const struct trax_render_params *params, trax_error *error) {
   const uint64_t size = trax_record_bytes(params);
   if (size > UINT32_MAX)
-    return trax_fail(error, "what is recorded of %u x %u pixels and %u samples exceeds the machine's address space",
+    return trax_fail(error, "the record of %u x %u pixels and %u samples exceeds the machine's address space",
                      params->width, params->height, params->samples);
   return trax_machine_bind(machine, "record", NULL, (uint32_t)size, error);
 }

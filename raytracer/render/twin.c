@@ -125,11 +125,11 @@ trax_status trax_render_twin(struct trax_picture *picture, const struct trax_fra
   if (!run->layers)
     return run_twin(picture, frame, threads, run, error);
   if (record_bytes > UINT32_MAX)
-    return trax_fail(error, "what the rays meet takes %.1f GB to record; 32-bit offsets end at 4.29",
+    return trax_fail(error, "the record of the rays takes %.1f GB; 32-bit offsets end at 4.29",
                      (double)record_bytes * 1e-9);
   record = (struct trax_buffer){calloc(1, record_bytes), (unsigned)record_bytes};
   if (!record.data)
-    return trax_fail(error, "out of memory for what the rays meet");
+    return trax_fail(error, "out of memory for the record of the rays");
   trax_status status = run_twin(picture, frame, threads, run, error);
   if (status == TRAX_OK)
     status = trax_layers_take(picture, frame, record.data, error);
@@ -157,7 +157,7 @@ trax_status trax_hits_native(struct trax_hits *hits, const struct trax_frame *fr
   hits->triangles = malloc(pixels * sizeof *hits->triangles);
   plain.params = malloc(frame->params_size);
   trax_status status =
-      hits->triangles && plain.params ? TRAX_OK : trax_fail(error, "out of memory for what %zu pixels hit", pixels);
+      hits->triangles && plain.params ? TRAX_OK : trax_fail(error, "out of memory for the hits of %zu pixels", pixels);
   if (status == TRAX_OK) {
     /* One ray a pixel and no shading that matters. */
     memcpy(plain.params, frame->params, frame->params_size);

@@ -1,4 +1,4 @@
-/* Files by descriptor: what is done by several host calls, and what has no effect here. */
+/* Files by descriptor: functions that take several host calls, and those without effect here. */
 #include <errno.h>
 #include <fcntl.h>
 #include <stdarg.h>

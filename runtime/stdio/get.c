@@ -66,7 +66,7 @@ static size_t copy(FILE *stream, char *to, size_t count, int last) {
   return done;
 }
 
-/* Switches the stream to reading, which writes out what is in the buffer. With the lock held. */
+/* Switches the stream to reading, and writes out its buffer. With the lock held. */
 static int begin(FILE *stream) {
   return is_stdout(stream) ? EOF : trax_stream_begin_reading(stream);
 }

@@ -20,7 +20,7 @@ static void skip_blanks(struct source *from) {
 
 /* --- numbers --- */
 
-/* A number as text, and what comes next. */
+/* A number as text, and the character behind it. */
 struct token {
   struct source *from;
   char *text;

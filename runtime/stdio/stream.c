@@ -224,7 +224,7 @@ int putc(int c, FILE *stream) {
 
 /* --- formatted output --- */
 
-/* Formats into what is left of the buffer. Returns the count of characters, or -1. */
+/* Formats into the rest of the buffer. Returns the count of characters, or -1. */
 static int format_to_buffer(FILE *stream, const char *format, va_list arguments, double_formatter *format_double) {
   va_list copy;
   va_copy(copy, arguments);

@@ -1,5 +1,5 @@
-/* Streams: what fopen opens, standard input and standard error. Standard output has none: what is written to it goes to
-   the host at once, so nothing of it is lost where a program faults. */
+/* Streams: those of fopen, standard input and standard error. Standard output has none: its bytes go to the host at
+   once, so that none is lost when a program faults. */
 #ifndef TRAX_RUNTIME_STREAM_H
 #define TRAX_RUNTIME_STREAM_H
 

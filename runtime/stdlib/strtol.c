@@ -70,7 +70,7 @@ long strtol(const char *restrict text, char **restrict end, int base) {
   return (long)signed_value(parse(text, end, base, LONG_LIMIT, LONG_LIMIT + 1));
 }
 
-/* A minus sign negates modulo the type's range, as C has it; what is out of range gives the greatest value. */
+/* A minus sign negates modulo the type's range, as C has it; a number out of range gives the greatest value. */
 unsigned long long strtoull(const char *restrict text, char **restrict end, int base) {
   struct parsed number = parse(text, end, base, ~0ull, ~0ull);
   return number.negative && !number.overflow ? 0 - number.magnitude : number.magnitude;

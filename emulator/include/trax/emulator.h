@@ -44,7 +44,7 @@ trax_status trax_config_load(trax_config *config, const char *preset_or_path, tr
 /* Error: there is no preset of that name. */
 trax_status trax_config_preset(trax_config *config, const char *name, trax_error *error);
 /* Sets a key such as "memory.latency_cycles". Errors: an unknown key; a value of the wrong type or out of range, for
-   which the message says what is allowed. */
+   which the message lists the allowed values. */
 trax_status trax_config_set(trax_config *config, const char *key, const char *value, trax_error *error);
 /* Checks the relations between keys; trax_machine_create calls it. */
 trax_status trax_config_check(const trax_config *config, trax_error *error);

@@ -78,7 +78,7 @@ class Memory:
             raise MemoryError
 
     def text(self):
-        """Closes the stream, and returns what was written to it."""
+        """Closes the stream, and returns the text written to it."""
         libc.fclose(self.file)
         data = ffi.buffer(self._text[0], self._size[0])[:]
         libc.free(self._text[0])

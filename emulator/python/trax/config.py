@@ -56,7 +56,7 @@ class Config(collections.abc.MutableMapping):
         return len(self._values())
 
     def changes(self):
-        """{key: value} of what is not the default."""
+        """Returns {key: value} of the keys whose values are not the defaults."""
         found, key, values = {}, ffi.NULL, self._values()
         while (key := lib.trax_config_next_change(self.handle, key)) != ffi.NULL:
             name = ffi.string(key).decode()

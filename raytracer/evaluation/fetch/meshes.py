@@ -79,8 +79,8 @@ class Fetcher:
         return found, f" ({other})"
 
     def take_from(self, place, source, mesh, scratch):
-        """Tries one place. What is wrong with a download that was continued may be its first part: then it is made
-        anew, once."""
+        """Tries one place. If a continued download is damaged, its first part may be the cause: the download is
+        repeated from the beginning, once."""
         partial = download.Partial(self.downloads / f"{hashlib.sha256(str(place).encode()).hexdigest()[:16]}.part")
         continued = partial.path.exists()
         try:

@@ -83,7 +83,7 @@ class Builder:
         return tables.claims_table(self.results, known, programs)
 
     def add(self, makers, sweep, before):
-        """before: what was asked for to know which tables there are; each needs it of its own runs."""
+        """before: the values that were read to find the tables; each table needs them of its own runs."""
         for make in makers:
             self.results.asked.clear()
             table = make()

@@ -144,7 +144,7 @@ def configurations(results):
             listed.append((numbers[items], dict(items), run.config))
         of_run[run.index] = numbers[items]
     if not listed:
-        return el("p", "No run says what its configuration was.", class_="missing"), of_run
+        return el("p", "No run has a record of its configuration.", class_="missing"), of_run
     first = listed[0][1]
     blocks = []
     for place, items, chip in listed:

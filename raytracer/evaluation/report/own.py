@@ -77,7 +77,7 @@ def varying(runs):
 
 
 def design(run):
-    """What is estimated or simulated exactly."""
+    """Identifies a design: an estimate and an exact run of it have the same one."""
     return run.scene, run.workload, run.size, run.program, run.config, run.variant, repr(sorted(run.set.items()))
 
 
@@ -176,7 +176,7 @@ def summary(results):
 
 
 def sections(own, page):
-    """Yields (identity, title, content) of what is known."""
+    """Yields (identity, title, content) of each section that has data."""
     results, paper = page.results, page.paper
     first = [summary(results), failures(results)]
     for place, sweep in enumerate(own):

@@ -28,7 +28,7 @@ class Request(typing.NamedTuple):
     view: str | None
     size: str
     program: Program
-    # what of it decides about the program, its TMs and the bytes of an instruction cache; None: nothing does
+    # the figures on which the program depends: TMs and the bytes of an instruction cache; None: it depends on none
     chip: tuple | None
     options: tuple  # of trax-render
     sampling: tuple  # those for a run of some parts

@@ -36,9 +36,9 @@ def check_machines(sweeps, tools):
     def check(place, tool, words):
         for option, use in tools.given(place, tool, tuple(words)) if words else ():
             if option in TAKEN[tool]:
-                raise Problem(f"{place}: --{option} is what trax-eval says itself")
+                raise Problem(f"{place}: trax-eval sets --{option} itself")
             if use == "writes":
-                raise Problem(f"{place}: --{option} writes files, and trax-eval itself says which")
+                raise Problem(f"{place}: --{option} writes files, and trax-eval itself chooses them")
 
     def machine(place, chip, settings):
         try:

@@ -178,7 +178,7 @@ def catalogue(plans, kind):
 
 
 def found_of(out, key):
-    """(What result_of has, None), or (None, what is damaged)."""
+    """Returns (value of result_of, None), or (None, a sentence about the damage)."""
     try:
         return result_of(out, key), None
     except Problem as problem:

@@ -1,4 +1,4 @@
-"""Folders for what is not finished."""
+"""Folders for unfinished files."""
 
 import os
 import pathlib

@@ -24,8 +24,8 @@ QUICK_PIXELS, QUICK_WIDTH, QUICK_SIDE = 640 * 360, 80, 2 / 3
 MOST_RUNS = 100000  # of one sweep: all combinations of a few long lists take all memory
 KEYS = ("name", "title", "claim", "x", "y", "y_per", "scenes", "programs", "chips", "set", "size", "mode", "series",
         "workloads", "ray_kinds", "ray_cycles", "reference", "error", "hits", "table", "all")
-# Keys of `set` may be options of these programs: "trax-scene --leaf". What trax-eval says itself is not for sweeps,
-# programs and workloads, nor is what writes files, which the programs' tables tell (Tools.given).
+# Keys of `set` may be options of these programs: "trax-scene --leaf". Sweeps, programs and workloads may neither have
+# options that trax-eval sets itself, nor options that write files (the programs' tables tell which: Tools.given).
 TAKEN = {
     "trax-scene": ("check", "stats", "quiet"),
     "trax-render": ("size", "frames", "show", "config", "set", "engine", "threads", "compare", "source", "program",

@@ -85,7 +85,7 @@ def values_of(result, areas):
     return values | values_of_rays(result, statistics)
 
 
-# Causes of docs/trax-sim.md by what is behind them.
+# Causes of docs/trax-sim.md, grouped by the unit that they wait for.
 STALLS = {
     "fetch": ("icache_bank_conflict", "icache_miss"),
     "memory": ("wait_memory", "memory_queue_full"),
@@ -199,6 +199,6 @@ def halves_of_rays(result, values):
                 width = half(kind, live)
             else:
                 width = half(kind, lambda row, causes=shares[name]: sum(row[cause] for cause in causes), live)
-            # The error of what is left is that of what is known.
+            # The rest has the absolute error of the known parts.
             halves[f"rays.{kind}.{name}_half"] = width * (1 - value if name == "rest" and value else value)
     return halves
