@@ -1,4 +1,4 @@
-/* Parts of layout.c that two_levels.c has in common with it. */
+/* From a mesh and its tree to the sections of a scene file. */
 #ifndef TRAX_SCENE_LAYOUT_H
 #define TRAX_SCENE_LAYOUT_H
 
@@ -9,8 +9,8 @@ enum { SCENE_CACHE_LINES = 256 }; /* 16 kB of 64-byte lines, the paper's TM: whe
 struct layout {
   const struct trax_mesh *mesh;
   const struct scene_tree *tree;
-  const uint32_t *materials; /* of the mesh to the file's */
-  const uint32_t *positions; /* of the tree's inner nodes in the file */
+  const uint32_t *materials;     /* of the mesh to the file's */
+  const uint32_t *positions;     /* of the tree's inner nodes in the file */
   const struct scene_wide *wide; /* NULL: nodes are the tree's */
   enum trax_node_layout node_layout;
   struct trax_scene_grid grid;
@@ -36,21 +36,28 @@ struct palette {
   uint64_t texel_count;
 };
 
+/* --- palette.c --- */
+
 trax_status scene_make_palette(struct palette *palette, const struct trax_mesh *mesh, bool textures, trax_error *error);
 void scene_palette_release(struct palette *palette);
-
-/* Appends a section at *end; a section without records stays absent. */
-void scene_plan_section(struct trax_scene_section *section, uint64_t *end, uint32_t count, size_t record_size);
-/* Those of the materials, and all behind them. */
+/* Plans their sections, and all behind them. */
 trax_status scene_plan_materials(struct trax_scene_section *sections, uint64_t *end, const struct palette *palette,
                                  uint32_t source_ids, trax_error *error);
-void *scene_section_bytes(unsigned char *bytes, const struct trax_scene_section *section);
 void scene_copy_materials(unsigned char *bytes, const struct trax_scene_section *sections,
                           const struct palette *palette, const struct trax_mesh *mesh);
 
+/* --- place_tree.c --- */
+
 /* Places a subtree depth first; returns its reference, and its box as it is stored. */
 trax_scene_ref scene_place_subtree(struct layout *layout, uint32_t index, struct scene_box *box);
+/* The same of a wide node and what is below it. */
+trax_scene_ref scene_place_wide_node(struct layout *layout, uint32_t number, struct scene_box *box);
 
+/* --- layout.c --- */
+
+/* Appends a section at *end; a section without records stays absent. */
+void scene_plan_section(struct trax_scene_section *section, uint64_t *end, uint32_t count, size_t record_size);
+void *scene_section_bytes(unsigned char *bytes, const struct trax_scene_section *section);
 double scene_crease_cosine(const struct trax_build_options *options);
 
 #endif
