@@ -78,6 +78,9 @@ static void begin(struct trax_run *run) {
   trax_poll_begin(&run->poll, run->machine, run->options);
   run->poll.collect = collect;
   run->poll.context = run;
+  const struct trax_observer *observer = run->machine->observer;
+  if (observer && observer->begin)
+    observer->begin(observer->context, run->options->host_threads);
 }
 
 static uint64_t earliest(const struct trax_run *run, uint64_t until) {
@@ -118,7 +121,7 @@ static trax_status run_until(struct trax_run *run, uint64_t until) {
   return TRAX_OK;
 }
 
-trax_status trax_run_advance(struct trax_run *run, uint64_t until) {
+static trax_status advance(struct trax_run *run, uint64_t until) {
   if (!run->begun)
     begin(run);
   if (run->engine->is_timed)
@@ -132,5 +135,13 @@ trax_status trax_run_advance(struct trax_run *run, uint64_t until) {
   for (struct trax_watch *watch = run->machine->watches; watch; watch = watch->others)
     if (watch->end)
       watch->end(watch, run, status, run->t);
+  return status;
+}
+
+trax_status trax_run_advance(struct trax_run *run, uint64_t until) {
+  const trax_status status = advance(run, until);
+  const struct trax_observer *observer = run->machine->observer;
+  if (observer && observer->end)
+    observer->end(observer->context);
   return status;
 }

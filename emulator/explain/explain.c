@@ -1,4 +1,5 @@
 #include "explain/page.h"
+#include "explain/passages.h"
 #include "explain/places.h"
 #include "explain/span.h"
 #include "explain/stories.h"
@@ -18,7 +19,9 @@ struct trax_open_span {
   size_t count, capacity;
   uint64_t begin;
   uint32_t pc, previous_pc;
-  uint64_t cycles[TRAX_CAUSE_COUNT]; /* of the thread, in passages */
+  /* Of the thread's passages: cycles by cause, and where it goes on. */
+  uint64_t cycles[TRAX_CAUSE_COUNT];
+  uint32_t end_pc;
 };
 
 static void add_charge(void *context, uint32_t tm, uint32_t tp, trax_cause cause, unsigned rd, uint64_t since,
@@ -69,19 +72,19 @@ static void notify_span(struct trax_explain *explain, uint32_t tm, uint32_t tp, 
 }
 
 /* Sets the indices of what belongs to a piece whose first instruction has the number `at`, and adds the charges to
-   `cycles`. */
-static void place_piece(const struct trax_piece *piece, unsigned at, struct trax_thread_log *log,
-                        struct trax_passage *passage, uint64_t *cycles) {
+   `cycles`. Returns the charges; *accessed becomes the accesses. */
+static size_t place_piece(const struct trax_piece *piece, unsigned at, struct trax_passage *passage, size_t charged,
+                          size_t *accessed, uint64_t *cycles) {
   const unsigned end = at + piece->count;
-  size_t i = passage->charged_count;
-  for (; i < log->charged_count && log->charged[i].at < end; i++) {
-    log->charged[i].index = piece->index + (log->charged[i].at - at);
-    cycles[log->charged[i].cause] += log->charged[i].cycles;
+  size_t i = *accessed;
+  for (; i < passage->accessed_count && passage->accessed[i].at < end; i++)
+    passage->accessed[i].index = piece->index + (passage->accessed[i].at - at);
+  *accessed = i;
+  for (i = charged; i < passage->charged_count && passage->charged[i].at < end; i++) {
+    passage->charged[i].index = piece->index + (passage->charged[i].at - at);
+    cycles[passage->charged[i].cause] += passage->charged[i].cycles;
   }
-  passage->charged_count = i;
-  for (i = passage->accessed_count; i < log->accessed_count && log->accessed[i].at < end; i++)
-    log->accessed[i].index = piece->index + (log->accessed[i].at - at);
-  passage->accessed_count = i;
+  return i;
 }
 
 static void notify_passage(const struct trax_explain *explain, const struct trax_passage *passage) {
@@ -90,47 +93,45 @@ static void notify_passage(const struct trax_explain *explain, const struct trax
       explain->readers[i]->kind->passage(explain->readers[i], passage);
 }
 
+static void read_passage(struct trax_explain *explain, struct trax_passage *passage) {
+  struct trax_open_span *open = &explain->open_spans[passage->thread];
+  size_t charged = 0, accessed = 0;
+  unsigned at = 0;
+  for (size_t i = 0; i < passage->pieces; at += passage->piece[i++].count) {
+    passage->piece[i].index = trax_places_index(explain->places, passage->piece[i].pc);
+    charged = place_piece(&passage->piece[i], at, passage, charged, &accessed, open->cycles);
+  }
+  const struct trax_piece *last = &passage->piece[passage->pieces - 1];
+  passage->last = last->index + last->count - 1;
+  passage->inst = *trax_places_inst(explain->places, passage->last);
+  open->cycles[TRAX_CAUSE_ISSUED] += passage->count;
+  passage->cycles = open->cycles;
+  notify_passage(explain, passage);
+  open->end_pc = passage->next_pc;
+}
+
 static void add_stretch(void *context, const struct trax_stretch *stretch) {
   struct trax_explain *explain = context;
   const uint32_t thread = stretch->tm * explain->machine->config.chip.tps_per_tm + stretch->tp;
-  struct trax_thread_log *log = &explain->observer.logs[thread];
-  struct trax_open_span *open = &explain->open_spans[thread];
-  struct trax_passage passage = {.thread = thread,
-                                 .count = stretch->count,
-                                 .piece = stretch->piece,
-                                 .pieces = stretch->pieces,
-                                 .charged = log->charged,
-                                 .accessed = log->accessed,
-                                 .cycles = open->cycles,
-                                 .next_pc = stretch->next_pc,
-                                 .result = stretch->result};
-  for (size_t i = 0, at = 0; i < stretch->pieces; at += stretch->piece[i++].count) {
-    stretch->piece[i].index = trax_places_index(explain->places, stretch->piece[i].pc);
-    place_piece(&stretch->piece[i], (unsigned)at, log, &passage, open->cycles);
-  }
-  open->cycles[TRAX_CAUSE_ISSUED] += stretch->count;
-  passage.last = stretch->piece[stretch->pieces - 1].index + stretch->piece[stretch->pieces - 1].count - 1;
-  passage.inst = *trax_places_inst(explain->places, passage.last);
-  notify_passage(explain, &passage);
-  open->pc = stretch->next_pc;
-  size_t left = 0, accesses_left = 0;
-  for (size_t i = passage.charged_count; i < log->charged_count; i++, left++) {
-    log->charged[left] = log->charged[i];
-    log->charged[left].at -= (uint8_t)stretch->count;
-  }
-  for (size_t i = passage.accessed_count; i < log->accessed_count; i++, accesses_left++) {
-    log->accessed[accesses_left] = log->accessed[i];
-    log->accessed[accesses_left].at -= (uint8_t)stretch->count;
-  }
-  log->charged_count = left;
-  log->accessed_count = (uint32_t)accesses_left;
+  trax_passages_add(explain->passages, stretch, &explain->observer.logs[thread]);
+}
+
+static void begin_run(void *context, unsigned host_threads) {
+  const struct trax_explain *explain = context;
+  if (!explain->has_spans && (host_threads ? host_threads : trax_host_processors()) > 1)
+    trax_passages_start(explain->passages);
+}
+
+static void end_run(void *context) {
+  const struct trax_explain *explain = context;
+  trax_passages_finish(explain->passages);
 }
 
 /* What the thread was charged after its last instruction. */
 static void end_passages(struct trax_explain *explain, uint32_t thread) {
   struct trax_thread_log *log = &explain->observer.logs[thread];
   struct trax_open_span *open = &explain->open_spans[thread];
-  const uint32_t index = trax_places_index(explain->places, open->pc);
+  const uint32_t index = trax_places_index(explain->places, open->end_pc);
   for (size_t i = 0; i < log->charged_count; i++) {
     log->charged[i].index = index;
     open->cycles[log->charged[i].cause] += log->charged[i].cycles;
@@ -246,12 +247,16 @@ static trax_status create(struct trax_explain *explain, trax_error *error) {
   const size_t threads = explain->machine->stats.threads;
   explain->open_spans = trax_explain_array(threads, sizeof *explain->open_spans, error);
   explain->observer.logs = trax_explain_array(threads, sizeof *explain->observer.logs, error);
+  explain->accessed = trax_explain_array(threads, sizeof *explain->accessed, error);
   explain->places = trax_places_create(explain->machine);
-  if (!explain->open_spans || !explain->observer.logs || !explain->places)
+  explain->passages = trax_passages_create(explain, read_passage);
+  if (!explain->open_spans || !explain->observer.logs || !explain->accessed || !explain->places || !explain->passages)
     return trax_fail(error, "out of memory for the explanation of %zu threads", threads);
-  for (size_t i = 0; i < threads; i++)
-    explain->open_spans[i].pc = explain->open_spans[i].previous_pc =
+  for (size_t i = 0; i < threads; i++) {
+    explain->observer.logs[i].accessed = explain->accessed[i];
+    explain->open_spans[i].pc = explain->open_spans[i].previous_pc = explain->open_spans[i].end_pc =
         trax_machine_entry_of(explain->machine, (uint32_t)i);
+  }
   for (unsigned i = 0; i < TRAX_READER_KINDS; i++)
     if (is_wanted(&explain->options, reader_kinds[i]) && open_reader(explain, reader_kinds[i], error) != TRAX_OK)
       return TRAX_ERROR;
@@ -302,6 +307,8 @@ trax_status trax_explain_begin(struct trax_explain **result, trax_machine *machi
     explain->has_passages |= explain->readers[i]->kind->passage != NULL;
   }
   explain->observer.context = explain;
+  explain->observer.begin = begin_run;
+  explain->observer.end = end_run;
   explain->observer.issue = add_issue;
   explain->observer.charge = add_charge;
   explain->observer.arrival = add_arrival;
@@ -338,6 +345,7 @@ trax_status trax_explain_end(struct trax_explain *explain, trax_error *error) {
   trax_status status = TRAX_OK;
   trax_error reason;
   notify_arrivals(explain, UINT64_MAX, 0);
+  trax_passages_finish(explain->passages);
   for (uint32_t thread = 0; thread < machine->stats.threads; thread++) {
     if (explain->has_spans)
       notify_span(explain, thread / tps, thread % tps, NULL);
@@ -373,6 +381,7 @@ void trax_explain_discard(struct trax_explain *explain) {
   if (!explain)
     return;
   explain->machine->observer = NULL;
+  trax_passages_destroy(explain->passages); /* before the readers */
   for (unsigned i = 0; i < explain->reader_count; i++) {
     struct trax_reader *reader = explain->readers[i];
     trax_output_discard(&reader->output);
@@ -389,6 +398,7 @@ void trax_explain_discard(struct trax_explain *explain) {
     free(explain->observer.logs[i].charged);
   free(explain->open_spans);
   free(explain->observer.logs);
+  free(explain->accessed);
   free(explain->arrivals);
   trax_places_destroy(explain->places);
   free(explain);

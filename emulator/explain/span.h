@@ -34,11 +34,11 @@ struct trax_span {
 struct trax_passage {
   uint32_t thread;
   uint32_t count; /* instructions; 0: at the end of the run, the charges since the thread's last instruction */
-  const struct trax_piece *piece; /* [pieces]; each index is one of the places */
+  struct trax_piece *piece; /* [pieces]; each index is one of the places */
   size_t pieces;
-  const struct trax_charged *charged; /* [charged_count]; those before an instruction come before its access */
+  struct trax_charged *charged; /* [charged_count]; those before an instruction come before its access */
   size_t charged_count;
-  const struct trax_accessed *accessed; /* [accessed_count] */
+  struct trax_accessed *accessed; /* [accessed_count] */
   size_t accessed_count;
   const uint64_t *cycles;   /* [TRAX_CAUSE_COUNT]: of the thread so far, with this passage */
   uint32_t next_pc, result; /* of the last instruction */
@@ -128,6 +128,8 @@ struct trax_explain {
   struct trax_observer observer;
   struct trax_open_span *open_spans; /* [threads]: since the latest issue of each */
   bool has_spans, has_passages;      /* readers take them */
+  struct trax_passages *passages;
+  struct trax_accessed (*accessed)[TRAX_MOST_STRETCH]; /* [threads]: of the observer's logs */
   struct trax_places *places;
   struct trax_reader *readers[TRAX_READER_KINDS];
   unsigned reader_count;

@@ -47,37 +47,48 @@ static __attribute__((noinline)) void log_bytes(struct trax_tm *tm, unsigned fir
   trax_fast_log_refusals(tm, tm->unlogged.tps & tps);
 }
 
-/* Counts a refusal of the TPs `refused`, 16 TPs from `first` on. */
-static inline void count_refusals(struct trax_tm *tm, unsigned first, uint32_t refused, trax_cause cause) {
-  bytes16 *const causes = (bytes16 *)&tm->unlogged.cause[first], *const cycles = (bytes16 *)&tm->unlogged.cycles[first];
+/* Returns `cause` in the bytes of the TPs that are chosen by bits 0 to 15. */
+static inline bytes16 bytes_with(uint64_t chosen, trax_cause cause) {
   const bytes16 bits = {1, 2, 4, 8, 16, 32, 64, 128, 1, 2, 4, 8, 16, 32, 64, 128};
   const uint64_t ones = 0x0101010101010101;
-  const bytes16 chosen = (bytes16)(((bytes16)(halves){(refused & 0xFF) * ones, (refused >> 8) * ones} & bits) != 0);
-  const bytes16 now = chosen & (uint8_t)cause;
-  halves others =
-      (halves)((bytes16)((*causes != now) & (*causes != 0)) & chosen) | (halves)((bytes16)(*cycles == 0xFF) & chosen);
+  return (bytes16)(((bytes16)(halves){(chosen & 0xFF) * ones, (chosen >> 8 & 0xFF) * ones} & bits) != 0) &
+         (uint8_t)cause;
+}
+
+/* Counts the refusals of 16 TPs from `first` on. A TP has at most one in a cycle. */
+static inline void count_refusals(struct trax_tm *tm, unsigned first, const uint64_t *losers) {
+  bytes16 *const causes = (bytes16 *)&tm->unlogged.cause[first], *const cycles = (bytes16 *)&tm->unlogged.cycles[first];
+  bytes16 now = {0};
+  for (unsigned i = 0; i < TRAX_FAST_REFUSALS; i++)
+    if (losers[i] >> first & 0xFFFF)
+      now |= bytes_with(losers[i] >> first, trax_fast_refusal_causes[i]);
+  const bytes16 refusals = (bytes16)(now != 0);
+  const halves others =
+      (halves)(((bytes16)((*causes != now) & (*causes != 0)) | (bytes16)(*cycles == 0xFF)) & refusals);
   if (others[0] | others[1])
     log_bytes(tm, first, others);
-  const bytes16 same = (bytes16)(*causes == now) & chosen;
-  *cycles = (*cycles & (same | ~chosen)) + (chosen & 1);
-  *causes = (*causes & ~chosen) | now;
+  *cycles = (*cycles & ((bytes16)(*causes == now) | ~refusals)) + (refusals & 1);
+  *causes = (*causes & ~refusals) | now;
+}
+
+static void notify_charges(struct trax_tm *tm, uint64_t tps, trax_cause cause) {
+  for (; tps; tps &= tps - 1)
+    trax_tm_notify_charge(tm, trax_first(tps), cause, tm->now, 1);
 }
 
 void trax_fast_notify_refusals(struct trax_tm *tm, const struct trax_fast_refused *refused) {
   const uint64_t *const losers = (const uint64_t *)refused;
+  uint64_t any = 0;
   for (unsigned i = 0; i < TRAX_FAST_REFUSALS; i++) {
-    const trax_cause cause = trax_fast_refusal_causes[i];
-    uint64_t rest = losers[i];
-    if (tm->observer->stretch) {
-      for (unsigned first = 0; first < tm->tps; first += 16)
-        if (rest >> first & 0xFFFF)
-          count_refusals(tm, first, rest >> first & 0xFFFF, cause);
-      tm->unlogged.tps |= rest;
-      continue;
-    }
-    for (; rest; rest &= rest - 1)
-      trax_tm_notify_charge(tm, trax_first(rest), cause, tm->now, 1);
+    any |= losers[i];
+    if (!tm->observer->stretch)
+      notify_charges(tm, losers[i], trax_fast_refusal_causes[i]);
   }
+  for (unsigned first = 0; tm->observer->stretch && first < tm->tps; first += 16)
+    if (any >> first & 0xFFFF)
+      count_refusals(tm, first, losers);
+  if (tm->observer->stretch)
+    tm->unlogged.tps |= any;
 }
 
 static uint32_t result_of(const struct trax_tp *tp, const struct trax_decoded *inst) {
@@ -115,7 +126,7 @@ void trax_tm_notify_issue(struct trax_tm *tm, unsigned number, uint32_t pc, cons
 
 static void tell(struct trax_tm *tm, const struct trax_stretch *stretch) {
   tm->observer->stretch(tm->observer->context, stretch);
-  if (tm->observer->single)
+  if (__atomic_load_n(&tm->observer->single, __ATOMIC_RELAXED))
     tm->chip->burst = 1;
 }
 

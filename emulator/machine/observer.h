@@ -77,12 +77,13 @@ struct trax_accessed {
 };
 
 /* What a TP was charged and what it accessed since its latest stretch: the observer's memory, to which the engine adds.
-   The observer takes out what belongs to a stretch, and subtracts the stretch's instructions from the others' `at`. */
+   The observer takes out what belongs to a stretch, and subtracts the stretch's instructions from the others' `at`.
+   The entries are elsewhere, since the engine uses the logs of all TPs in turn. */
 struct trax_thread_log {
   struct trax_charged *charged; /* [charged_count] */
   size_t charged_count, charged_capacity;
+  struct trax_accessed *accessed; /* [TRAX_MOST_STRETCH] */
   uint32_t accessed_count;
-  struct trax_accessed accessed[TRAX_MOST_STRETCH];
 };
 
 struct trax_stretch {
@@ -97,7 +98,10 @@ struct trax_stretch {
 
 struct trax_observer {
   void *context;
-  /* Any function may be NULL. */
+  /* Any function may be NULL. A run calls `begin` at its begin, with the number of threads of the host that it may use,
+     and `end` whenever it stops, after the other calls. */
+  void (*begin)(void *context, unsigned host_threads);
+  void (*end)(void *context);
   void (*issue)(void *context, const struct trax_issue *issue);
   /* The TP was charged to `cause` for `cycles` cycles from `since` on. rd: the register that it waited for; 0: none. */
   void (*charge)(void *context, uint32_t tm, uint32_t tp, trax_cause cause, unsigned rd, uint64_t since,
@@ -109,7 +113,7 @@ struct trax_observer {
      instructions of the cycles before have been reported, and the logs have the charges since then. */
   void (*stretch)(void *context, const struct trax_stretch *stretch);
   struct trax_thread_log *logs; /* [threads]; for stretches */
-  bool single;                  /* the observer wants stretches of one instruction from now on */
+  bool single;                  /* the observer wants stretches of one instruction from now on; any thread may set it */
   bool lost;                    /* a charge was not recorded: out of memory */
 };
 

@@ -48,6 +48,17 @@ def test_figures_are_those_of_trax_sim(programs, tmp_path, engine):
     assert "tms" in run.statistics and "tms" not in run.figures()
 
 
+def test_page_has_the_differences_to_another_run(programs, tmp_path):
+    pages = [tmp_path / name for name in ("one.html", "other.html")]
+    triple(programs, "1x32", explore=pages[0])
+    triple(programs, "2x32", explore=pages[1], against=pages[0])
+    assert [page.read_text().count('id="against"') for page in pages] == [0, 1]
+    with pytest.raises(trax.TraxError, match="none.json: No such file"):
+        triple(programs, explore=pages[1], against=tmp_path / "none.json")
+    with pytest.raises(trax.TraxError, match="needs --explore"):
+        triple(programs, against=pages[0])
+
+
 def test_picture_is_that_of_trax_render(manifest, tmp_path):
     assert trax.Machine(manifest).config["chip.tms"] == trax.Config("4x32")["chip.tms"]  # the manifest's
     run = trax.Machine(manifest, "1x32").run()

@@ -136,13 +136,17 @@ void bench_run_observed(struct bench *bench, const trax_run_options *options) {
                                    .charge = record_charge,
                                    .stretch = bench_stretches ? record_stretch : NULL,
                                    .logs = calloc(machine->stats.threads, sizeof *observer.logs)};
-  assert_non_null(observer.logs);
+  struct trax_accessed(*accessed)[TRAX_MOST_STRETCH] = calloc(machine->stats.threads, sizeof *accessed);
+  assert_true(observer.logs && accessed);
+  for (uint64_t i = 0; i < machine->stats.threads; i++)
+    observer.logs[i].accessed = accessed[i];
   machine->observer = &observer;
   bench->status = trax_machine_run(machine, options, &bench->error);
   if (bench_stretches)
     end_stretches(bench);
   machine->observer = NULL;
   free(observer.logs);
+  free(accessed);
   for (uint64_t i = 0; i < machine->stats.threads; i++) {
     assert_int_equal(bench->told[i].until, machine->stats.cycles);
     assert_memory_equal(bench->told[i].cycles, machine->tp_stats[i].cycles, sizeof bench->told[i].cycles);

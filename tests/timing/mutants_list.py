@@ -557,6 +557,10 @@ MUTANTS = [
     # --- Stretches ---
     ("fast/function/blocks.c", "  tm->told[number] = 0;", "  (void)0;"),
     ("fast/observe.c", "&& !log_of(tm, number)->accessed_count)", ")"),
+    ("fast/observe.c", "  if (others[0] | others[1])\n    log_bytes(tm, first, others);", "  (void)others;"),
+    ("fast/observe.c", "| (bytes16)(*cycles == 0xFF)) & refusals", ") & refusals"),
+    ("fast/observe.c", "    trax_fast_log_refusals(tm, tm->unlogged.tps & (uint64_t)1 << tp);\n", ""),
+    ("fast/time/cycle.c", "    trax_fast_log_refusals(tm, granted & tm->unlogged.tps);\n", ""),
     ("fast/observe.c", "tm->serial_hits ? 0 : tm->load_hits & ~tm->storing", "~(uint64_t)0"),
     ("fast/time/issue.h", "trax_fast_tell_steps(tm, number, last + 1, tp->resume_pc);",
      "trax_fast_tell_steps(tm, number, last, tp->resume_pc);"),

@@ -12,6 +12,7 @@ from ._library import (Fault, Interrupted, Memory, Stuck, TraxError, check, enco
                        printed)
 from .config import Config
 from .picture import Picture
+from .tools import call
 
 
 def flat(statistics, before=""):
@@ -198,6 +199,8 @@ class Machine:
         printed_text, message = output.text(), message_of(error)
         if report != ffi.NULL:
             check(lib.trax_explain_end(report, error), error)
+            if "against" in explain:  # by the trax-eval that belongs to this package, not to the interpreter
+                call("trax-eval", "compare", "--add", "--", explain["against"], explain["explore"])
         if raised:
             raise raised[0]
         return self._result(status, message, printed_text)
@@ -231,6 +234,8 @@ class Machine:
                 keep.append(ffi.new("char[]", encoded(value)))
                 setattr(options, name, keep[-1])
         keep.append(options)
+        check(lib.trax_explain_check_against(options, error), error)
+        options.against = ffi.NULL
         check(lib.trax_explain_begin(report, self._handle, options, error), error)
         return report[0]
 
