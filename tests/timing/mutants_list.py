@@ -143,8 +143,8 @@ MUTANTS = [
     # --- steps 1 and 2 ---
     ("fast/time/cycle.c", "return (woken & tm->holding) | recheck;", "return (woken & tm->holding) | (recheck & 0);"),
     ("fast/time/cycle.c",
-     "step |= (uint16_t)(TRAX_STEP_BANK | tp->address / 4 % tm->data_banks << TRAX_STEP_BANK_SHIFT);",
-     "step |= (uint16_t)(TRAX_STEP_BANK | tp->address / 8 % tm->data_banks << TRAX_STEP_BANK_SHIFT);"),
+     "step |= (uint16_t)(TRAX_STEP_BANK | tp->address / 4 % tm->dcache.banks << TRAX_STEP_BANK_SHIFT);",
+     "step |= (uint16_t)(TRAX_STEP_BANK | tp->address / 8 % tm->dcache.banks << TRAX_STEP_BANK_SHIFT);"),
     ("fast/time/cycle.c", "tm->busy_registers[number] &= ~waits;", "tm->busy_registers[number] = 0;"),
     ("fast/time/cycle.c", "if (inst->resource == TRAX_RESOURCE_END || ", "if ("),
     # --- steps 3 and 4 ---
@@ -354,7 +354,7 @@ MUTANTS = [
     ("fast/time/head.c", "tp->atomics &= ~(rest & -rest);",
      "tp->atomics = 0;"),
     # What a burst has not issued did not happen.
-    ("fast/time/head.c", "tp->jumps -= next != index + 1;",
+    ("fast/time/head.c", "    tp->jumps -= next != trax_fast_index(tp, i) + 1;",
      "(void)next;"),
     # A line that was replaced is not there.
     ("fast/time/head.c", "trax_fast_set_resident(tm, number, evicted - 1, false);",
@@ -461,12 +461,15 @@ MUTANTS = [
     # Stores of a cycle in the TMs' order.
     ("fast/merge.c", "const uint32_t tm = trax_first(rest);\n      const struct trax_store_buffer *buffer = &merge->buffers[tm];\n"
      "      for (size_t *i = &order->done[tm]; *i < buffer->write_count",
-     "const uint32_t tm = 63u - (uint32_t)__builtin_clzll(rest & -(rest & 1) ? rest : rest & -rest);\n"
+     "const uint32_t first = trax_first(rest);\n"
+     "      const uint32_t tm = first ^ (order->tms[order->next - order->begin] >> (first ^ 1) & 1);\n"
      "      const struct trax_store_buffer *buffer = &merge->buffers[tm];\n"
      "      for (size_t *i = &order->done[tm]; *i < buffer->write_count"),
     # Memory is restored.
     ("fast/merge.c", "memcpy(merge->chip->machine->space.bytes + undo->address, &undo->word, sizeof undo->word);",
      "memcpy(merge->chip->machine->space.bytes + undo->address, &undo->word, 1);"),
+    # A miss register of the second-level cache is free again.
+    ("fast/memory/l2.c", "    mshr_of(l2, id)->request.bytes = 0;\n", ""),
     # The controller is restored.
     ("fast/state.c", "VISIT_DERIVED(memory, 1);", "VISIT_DERIVED(memory, 0);"),
     # Increments are noted as writes.
