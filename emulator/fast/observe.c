@@ -160,6 +160,21 @@ void trax_fast_tell_single(struct trax_tm *tm, unsigned number, uint32_t pc, con
                                   .result = result_of(tp, inst)});
 }
 
+/* Returns the first step from `at` on, and before `end`, with which a chunk of the burst begins; else `end`. */
+static unsigned next_chunk(const struct trax_burst *burst, unsigned at, unsigned end) {
+  const uint64_t ones = 0x0101010101010101;
+  for (; at + 8 <= end; at += 8) {
+    uint64_t distances;
+    memcpy(&distances, &burst->distance[at], sizeof distances);
+    const uint64_t zeros = (distances - ones) & ~distances & 0x80 * ones;
+    if (zeros)
+      return at + trax_first(zeros) / 8;
+  }
+  while (at < end && burst->distance[at])
+    at++;
+  return at;
+}
+
 void trax_fast_tell_steps(struct trax_tm *tm, unsigned number, unsigned end, uint32_t next_pc) {
   const struct trax_tp *tp = &tm->tp[number];
   struct trax_piece pieces[TRAX_BURST];
@@ -167,9 +182,7 @@ void trax_fast_tell_steps(struct trax_tm *tm, unsigned number, unsigned end, uin
   size_t count = 0;
   for (unsigned at = begin; at < end;) {
     const uint32_t pc = tm->chip->program.timing[trax_fast_index(tp, at)].pc;
-    unsigned next = at + 1;
-    while (next < end && tp->burst.distance[next])
-      next++;
+    const unsigned next = next_chunk(&tp->burst, at + 1, end);
     if (count && pieces[count - 1].pc + 4 * pieces[count - 1].count == pc) /* the next chunk */
       pieces[count - 1].count += next - at;
     else

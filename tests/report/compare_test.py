@@ -527,6 +527,19 @@ class Page(PageTests, Scratch):
         self.assertEqual(len(ids), len(set(ids)))
         self.is_quiet()
 
+    def test_added_is_looked_at_closely(self):
+        """The section in dark, on a telephone and on paper."""
+        self.CLOSELY = "against"
+        self.test_light_and_dark()
+        self.test_prints()
+        self.browser.call("Emulation.setDeviceMetricsOverride", width=390, height=800, deviceScaleFactor=1, mobile=True)
+        self.load("against")
+        self.unfold()
+        heights = self.browser.run("Array.from(document.querySelectorAll('#against tr'), e => e.offsetHeight)")
+        self.browser.call("Emulation.clearDeviceMetricsOverride")
+        self.assertGreater(len(heights), 20)
+        self.assertLess(max(heights), 150)
+
     def load(self, name):
         super().load(name)
         until = time.monotonic() + 60

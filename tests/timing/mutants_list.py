@@ -27,8 +27,8 @@ MUTANTS = [
      "if (tp->scoreboard[number].usable > t + 1) {"),
     ("reference/operands.c", "if (trax_ref_is(tp, TRAX_WRITES_RD) && tp->inst.rd != 0)",
      "if (trax_ref_is(tp, TRAX_WRITES_RD))"),
-    ("reference/operands.c", "if (trax_ref_active(tp) && trax_ref_accesses_memory(tp)) {",
-     "if (tp->holds && !tp->ended && trax_ref_accesses_memory(tp)) {"),
+    ("reference/operands.c", "if (trax_ref_active(tp) && trax_ref_accesses_memory(tp))",
+     "if (tp->holds && !tp->ended && trax_ref_accesses_memory(tp))"),
     ("reference/operands.c", "n < operands[i].count", "n < operands[i].count && n < 1"),
     ("reference/operands.c", "(operands[i].first + n) % TRAX_NUM_REGISTERS", "(operands[i].first + n) % 16"),
     # --- Units ---

@@ -96,8 +96,8 @@ static void issue_slowly(struct trax_tm *tm, unsigned number, uint64_t t) {
   const uint32_t bubble = tm->config->tp.branch_bubble_cycles;
   if (tm->storing & bit)
     store_now(tm, number, t);
-  if (bubble || tm->observer)
-    trax_fast_export_head(tm, number); /* inst, pc */
+  if (bubble || (tm->observer && !tm->observer->stretch))
+    trax_fast_export_head(tm, number); /* inst, pc, which heads that execute at issue have */
   const struct trax_decoded *inst = tp->inst;
   const uint32_t pc = tp->pc;
   if (tm->executes_at_issue & bit) {

@@ -11,6 +11,7 @@ const relativeOf = ({ a, b }) => typeof a === "number" && typeof b === "number" 
 // Of a share from -1 to 1.
 const changeBar = (share, colour) => element("div", { "aria-hidden": "true" }, element("i",
   { style: `--c: ${colour}; width: ${50 * Math.min(1, Math.abs(share))}%; ${share < 0 ? "right" : "left"}: 50%` }));
+const breakable = (name) => element("span", {}, ...name.split(/(?<=_)/).flatMap((part) => [part, element("wbr")]));
 const swatch = (cause) => element("i", { class: "swatch", style: `--c: ${colourOf(cause)}` });
 
 function drawContributions(id, title, rows, run, named) {
@@ -38,11 +39,11 @@ function drawHead(run) {
   const { a, b, cycles } = run, card = (name, value, below) => element("div", {}, element("dt", {}, name), element("dd", {}, value),
     below ? element("dd", {}, below) : undefined);
   at("about").textContent = `A: ${a.file} (${a.chip}). B: ${b.file} (${b.chip}).`;
-  at("figures").replaceChildren(
-      card("cycles of A", whole(cycles.a)), card("cycles of B", whole(cycles.b)),
-      card("difference", signed(cycles.difference), shareText(cycles.relative)),
-      ...(run.causes.length ? [ card("most by", run.causes[0].name, signed(run.causes[0].difference, cyclesText)) ]
-                            : []));
+  at("figures").replaceChildren(card("cycles of A", whole(cycles.a)), card("cycles of B", whole(cycles.b)),
+                                card("difference", signed(cycles.difference), shareText(cycles.relative)),
+                                ...(run.causes.length ? [ card("most by", breakable(run.causes[0].name),
+                                                               signed(run.causes[0].difference, cyclesText)) ]
+                                                      : []));
   const notes = run.warnings.map((text) => element("li", { class: "bad" }, text));
   if (cycles.interval) notes.push(element("li", {}, `The runs are sampled: the difference is ${signed(cycles.interval[0])} to ` +
     `${signed(cycles.interval[1])} with 95 % confidence${cycles.within_noise ? ", which is within the noise" : ""}. ` +
