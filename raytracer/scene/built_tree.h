@@ -48,5 +48,8 @@ unsigned scene_least_height(uint32_t triangles, unsigned max_leaf);
 bool scene_measure_built(const struct scene_numbering *numbering, struct built_node *node);
 /* Adds the nodes to the tree, depth first, and rebuilds each subtree that is too deep. False when out of memory. */
 bool scene_number_built(struct scene_numbering *numbering, const struct built_node *root);
+/* The same of a tree by its links, which is not too deep. built: the node of each link. */
+bool scene_number_links(struct scene_numbering *numbering, const struct scene_links *links,
+                        struct built_node *const *built);
 
 #endif

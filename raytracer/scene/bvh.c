@@ -56,24 +56,19 @@ static uint32_t link_built(struct scene_links *links, struct built_node **of, st
   return index;
 }
 
-/* Improves the tree unless it is too deep: scene_number_built rebuilds subtrees that are. */
-static trax_status improve(struct built_node **root, unsigned max_depth, struct scene_crew *crew,
+/* Improves the tree and numbers its nodes. */
+static trax_status improve(struct scene_numbering *numbering, struct built_node *root, struct scene_crew *crew,
                            const struct trax_build_options *options, trax_error *error) {
-  if ((*root)->triangle_count || (*root)->height > max_depth || options->passes == 0)
-    return TRAX_OK;
-  const size_t most = 2 * (size_t)(*root)->below; /* a binary tree over n leaves has 2n - 1 nodes */
-  struct scene_links links = {.nodes = scene_allocate(most * sizeof *links.nodes), .max_depth = max_depth};
+  const size_t most = 2 * (size_t)root->below; /* a binary tree over n leaves has 2n - 1 nodes */
+  struct scene_links links = {.nodes = scene_allocate(most * sizeof *links.nodes), .max_depth = numbering->max_depth};
   struct built_node **of = malloc(most * sizeof(struct built_node *));
   trax_status result = links.nodes && of ? TRAX_OK : scene_out_of_memory(error, "BVH");
   if (result == TRAX_OK) {
-    links.root = link_built(&links, of, *root, SCENE_NO_LINK);
+    links.root = link_built(&links, of, root, SCENE_NO_LINK);
     result = scene_reinsert(&links, options->passes, crew, options, error);
   }
-  for (uint32_t i = 0; result == TRAX_OK && i < links.count; i++)
-    for (int c = 0; c < 2 && links.nodes[i].child[0] != SCENE_NO_LINK; c++)
-      of[i]->child[c] = of[links.nodes[i].child[c]];
-  if (result == TRAX_OK)
-    *root = of[links.root];
+  if (result == TRAX_OK && !scene_number_links(numbering, &links, of))
+    result = scene_out_of_memory(error, "BVH");
   free(links.nodes);
   free(of);
   return result;
@@ -86,18 +81,18 @@ static trax_status make_tree(struct scene_tree *tree, struct built_node *root, c
   if (!scene_measure_built(&numbering, root) || scene_least_height(mesh->triangle_count, max_leaf) > max_depth)
     return trax_fail(error, "BVH: there is no tree of at most %u levels with at most %u triangles in a leaf", max_depth,
                      max_leaf);
-  const trax_status improved = improve(&root, max_depth, crew, options, error);
-  if (improved != TRAX_OK)
-    return improved;
-  scene_measure_built(&numbering, root);
   numbering.triangles = malloc(root->below * sizeof *numbering.triangles);
   /* A binary tree over n triangles has at most 2n - 1 nodes. */
   tree->nodes = malloc(2 * (size_t)root->below * sizeof *tree->nodes);
-  bool good = numbering.triangles && tree->nodes && scene_number_built(&numbering, root);
+  trax_status result = TRAX_OK;
+  if (!numbering.triangles || !tree->nodes)
+    result = scene_out_of_memory(error, "BVH");
+  else if (options->passes && !root->triangle_count && root->height <= max_depth) /* else subtrees are rebuilt */
+    result = improve(&numbering, root, crew, options, error);
+  else if (!scene_number_built(&numbering, root))
+    result = scene_out_of_memory(error, "BVH");
   free(numbering.triangles);
-  if (good && scene_is_interrupted(options->interrupt))
-    return TRAX_INTERRUPTED;
-  return good ? TRAX_OK : scene_out_of_memory(error, "BVH");
+  return result == TRAX_OK && scene_is_interrupted(options->interrupt) ? TRAX_INTERRUPTED : result;
 }
 
 static trax_status check_options(const struct trax_build_options *options, trax_error *error) {
@@ -120,11 +115,11 @@ static trax_status check_options(const struct trax_build_options *options, trax_
   return TRAX_OK;
 }
 
-/* Decides about splits. Finds the duplicates if triangles are split. */
+/* Decides about splits. Finds the duplicates if that depends on them. */
 static trax_status choose_splits(float *factor, struct scene_duplicates *duplicates, const struct trax_mesh *mesh,
                                  const struct trax_build_options *options, trax_error *error) {
-  *factor = options->splits;
-  if (!options->choose_splits && *factor <= 1)
+  *factor = options->choose_splits ? 0 : options->splits;
+  if (options->choose_splits ? !scene_splits_may_suit(mesh) : *factor <= 1)
     return TRAX_OK;
   if (!options->choose_splits && scene_check_emitters(mesh, error) != TRAX_OK)
     return TRAX_ERROR;
@@ -135,6 +130,20 @@ static trax_status choose_splits(float *factor, struct scene_duplicates *duplica
     *factor = suit ? TRAX_DEFAULT_SPLITS : 0;
   }
   return result;
+}
+
+/* Looks for duplicates while the tree is built, as nothing needs them before. */
+struct looking {
+  const struct trax_mesh *mesh;
+  bool unique;
+};
+
+static void look_for_duplicates(struct scene_worker *worker, void *pointer) {
+  (void)worker;
+  struct looking *looking = pointer;
+  struct scene_duplicates duplicates;
+  looking->unique = scene_find_duplicates(&duplicates, looking->mesh, NULL) == TRAX_OK && !duplicates.any;
+  scene_duplicates_release(&duplicates);
 }
 
 trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *mesh,
@@ -156,8 +165,8 @@ trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *me
     scene_duplicates_release(&duplicates);
     return result;
   }
-  const bool splits = factor > 1;
-  tree->unique = duplicates.first && !duplicates.any;
+  const bool splits = factor > 1, looked = duplicates.first;
+  tree->unique = looked && !duplicates.any;
   if (!splits)
     scene_duplicates_release(&duplicates);
   struct trax_build_options chosen = *options; /* with the choices made */
@@ -182,7 +191,11 @@ trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *me
                                             .max_leaf = options->max_leaf ? options->max_leaf : default_max_leaf,
                                             .traversal_cost = options->traversal_cost > 0 ? options->traversal_cost
                                                                                           : default_traversal_cost};
+    struct looking looking = {mesh, tree->unique};
+    if (!looked)
+      scene_crew_add(crew, look_for_duplicates, &looking);
     struct built_node *root = scene_build_sah(&arguments, crew);
+    tree->unique = looking.unique;
     free(primitives);
     primitives = NULL;
     if (scene_is_interrupted(options->interrupt))

@@ -166,7 +166,7 @@ struct scene_tree {
   uint32_t ref_count;      /* triangles in leaves; those that were split are in several */
   struct scene_box bounds; /* of all triangles */
   bool split;              /* triangles at one place are in the order of their numbers in every leaf */
-  bool unique;             /* no two triangles are at one place */
+  bool unique;             /* no two triangles are at one place; false: not known */
 };
 
 trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *mesh,
@@ -184,7 +184,9 @@ trax_status scene_refit_tree(struct scene_tree *tree, uint32_t **positions, cons
 
 struct scene_duplicates;
 
-/* Decides whether splits pay in this mesh. Only the first triangle at each place counts, as in the tree. */
+/* False if they do not, which is decided without duplicates. */
+bool scene_splits_may_suit(const struct trax_mesh *mesh);
+/* Decides whether they pay if they may. Only the first triangle at each place counts, as in the tree. */
 trax_status scene_splits_suit(bool *suit, const struct trax_mesh *mesh, const struct scene_duplicates *duplicates,
                               trax_error *error);
 /* Refuses splits of a mesh that emits light, because a split triangle is in the file several times, and would be

@@ -174,3 +174,22 @@ static bool number_nodes(struct scene_numbering *numbering, const struct built_n
 bool scene_number_built(struct scene_numbering *numbering, const struct built_node *root) {
   return number_nodes(numbering, root, 0);
 }
+
+static bool number_linked(struct scene_numbering *numbering, const struct scene_links *links,
+                          struct built_node *const *built, uint32_t index, unsigned depth) {
+  const struct scene_link *link = &links->nodes[index];
+  if (link->child[0] == SCENE_NO_LINK)
+    return number_nodes(numbering, built[index], depth);
+  struct scene_tree_node *node = add_node(numbering->tree, depth, NULL, 0);
+  for (int i = 0; i < 2; i++) {
+    node->child[i] = numbering->tree->node_count;
+    if (!number_linked(numbering, links, built, link->child[i], depth + 1))
+      return false;
+  }
+  return true;
+}
+
+bool scene_number_links(struct scene_numbering *numbering, const struct scene_links *links,
+                        struct built_node *const *built) {
+  return number_linked(numbering, links, built, links->root, 0);
+}

@@ -41,6 +41,19 @@ static double in_vain(const struct trax_mesh *mesh, uint32_t triangle, const str
   return area;
 }
 
+bool scene_splits_may_suit(const struct trax_mesh *mesh) {
+  struct scene_box bounds = scene_empty_box();
+  double all = 0;
+  for (uint32_t i = 0; i < mesh->triangle_count; i++) {
+    if (emits(mesh, &mesh->triangles[i]))
+      return false;
+    const struct scene_box box = scene_triangle_box(mesh, i);
+    scene_box_add_box(&bounds, &box);
+    all += in_vain(mesh, i, &box);
+  }
+  return all > BOXES_IN_VAIN * scene_half_area(bounds.min, bounds.max);
+}
+
 static int compare_descending(const void *a, const void *b) {
   const double left = *(const double *)a, right = *(const double *)b;
   return (left < right) - (left > right);
@@ -55,10 +68,6 @@ trax_status scene_splits_suit(bool *suit, const struct trax_mesh *mesh, const st
   if (!areas)
     return scene_out_of_memory(error, "BVH");
   for (uint32_t i = 0; i < mesh->triangle_count; i++) {
-    if (emits(mesh, &mesh->triangles[i])) {
-      free(areas);
-      return TRAX_OK;
-    }
     if (duplicates->first[i] != i)
       continue;
     const struct scene_box box = scene_triangle_box(mesh, i);

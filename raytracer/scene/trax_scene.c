@@ -219,14 +219,12 @@ static trax_status run(const struct arguments *arguments, trax_progress_line *li
   if (result == TRAX_OK && arguments->output)
     result = trax_scene_write(&scene, arguments->output, error);
   trax_progress_line_clear(line);
-  if (result == TRAX_OK && !scene.header && !arguments->quiet)
+  if (result == TRAX_OK && !arguments->quiet)
     trax_import_print_notes(&figures.import, "trax-scene");
-  if (result == TRAX_OK && scene.header) {
+  if (result == TRAX_OK && scene.header && (arguments->stats || arguments->stats_json)) {
     struct statistic list[max_statistics];
     trax_scene_measure(&figures.tree, &scene);
     size_t count = list_statistics(list, &figures);
-    if (!arguments->quiet)
-      trax_import_print_notes(&figures.import, "trax-scene");
     if (arguments->stats)
       print_statistics(list, count, scene.header);
     if (arguments->stats_json)

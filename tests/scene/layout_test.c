@@ -3,6 +3,7 @@
 #include "support.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 static void build_layout(struct trax_scene *scene, const struct trax_mesh *mesh, enum trax_node_layout layout) {
@@ -327,6 +328,36 @@ static void test_duplicates_do_not_call_for_splits(void **state) {
   }
 }
 
+/* Triangles at one place are in the order of their numbers, whichever thread has found them. */
+static void test_order_of_duplicates(void **state) {
+  (void)state;
+  enum { COUNT = 20000 };
+  for (unsigned threads = 1; threads <= 4; threads++) {
+    struct trax_mesh mesh = {0};
+    struct trax_scene scene;
+    mesh_soup(&mesh, COUNT, 0.02f, threads);
+    for (uint32_t i = 0; i < COUNT; i++) /* each once more, in another order */
+      memcpy(mesh.triangles[i].vertices, mesh.triangles[(i & ~1u) * 7 % COUNT].vertices,
+             sizeof mesh.triangles->vertices);
+    build_good(&scene, &mesh, &(struct trax_build_options){.threads = threads, .choose_splits = true});
+    assert_int_equal(scene.triangle_count, COUNT);
+    uint32_t *last = malloc(mesh.vertex_count * sizeof *last); /* by the first vertex of the place */
+    assert_non_null(last);
+    memset(last, 0, mesh.vertex_count * sizeof *last);
+    unsigned again = 0;
+    for (uint32_t i = 0; i < COUNT; i++) {
+      uint32_t *number = &last[mesh.triangles[scene.source_ids[i]].vertices[0]];
+      assert_true(*number <= scene.source_ids[i]);
+      again += *number > 0;
+      *number = scene.source_ids[i] + 1;
+    }
+    assert_true(again > COUNT / 3);
+    free(last);
+    trax_scene_release(&scene);
+    trax_mesh_release(&mesh);
+  }
+}
+
 /* Nor do many slivers of which none is worse than the others: the tree is that without splits. */
 static void test_equals_do_not_call_for_splits(void **state) {
   (void)state;
@@ -387,6 +418,7 @@ int main(void) {
       cmocka_unit_test(test_splits),
       cmocka_unit_test(test_duplicates_do_not_call_for_splits),
       cmocka_unit_test(test_equals_do_not_call_for_splits),
+      cmocka_unit_test(test_order_of_duplicates),
       cmocka_unit_test(test_missing_part),
       cmocka_unit_test(test_choice),
   };

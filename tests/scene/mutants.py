@@ -14,7 +14,7 @@ from mutation import ROOT, Mutant, failure, main, relinked  # noqa: E402
 SOURCE = ROOT / "raytracer/scene"
 TREES = ("scene-builder-test", "scene-scene-test", "scene-layout-test")
 READERS = ("scene-material-test", "scene-import-test")
-TESTS = {"clip.c": TREES, "rank.c": TREES, "ply_values.c": READERS[1:], "splits.c": TREES, "reinsert.c": TREES, "reinsert.h": TREES,
+TESTS = {"bvh.c": TREES, "clip.c": TREES, "rank.c": TREES, "ply_values.c": READERS[1:], "splits.c": TREES, "reinsert.c": TREES, "reinsert.h": TREES,
          "reinsert_search.c": TREES, "sah.c": TREES, "sah_spatial.c": TREES, "texture.c": READERS[:1],
          "gltf_reader.c": READERS,
          "gltf_materials.c": READERS[:1], "gltf_meshes.c": READERS, "gltf_nodes.c": READERS}
@@ -23,11 +23,12 @@ SECONDS = 300
 # Name, file of raytracer/scene, text, what it becomes.
 MUTANTS = [
     ("splits-of-duplicates", "splits.c", "    if (duplicates->first[i] != i)\n      continue;\n", ""),
-    ("splits-of-lamps", "splits.c", "if (emits(mesh, &mesh->triangles[i])) {", "if (false) {"),
+    ("splits-of-lamps", "splits.c", "if (emits(mesh, &mesh->triangles[i]))\n      return false;", "if (false)\n      return false;"),
     ("splits-of-equals", "splits.c", "2 * of_few >= all", "2 * of_few >= 0"),
     ("splits-never", "splits.c", "#define BOXES_IN_VAIN 2", "#define BOXES_IN_VAIN 1000000"),
     ("splits-always", "splits.c", "#define BOXES_IN_VAIN 2", "#define BOXES_IN_VAIN 0"),
     ("splits-whole-box", "splits.c", "area -= fabs(", "area -= 0 * fabs("),
+    ("duplicates-unseen", "bvh.c", "TRAX_OK && !duplicates.any;\n  scene", "TRAX_OK;\n  scene"),
     ("one-focus", "reinsert.h", "MOST_FOCI = 8", "MOST_FOCI = 1"),
     ("close-foci", "reinsert.c", "FOCUS_STEP = 4", "FOCUS_STEP = 2"),
     ("foci-of-few", "reinsert.c", "LEAST_OF_TRIANGLES = 16", "LEAST_OF_TRIANGLES = 2"),
