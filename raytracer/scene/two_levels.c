@@ -29,7 +29,8 @@ static trax_status check_options(const struct trax_build_options *options, trax_
   if (options->splits > 1 && !options->choose_splits)
     return trax_fail(error, "--splits: triangles of instances are not split (--flatten)");
   if (options->nodes != TRAX_NODES_BINARY && !options->choose_nodes)
-    return trax_fail(error, "--nodes: a scene of instances has binary nodes (--flatten)");
+    return trax_fail(error, "--nodes %s: a scene of instances has binary nodes; one without has any (--flatten)",
+                     trax_node_formats[options->nodes].name);
   return TRAX_OK;
 }
 

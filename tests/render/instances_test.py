@@ -206,7 +206,8 @@ def check_bad():
     check("too large: more instances than memory in proportion" in done.stderr, done.stderr)
     check(time.monotonic() - begun < 20, "a bomb takes long")
     call("trax-scene", "moved.instances", "-q", "-o", "moved.trax")
-    for words in (["--tree", "x.npy", "--tree-triangles", "y.npy"], ["--nodes", "quantised"], ["--splits=2"]):
+    for words in (["--tree", "x.npy", "--tree-triangles", "y.npy"], ["--splits=2"],
+                  *(["--nodes", layout] for layout in ("quantised", "wide4", "wide4-quantised", "wide8"))):
         done = call("trax-scene", "moved.instances", "-o", "bad.trax", *words, status=1)
         check("--flatten" in done.stderr, words, done.stderr)
     done = call("trax-scene", "moved.instances", "--write-triangles", "x.npy", status=1)

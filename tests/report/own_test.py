@@ -86,6 +86,22 @@ class OwnTest(unittest.TestCase):
             on = [identity for identity, cost, _ in own.COSTS if run.key in by_cost[cost]]
             self.assertEqual(row[-1].shown, ", ".join(on))
 
+    def test_moments(self):
+        """A sequence: a picture of each moment, of many some; and bars tell moments from each other."""
+        frames = [frame / 2 for frame in range(20)]
+        runs = []
+        for frame, more in itertools.product(frames, ({}, {"trax-scene --refit-from": 0})):
+            runs.append(example.run("ours", "bunny", "4x32", experiments=("twist", ), value=1))
+            runs[-1].update(set={"trax-scene --at": frame, **more}, size=[32, 18],
+                            variant="refitted from the first one" if more else "rebuilt")
+        text = self.make(example.document(runs, [{"name": "twist", "x": "trax-scene --at", "file": "mine.json"}]))
+        self.assertEqual(re.findall("<figcaption>bunny at (.*?), ours", text),
+                         ["0", "1", "2.5", "4", "5", "6.5", "8", "9.5"])
+        names = own.short([own.name_of(run, []) for run in self.results.runs])
+        self.assertEqual(names[:2], ["rebuilt, at=0.0", "refitted from t…, at=0.0"])
+        self.assertEqual(own.short(["1x32, memory.queue_entries=4"]), ["1x32, queue_entries=4"])
+        self.assertEqual(make.some_of({None: 0, 3: 0, -1: 0}), [None, -1, 3])
+
     def test_sweeps_of_trax(self):
         """With a sweep that comes with trax the page is about the paper."""
         made = mine()

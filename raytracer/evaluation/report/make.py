@@ -24,6 +24,8 @@ from .plots import draw, shapes
 from .results import number, read_results
 from .table import seconds
 
+MOST_MOMENTS = 8  # of a scene, whose pictures the page has
+
 HERE = pathlib.Path(__file__).resolve().parent
 PAPERS_TITLE = "A mobile accelerator for ray tracing: our figures beside the paper's"
 SHORT = {
@@ -83,18 +85,29 @@ def summary(results, paper, judged):
     return join(items)
 
 
+def some_of(moments):
+    """The moments in order, without one first; of many some, evenly, with the first and the last."""
+    found = sorted(moments, key=lambda moment: (moment is not None, moment or 0))
+    last, steps = len(found) - 1, min(len(found), MOST_MOMENTS) - 1
+    return [found[last * i // max(steps, 1)] for i in range(steps + 1)]
+
+
 def pictures(results, base):
-    """One picture of a scene and program, inlined: the largest."""
+    """One picture of a scene, or of each of its moments, and program, inlined: the largest."""
     chosen = {}
     for run in results.runs:
         if run.done and run.picture and run.size:
-            best = chosen.get((run.scene, run.program))
+            moments = chosen.setdefault((run.scene, run.program), {})
+            moment = number(run.set.get("trax-scene --at"))
+            best = moments.get(moment)
             if best is None or run.size > best.size:
-                chosen[run.scene, run.program] = run
+                moments[moment] = run
     shown = []
-    for (scene, program), run in sorted(chosen.items()):
+    for scene, program, moment, run in (
+            (*key, moment, moments[moment]) for key, moments in sorted(chosen.items()) for moment in some_of(moments)):
         path = base / run.picture
-        caption = el("figcaption", f"{scene}, {program}, {run.size[0]}x{run.size[1]}")
+        name = scene if moment is None else f"{scene} at {moment:g}"
+        caption = el("figcaption", f"{name}, {program}, {run.size[0]}x{run.size[1]}")
         try:
             data = path.read_bytes()
         except (OSError, ValueError) as error:
@@ -108,7 +121,7 @@ def pictures(results, base):
             el(
                 "figure", caption,
                 el("img", src="data:image/png;base64," + base64.b64encode(data).decode(),
-                   alt=f"{scene} rendered by {program}", width=run.size[0], height=run.size[1])))
+                   alt=f"{name} rendered by {program}", width=run.size[0], height=run.size[1])))
     return el("div", *shown, class_="pictures") if shown else el("p", "No run has a picture.", class_="missing")
 
 

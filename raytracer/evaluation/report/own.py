@@ -142,17 +142,36 @@ def front_table(runs):
 # --- the page ---
 
 
-def short(name):
-    """Fits beside a bar: keys without their section."""
-    name = re.sub(r"[\w.]+\.(\w+=)", r"\1", name)
-    return name if len(name) <= MOST_LETTERS else name[:MOST_LETTERS - 1] + "…"
+def cut(text, most):
+    return text if len(text) <= most else text[:most - 1] + "…"
+
+
+def in_all(some):
+    return set(some[0]).intersection(*some[1:]) if len(some) > 1 else set()
+
+
+def short(names):
+    """Of each name what tells it from the others, as far as it fits beside a bar: keys without their section or
+    program, and without those that every run of a variant has."""
+    found = []
+    parts = [re.sub(r"[\w.]+\.(\w+=)|[\w-]+ --([\w-]+=)", r"\1\2", name).split(", ") for name in names]
+    plain = [[part for part in some if "=" not in part] for some in parts]
+    for name, some, own_words in zip(names, parts, plain):
+        same = in_all([other for other, others_words in zip(parts, plain) if others_words == own_words])
+        keys = ", ".join(part for part in some if "=" in part and part not in same)
+        first = ", ".join(part for part in own_words if part not in in_all(plain))
+        room = MOST_LETTERS - len(keys) - 2 if keys else MOST_LETTERS
+        first = cut(first, room) if room > 4 else ""
+        found.append(cut(", ".join(part for part in (first, keys) if part) or name, MOST_LETTERS))
+    return found
 
 
 def time_figures(own, results):
     for place, sweep in enumerate(own):
         runs = [run for run in results.of_sweep(sweep["name"]) if run.done]
         axes = varying(runs)
-        bars = [(short(name_of(run, axes)), parts) for run in runs[:MOST_BARS] if (parts := shares(run))]
+        shown = [(name_of(run, axes), parts) for run in runs[:MOST_BARS] if (parts := shares(run))]
+        bars = list(zip(short([name for name, _ in shown]), (parts for _, parts in shown))) if shown else []
         if bars:
             yield Bars(f"time-{place}", f"Where thread-cycles went: {title_of(sweep)}", "share of all thread-cycles",
                        bars, [(style, text) for style, text, _ in CAUSES])
