@@ -89,6 +89,21 @@ static uint32_t any_operation(unsigned left) {
   }
 }
 
+/* A loop of BODY operations, and stores of the registers after it. */
+static size_t add_loop(uint32_t *words, size_t n, uint32_t (*operation)(unsigned left)) {
+  words[n++] = U(RDSR, 3, TRAX_SR_THREAD);
+  words[n++] = I(ADDI, LOOP, 0, (int32_t)any(1, 4));
+  const size_t begin = n;
+  for (unsigned i = 0; i < BODY; i++)
+    words[n++] = operation(BODY - i);
+  words[n++] = I(ADDI, LOOP, LOOP, -1);
+  words[n] = B(BNE, LOOP, 0, ((int32_t)begin - (int32_t)n) * 4);
+  n++;
+  for (unsigned reg = 1; reg < 16; reg++)
+    words[n++] = S(SW, reg, BASE, (int32_t)(128 + 4 * reg));
+  return n;
+}
+
 size_t any_program(uint32_t *words) {
   size_t n = 0;
   words[n++] = U(RDSR, BASE, TRAX_SR_THREAD);
@@ -102,16 +117,7 @@ size_t any_program(uint32_t *words) {
   words[n++] = I(ADDI, SHARED, SHARED, 0x6000);
   words[n++] = I(ADDI, COUNTER, COUNTER, 0x7000);
   words[n++] = I(ADDI, COUNTER, COUNTER, 0x7000);
-  words[n++] = U(RDSR, 3, TRAX_SR_THREAD);
-  words[n++] = I(ADDI, LOOP, 0, (int32_t)any(1, 4));
-  const size_t begin = n;
-  for (unsigned i = 0; i < BODY; i++)
-    words[n++] = any_operation(BODY - i);
-  words[n++] = I(ADDI, LOOP, LOOP, -1);
-  words[n] = B(BNE, LOOP, 0, ((int32_t)begin - (int32_t)n) * 4);
-  n++;
-  for (unsigned reg = 1; reg < 16; reg++)
-    words[n++] = S(SW, reg, BASE, (int32_t)(128 + 4 * reg));
+  n = add_loop(words, n, any_operation);
   words[n++] = HALT;
   return n;
 }
@@ -195,16 +201,7 @@ static size_t any_program_of(uint32_t *words, uint32_t (*any_operation_of)(unsig
   words[n++] = I(ADDI, 16, 1, 0x4000);
   for (unsigned base = 17; base < 20; base++) /* pages apart */
     words[n++] = I(ADDI, base, base - 1, 0x1000);
-  words[n++] = U(RDSR, 3, TRAX_SR_THREAD);
-  words[n++] = I(ADDI, LOOP, 0, (int32_t)any(1, 4));
-  const size_t begin = n;
-  for (unsigned i = 0; i < BODY; i++)
-    words[n++] = any_operation_of(BODY - i);
-  words[n++] = I(ADDI, LOOP, LOOP, -1);
-  words[n] = B(BNE, LOOP, 0, ((int32_t)begin - (int32_t)n) * 4);
-  n++;
-  for (unsigned reg = 1; reg < 16; reg++)
-    words[n++] = S(SW, reg, BASE, (int32_t)(128 + 4 * reg));
+  n = add_loop(words, n, any_operation_of);
   words[n++] = any(0, 4) ? HALT : any(0, 1) ? T(1, TRAX_TRAP_ABORT) : I(LW, 1, 0, 0);
   return n;
 }

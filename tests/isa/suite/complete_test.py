@@ -2,7 +2,8 @@
 """An instruction without a test, or without a condition's, stops the build: complete_test.py TRAX_ISA_GEN ISA_FOLDER
 INSTRUCTIONS_INC NUMBERS_H LLVM_INCLUDE...
 
-Copies of the description with one more instruction, of each format, one less, and one renamed."""
+Copies of the description with one more instruction of each format, and with one less. The build has checked the
+description as it is."""
 
 import os
 import re
@@ -52,13 +53,11 @@ def build(change):
 def expect(what, change, messages):
     global failures
     done = build(change)
-    if (done.returncode != 0) != bool(messages) or any(message not in done.stderr for message in messages):
+    if done.returncode == 0 or any(message not in done.stderr for message in messages):
         failures += 1
         print(f"FAILED: {what}: status {done.returncode}, {done.stderr!r}, not {messages!r}")
 
 
-expect("the description as it is", lambda text: text, [])
-expect("one instruction more", lambda text: text + MORE[0][0] + "\n", [MORE[0][1]])
 expect("one of each format more", lambda text: text + "\n".join(definition for definition, _ in MORE) + "\n",
        [message for _, message in MORE])
 expect("without fmin", lambda text: re.sub(r"(?s)def FMIN .*?;\n(?=def)", "", text), ["FMIN has tests"])
