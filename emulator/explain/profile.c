@@ -206,14 +206,6 @@ static trax_status add_issued(void *self, trax_error *error) {
   return TRAX_OK;
 }
 
-/* The page numbers names in the order of its instructions, whatever other files are written before it. */
-static trax_status end_profile(void *self, trax_error *error) {
-  const struct trax_profile *profile = self;
-  if (profile->reader.explain->options.explore)
-    trax_profile_look_up(profile);
-  return add_issued(self, error);
-}
-
 static trax_status open_profile(void *self, trax_error *error) {
   struct trax_profile *profile = self;
   const struct trax_explain_options *options = &profile->reader.explain->options;
@@ -254,6 +246,6 @@ const struct trax_reader_kind trax_profile_reader = {
     .in_page = true,
     .open = open_profile,
     .passage = add_passage,
-    .end = end_profile,
+    .end = add_issued,
     .put_members = trax_profile_put_members,
     .close = close_profile};

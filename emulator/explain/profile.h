@@ -58,8 +58,6 @@ static inline void trax_profile_add(struct trax_profile_counts *sum, const struc
 }
 
 /* --- the files and members of the page; self is a trax_profile --- */
-/* Looks up all places, so that the number of names is final. */
-void trax_profile_look_up(const struct trax_profile *profile);
 trax_status trax_profile_put(void *self, FILE *out, trax_error *error);
 trax_status trax_profile_put_folded(void *self, FILE *out, trax_error *error);
 trax_status trax_profile_put_sample(void *self, FILE *out, trax_error *error);

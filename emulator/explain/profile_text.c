@@ -115,7 +115,8 @@ static void print_table(const struct tables *tables, FILE *out, struct row *rows
   fprintf(out, "  total\n");
 }
 
-void trax_profile_look_up(const struct trax_profile *profile) {
+/* Looks up all places, so that the number of names is final; in the order in which the page does. */
+static void look_up_all(const struct trax_profile *profile) {
   struct trax_places *places = profile->reader.explain->places;
   for (uint32_t i = 0; i < trax_places_count(places) + 2; i++)
     if (profile->latest_of[i].record)
@@ -127,7 +128,7 @@ trax_status trax_profile_put(void *self, FILE *out, trax_error *error) {
   struct trax_places *places = profile->reader.explain->places;
   const trax_machine *machine = profile->reader.explain->machine;
   const struct trax_loaded *loaded = trax_loaded_of(machine);
-  trax_profile_look_up(profile);
+  look_up_all(profile);
   struct tables tables = {.profile = profile, .names = trax_places_names(places)};
   tables.functions = calloc(tables.names + 1, sizeof *tables.functions);
   tables.lines = calloc(tables.names + 1, sizeof *tables.lines);

@@ -145,7 +145,8 @@ class Data(Scratch):
     def test_bytes_beside_other_files(self):
         pages = []
         for words in ([], ["--waits", "beside.waits"], ["--profile-folded", "beside.folded", "--waits", "beside.waits"],
-                      ["--engine", "reference", "--profile-folded", "beside.folded", "--items", "beside.items"]):
+                      ["--engine", "reference", "--profile-folded", "beside.folded", "--items", "beside.items"],
+                      ["--check-memory"], ["--perfetto", "beside.perfetto", "--window", "0:500"]):
             simulate(self.folder, "run/manifest.json", "--explore", "beside.html", *words)
             pages.append((self.folder / "beside.html").read_bytes())
         self.assertEqual([page == pages[0] for page in pages], [True] * len(pages))
