@@ -17,8 +17,9 @@ void trax_page_number(FILE *out, uint64_t value);
 /* The text of the page before its data and after them, which the build made (page/embed.cmake). */
 extern const char *const trax_page_begin, *const trax_page_end;
 
-/* --- sources.c: members with the program's sources, and with the names of those that are left out --- */
-trax_status trax_sources_put(struct trax_explain *explain, FILE *out, trax_error *error);
+/* --- sources.c: members with the sources of the lines among these names, and with the names of those left out --- */
+trax_status trax_sources_put(struct trax_explain *explain, const uint32_t *names, uint32_t count, FILE *out,
+                             trax_error *error);
 
 /* --- pixels.c: the cost of each item, by its place --- */
 struct trax_pixels;

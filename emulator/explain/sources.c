@@ -129,11 +129,10 @@ static bool find_folders(struct sources *sources) {
 
 /* --- writing --- */
 
-/* Lists the files of the places' lines, which are "FILE:LINE". */
-static bool list_files(struct sources *sources) {
-  const struct trax_places *places = sources->explain->places;
-  for (uint32_t name = 1; name <= trax_places_names(places); name++) {
-    const char *line = trax_places_name(places, name), *colon = strrchr(line, ':');
+/* Lists the files of those names that are lines, "FILE:LINE". */
+static bool list_files(struct sources *sources, const uint32_t *names, uint32_t count) {
+  for (uint32_t i = 0; i < count; i++) {
+    const char *line = trax_places_name(sources->explain->places, names[i]), *colon = strrchr(line, ':');
     if (!colon || line[0] == '(' || !colon[1] || strspn(colon + 1, "0123456789") != strlen(colon + 1))
       continue;
     char *file = strdup(line);
@@ -206,13 +205,14 @@ static void release(struct sources *sources) {
   trax_texts_free(&sources->files);
 }
 
-trax_status trax_sources_put(struct trax_explain *explain, FILE *out, trax_error *error) {
+trax_status trax_sources_put(struct trax_explain *explain, const uint32_t *names, uint32_t count, FILE *out,
+                             trax_error *error) {
   struct sources sources = {.explain = explain};
   char *note = NULL, *left_out = NULL;
   size_t note_size, left_out_size;
   sources.note = open_memstream(&note, &note_size);
   sources.left_out = open_memstream(&left_out, &left_out_size);
-  bool complete = sources.note && sources.left_out && find_folders(&sources) && list_files(&sources);
+  bool complete = sources.note && sources.left_out && find_folders(&sources) && list_files(&sources, names, count);
   fputs("\"sources\": {\n", out);
   for (uint32_t i = 1; complete && i <= sources.files.count; i++)
     put_source(&sources, trax_texts_at(&sources.files, i), out);

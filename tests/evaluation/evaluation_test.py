@@ -427,6 +427,7 @@ REFUSED_WORDS = (
     (["scnes"], "nor a folder of scenes; did you mean scenes?"),
     (["--quik", "scenes"], "unrecognized arguments: --quik; did you mean --quick?"),
     (["table2", "--size", "1"], "--size 1: expected"),
+    (["table2", "-o", ""], "--output: the value is empty"),
     (["table2", "--program", "x"], "--program x: allowed"),
     (["table2", "--jobs", "0"], "--jobs 0"),
     (["--nonsense"], "--nonsense"),

@@ -142,6 +142,15 @@ class Data(Scratch):
             render(self.folder, "--mark-rays", "-o", "other.png", "--explore", "other.html", *words)
             self.assertEqual((self.folder / "other.html").read_bytes(), page, words)
 
+    def test_bytes_beside_other_files(self):
+        pages = []
+        for words in ([], ["--waits", "beside.waits"], ["--profile-folded", "beside.folded", "--waits", "beside.waits"],
+                      ["--engine", "reference", "--profile-folded", "beside.folded", "--items", "beside.items"],
+                      ["--check-memory"], ["--perfetto", "beside.perfetto", "--window", "0:500"]):
+            simulate(self.folder, "run/manifest.json", "--explore", "beside.html", *words)
+            pages.append((self.folder / "beside.html").read_bytes())
+        self.assertEqual([page == pages[0] for page in pages], [True] * len(pages))
+
     def test_run_is_the_same(self):
         render(self.folder, "--mark-rays", "-o", "plain.png", "--stats", "plain.json")
         self.assertEqual((self.folder / "plain.png").read_bytes(), (self.folder / "p.png").read_bytes())

@@ -28,6 +28,8 @@ def flat(statistics, before=""):
 
 def identity(file):
     """Of a path or descriptor: what a regular file is, whatever its name; None of what may be written at any time."""
+    if file == "-":  # standard output
+        return None
     try:
         found = os.stat(file)
     except OSError:
@@ -91,7 +93,7 @@ class Machine:
     program may read and write. Errors: TraxError."""
     def __init__(self, program, chip=None, settings=None, arguments=None, folders=None):
         self._manifest, self._ran, self._stop = None, False, ffi.new("int *")
-        self._inputs = [program, *([] if chip is None or isinstance(chip, Config) else [chip])]
+        self._inputs = [program, *([chip] if isinstance(chip, (str, os.PathLike)) and os.path.isfile(chip) else [])]
         error = new_error()
         if lib.trax_manifest_is(encoded(program)):
             found = lib.trax_manifest_read(encoded(program), error)
@@ -211,15 +213,15 @@ class Machine:
 
     def _check_outputs(self, explain, inputs):
         """No file of an explanation may be an input of the run, and none may be written twice."""
-        names = {name: value for name, value in explain.items()
-                 if not isinstance(value, int) and name not in ("item_buffer", "title", "against")}
-        known = {identity(file) for file in (*self._inputs, *inputs, *(
-            [explain["against"]] if "against" in explain else []))} - {None}
-        for name, path in names.items():
+        inputs = [*self._inputs, *inputs, *([explain["against"]] if "against" in explain else [])]
+        known = {identity(file) for file in inputs}
+        for name, path in explain.items():
+            if isinstance(path, int) or name in ("item_buffer", "title", "against"):
+                continue
             which = identity(path)
-            if which in known:
+            if which is not None and which in known:
                 raise TraxError(f"{path}: {name} is an input of the run, or is written twice")
-            known |= {which} - {None}
+            known.add(which)
 
     def _explanation(self, explain, keep, error):
         if not explain:

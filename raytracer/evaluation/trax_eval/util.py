@@ -31,7 +31,12 @@ def nearest(word, names):
 
 
 class Parser(argparse.ArgumentParser):
-    """Its errors are Problems. An unknown option suggests one."""
+    """Its errors are Problems. An unknown option suggests one. An empty value is an error, as in -o "$UNSET"."""
+    def _get_value(self, action, text):
+        if text == "" and action.option_strings:
+            raise Problem(f"{action.option_strings[-1]}: the value is empty")
+        return super()._get_value(action, text)
+
     def error(self, message):
         wrong = message.startswith("unrecognized arguments: ")
         known = [name for action in self._actions for name in action.option_strings]
