@@ -2,7 +2,8 @@
    Readers of spans are called for those of all threads in the order of the issues that end them, which does not depend
    on the engine. A passage is what a thread did for a stretch of instructions (machine/observer.h). Readers of passages
    are much faster, since the engine executes ahead for them. Only the passages of one thread are in order, and those
-   that end with a trap, a call, a return, or a write of the stack pointer, which each are passages of their own. */
+   that end with a trap, a call, a return, or a write of the stack pointer, which each are passages of their own. One
+   thread of the host calls their readers, perhaps not the engine's, and later than the engine goes on. */
 #ifndef TRAX_EXPLAIN_SPAN_H
 #define TRAX_EXPLAIN_SPAN_H
 

@@ -320,6 +320,12 @@ def main():
         run(directory / f"slow-{engine}", engine, *machine, "--set", "memory.bandwidth_gbps=0.1", "--set",
             "memory.latency_cycles=1", "--series-interval", "7", files=["series"])
     equal(read(directory / "slow-fast", "series"), read(directory / "slow-reference", "series"), "series of a slow bus")
+    # A unit that is not pipelined refuses TPs for more cycles than the fast engine counts in a byte.
+    for engine in "reference", "fast":
+        run(directory / f"busy-{engine}", engine, "--config", "1x32", "--set", "special.pipelined=false", "--set",
+            "special.latency_cycles=40", files=["profile", "waits"])
+    for name in "profile", "waits":
+        equal(read(directory / "busy-fast", name), read(directory / "busy-reference", name), "a busy unit:", name)
     run(directory / "plain", "fast", *machine, files=[])
     stats = json.loads(read(directory / "fast", "stats.json"))
     plain = json.loads(read(directory / "plain", "stats.json"))

@@ -105,7 +105,8 @@ struct trax_item_cost {
 #define TRAX_NO_PLACE UINT32_MAX
 
 /* To be called before the run: `item` will be called for every item when it ends. At the end of the run it is called
-   once for each thread with `last` set and place TRAX_NO_PLACE, for the charges after the thread's last item. */
+   once for each thread with `last` set and place TRAX_NO_PLACE, for the charges after the thread's last item. During
+   the run another thread of the host may call it. */
 void trax_explain_items(struct trax_explain *explain,
                         void (*item)(void *context, const struct trax_item_cost *cost, bool last), void *context);
 
