@@ -47,16 +47,46 @@ struct improver {
   struct scene_links *links;
   struct foci foci;
   /* The nodes that changed in this round, a bit each, and a list of the words that have some; NULL: one thread only. */
-  uint64_t *changed;
+  uint64_t (*changed)[2]; /* of anything, and of more than the height */
   uint32_t *changed_words, changed_count;
+  /* The nodes that the current move has refitted, as they were before it. Most become what they were when the part is
+     inserted again. */
+  struct refitted {
+    uint32_t node, height;
+    struct scene_box box;
+  } refitted[2 * TRAX_SCENE_MAX_DEPTH + 2];
+  uint32_t refitted_count, refitted_first; /* first: on the way from where the part was taken out */
 };
 
-static void mark(struct improver *improver, uint32_t node) {
+static void mark(struct improver *improver, uint32_t node, bool height_only) {
   if (!improver->changed || node == SCENE_NO_LINK)
     return;
-  if (improver->changed[node / 64] == 0)
+  uint64_t *const words = improver->changed[node / 64];
+  if (words[0] == 0)
     improver->changed_words[improver->changed_count++] = node / 64;
-  improver->changed[node / 64] |= (uint64_t)1 << node % 64;
+  words[0] |= (uint64_t)1 << node % 64;
+  words[1] |= (uint64_t)!height_only << node % 64;
+}
+
+static void remember(struct improver *improver, uint32_t node) {
+  if (!improver->changed)
+    return;
+  for (uint32_t i = 0; i < improver->refitted_first; i++)
+    if (improver->refitted[i].node == node)
+      return;
+  const struct scene_link *link = &improver->links->nodes[node];
+  improver->refitted[improver->refitted_count++] = (struct refitted){node, link->height, link->box};
+}
+
+static void mark_refitted(struct improver *improver) {
+  for (uint32_t i = 0; i < improver->refitted_count; i++) {
+    const struct refitted *old = &improver->refitted[i];
+    const struct scene_link *link = &improver->links->nodes[old->node];
+    const bool moved = memcmp(&old->box, &link->box, sizeof old->box) != 0;
+    if (moved || old->height != link->height)
+      mark(improver, old->node, !moved);
+  }
+  improver->refitted_count = improver->refitted_first = 0;
 }
 
 /* Refits the box and height of a node. Returns whether they changed. */
@@ -68,7 +98,7 @@ static bool refit_node(struct improver *improver, uint32_t index) {
   const bool moved = memcmp(&box, &node->box, sizeof box) != 0;
   if (!moved && height == node->height)
     return false;
-  mark(improver, index);
+  remember(improver, index);
   node->height = height;
   if (moved) {
     node->box = box;
@@ -88,8 +118,8 @@ static void take_place_of(struct improver *improver, uint32_t index, uint32_t ol
   struct scene_links *links = improver->links;
   const uint32_t parent = links->nodes[old].parent;
   links->nodes[index].parent = parent;
-  mark(improver, index);
-  mark(improver, parent);
+  mark(improver, index, false);
+  mark(improver, parent, false);
   if (parent == SCENE_NO_LINK)
     links->root = index;
   else
@@ -103,16 +133,18 @@ static void reinsert(struct improver *improver, uint32_t part, uint32_t place) {
   if (place != beside) {
     take_place_of(improver, beside, parent);
     refit_from(improver, nodes[beside].parent);
+    improver->refitted_first = improver->refitted_count;
     take_place_of(improver, parent, place);
     nodes[place].parent = parent;
-    mark(improver, place);
-    mark(improver, part);
+    mark(improver, place, false);
+    mark(improver, part, false);
   }
   if (nodes[parent].child[0] != place) /* else in order: a line that is not written stays with all threads */
     nodes[parent].child[0] = place, nodes[parent].child[1] = part;
   if (place != beside) {
     refit_node(improver, parent);
     refit_from(improver, nodes[parent].parent);
+    mark_refitted(improver);
   }
 }
 
@@ -142,6 +174,7 @@ struct round {
     uint32_t place, parent; /* parent: of the part */
     size_t first, end; /* of what was read */
     uint32_t worker;
+    bool heights; /* whether it depends on heights */
   } found[ROUND];
 };
 
@@ -182,19 +215,20 @@ static void search_some(struct scene_worker *worker, void *pointer) {
       return;
     for (uint32_t i = first; i < first + STEP && i < round->count; i++) {
       struct found *found = &round->found[i];
-      *found = (struct found){SCENE_NO_LINK, SCENE_NO_LINK, search->read_count, 0, number};
+      *found = (struct found){SCENE_NO_LINK, SCENE_NO_LINK, search->read_count, 0, number, false};
       fetch_ahead(&fetcher, search->links->nodes, round->parts, round->count, i);
       if (round->parts[i] != round->improver->links->root)
         found->place = scene_find_place(search, round->parts[i]), found->parent = search->parent;
-      found->end = search->read_count;
+      found->end = search->read_count, found->heights = search->heights;
     }
   }
 }
 
 static bool has_changed(const struct improver *improver, const struct search *search, const struct found *found) {
+  const int kind = !found->heights;
   uint64_t any = 0;
   for (size_t i = found->first; i < found->end && improver->changed_count; i++)
-    any |= improver->changed[search->read[i] / 64] >> search->read[i] % 64;
+    any |= improver->changed[search->read[i] / 64][kind] >> search->read[i] % 64;
   return any & 1;
 }
 
@@ -204,7 +238,7 @@ static bool work_round(struct round *round, struct scene_crew *crew) {
   const unsigned threads = scene_crew_size(crew);
   round->next = 0;
   while (improver->changed_count)
-    improver->changed[improver->changed_words[--improver->changed_count]] = 0;
+    memset(improver->changed[improver->changed_words[--improver->changed_count]], 0, sizeof *improver->changed);
   for (unsigned i = 0; i < threads; i++)
     round->searches[i].read_count = 0;
   for (unsigned i = 1; i < threads; i++) /* any worker takes one, so all are ready before */

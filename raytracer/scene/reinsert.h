@@ -69,7 +69,7 @@ struct search {
   size_t heap_count;
   uint32_t *read; /* the nodes that the search depends on, if `records` */
   size_t read_count, read_capacity;
-  bool records;
+  bool records, heights; /* heights: the last search depends on some */
   /* of the current search */
   const struct scene_link *part;
   uint32_t parent, beside; /* of the part; its other child */

@@ -265,7 +265,8 @@ uint32_t scene_find_place(struct search *search, uint32_t part) {
   search->beside = other_child(&nodes[search->parent], part);
   const size_t first = search->read_count;
   note_part(search, part);
-  if (!may_gain(search))
+  search->heights = may_gain(search);
+  if (!search->heights)
     return search->beside;
   search->read_count = first; /* the best place is another one or not, whatever that has read */
   note_part(search, part);
