@@ -57,7 +57,7 @@ struct Reciprocal {
   Value *Factor;  ///< 2^32 / Divisor, or less
 };
 
-/// Of a place and a divisor, with or without its sign.
+/// The reciprocals by place and divisor, with or without its sign.
 using ReciprocalMap = std::map<std::tuple<Instruction *, Value *, bool>, Reciprocal>;
 
 class TraxDivision : public FunctionPass {

@@ -225,7 +225,7 @@ trax_status trax_output_check(const char *path, trax_error *error) {
   const int shared = trax_output_descriptor(path);
   if (shared >= 0)
     return fcntl(shared, F_GETFL) >= 0 ? TRAX_OK : trax_fail(error, "%s: cannot be written: %s", path, strerror(errno));
-  /* To open a pipe or a device may wait or have effects, so only its permissions are checked. */
+  /* Opening a pipe or a device may wait or have effects, so only its permissions are checked. */
   if (stat(path, &existing) == 0 && !S_ISREG(existing.st_mode) && !S_ISDIR(existing.st_mode))
     return access(path, W_OK) == 0 ? TRAX_OK : trax_fail(error, "%s: cannot be written: %s", path, strerror(errno));
   trax_output output;

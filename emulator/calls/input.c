@@ -27,7 +27,7 @@ static int refill_by_stdio(struct trax_stream_input *input, FILE *stream) {
   return 0;
 }
 
-/* Reads what there is, after the bytes that are kept, of which there are fewer than CAPACITY. */
+/* Appends the bytes that can be read at once to the kept ones, which are fewer than CAPACITY. */
 static int refill(struct trax_calls *calls) {
   struct trax_stream_input *input = &calls->input;
   const int descriptor = fileno(calls->streams.input);

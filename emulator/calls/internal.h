@@ -59,7 +59,7 @@ void trax_place_release(struct trax_calls *calls, struct trax_place *place);
 int trax_place_stat(struct trax_calls *calls, const struct trax_place *place, struct stat *status);
 /* Goes into the folder at the place, which then is the folder itself. */
 int trax_place_enter(struct trax_calls *calls, struct trax_place *place);
-/* The path of the place below an allowed folder, by which the program finds it; from malloc. */
+/* The path below an allowed folder that leads the program to the place; from malloc. */
 char *trax_place_path(const struct trax_place *place);
 /* The folder's descriptor, which the next two calls leave open, or an error number times -1. */
 int trax_folder_descriptor(struct trax_calls *calls, struct trax_folder *folder);
@@ -94,7 +94,7 @@ struct trax_name {
   struct trax_name *next;
   struct trax_place place;
   struct trax_file *file; /* NULL: removed */
-  /* With checkpoints, what the host had here when the program first changed the place: */
+  /* With checkpoints: the host's file when the program first changed the place. */
   bool was_there;
   XXH128_hash_t digest;
   struct trax_file *was; /* NULL: nothing, or a file that is no more */

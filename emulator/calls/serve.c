@@ -161,7 +161,7 @@ static int32_t put_stat(const struct trax_host_call *call, uint32_t mode, uint64
   return 0;
 }
 
-/* Of a standard stream, or of nothing. */
+/* The stat of a standard stream or of /dev/null. */
 static int32_t put_other_stat(const struct trax_host_call *call, enum trax_opened_kind kind) {
   return put_stat(call, TRAX_MODE_OTHER | (kind == TRAX_OPENED_NOTHING ? 0666 : 0600), 0, kind - TRAX_OPENED_INPUT);
 }

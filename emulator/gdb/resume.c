@@ -71,7 +71,7 @@ static void apply_action(struct trax_gdb *gdb, const struct action *action, bool
   }
 }
 
-/* By the protocol, threads without an action stay stopped. Here they continue, since all threads share the machine's
+/* In the protocol, threads without an action stay stopped. Here they continue, since all threads share the machine's
    cycles (docs/debugging.md). */
 static void resume_threads(struct trax_gdb *gdb, const char *text) {
   struct action action;

@@ -59,7 +59,7 @@ static const char *key_of(const void *context, size_t i) {
   return ((const char *const *)context)[i];
 }
 
-/* An object with no other keys than these, of which NULL is the last. */
+/* Checks that the value is an object with no keys but these. The list ends with NULL. */
 static trax_status check_object(const struct place *place, const char *const *keys, trax_error *error) {
   if (!json_is_object(place->value))
     return refuse(place, error, "must be an object");

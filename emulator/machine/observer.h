@@ -91,8 +91,8 @@ struct trax_stretch {
   struct trax_piece *piece; /* [pieces] */
   size_t pieces;
   uint32_t next_pc; /* of the last instruction */
-  /* Of a trap its operand, and of an instruction that writes r2, the stack pointer, the value. Such an instruction, a
-     jalr, and a jal that writes a register each are a stretch of their own. */
+  /* A trap's operand, or the value that an instruction writes to r2, the stack pointer. Such an instruction, a jalr,
+     and a jal that writes a register each are a stretch of their own. */
   uint32_t result;
 };
 

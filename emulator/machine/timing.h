@@ -18,7 +18,7 @@ struct trax_timing {
 };
 
 struct trax_timing trax_timing_of(trax_op op, const struct trax_config *config);
-/* Whether an instruction needs a shared unit of which the machine has none: it is illegal there. */
+/* Whether an instruction is illegal because the machine has no unit for it. */
 bool trax_lacks_unit(trax_op op, const struct trax_config *config);
 
 /* A kind of shared unit in a TM. */

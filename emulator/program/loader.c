@@ -69,7 +69,7 @@ static void place_stacks(struct trax_machine *machine) {
     trax_space_guard(&machine->space, (uint32_t)(below - stride), TRAX_STACK_GUARD);
 }
 
-/* Fills in words by which a program learns about its machine; each word is optional. */
+/* Fills in the words that tell a program about its machine; each word is optional. */
 static trax_status fill_words(struct trax_machine *machine, trax_error *error) {
   const struct trax_loaded *loaded = trax_loaded_of(machine);
   const struct {

@@ -146,7 +146,7 @@ static void print_callers(const trax_machine *machine, const struct trax_fault *
   }
 }
 
-/* What to try, for the kinds of which the report does not say it in its other lines. */
+/* Advice for the kinds of faults whose reports have none in other lines. */
 static void print_advice(const trax_machine *machine, const struct trax_fault *fault, FILE *out) {
   static const char debugger[] =
       "--gdb 0 and a breakpoint before it show where the value comes from (docs/debugging.md)";

@@ -76,7 +76,7 @@ static double half_of(const struct trax_estimate *estimate) {
   return estimate->half + TRAX_SAMPLING_BIAS * estimate->total;
 }
 
-/* Adds the draws that the wanted interval still needs. The end of the run, of which nothing is known yet, only makes it
+/* Adds the draws that the wanted interval still needs. The end of the run is not known yet, and only makes the interval
    narrower. */
 static void extend(struct trax_slots *slots) {
   struct trax_slot_plan *plan = &slots->plan;

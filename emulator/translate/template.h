@@ -50,7 +50,7 @@ enum { TRAX_MOST_BYTES = 16000, TRAX_MOST_STUBS = 8 };
 
 enum { TRAX_OP_LOOKUP = TRAX_OP_COUNT };
 extern const struct trax_template trax_templates[TRAX_OP_COUNT + 1][TRAX_VARIANTS];
-/* For bursts: of loads and stores; the others have no code here. */
+/* Templates of loads and stores for bursts. The other operations have no code here. */
 extern const struct trax_template trax_burst_templates[TRAX_OP_COUNT + 1][TRAX_VARIANTS];
 extern const uint8_t trax_template_pool[];
 extern const unsigned trax_template_pool_bytes;

@@ -108,7 +108,7 @@ static void trace(marker *marker) {
   }
 }
 
-/* With the debug information goes the compiler's account of stack sizes, which the linker still reads itself. */
+/* Drops the compiler's stack sizes with the debug information. The linker itself still reads them. */
 static void drop_stack_sizes(ld_context *ctx) {
   for (size_t i = 0; ctx->options.strip_debug && i < ctx->sections.count; i++)
     if (strcmp(ctx->sections.items[i]->name, ".stack_sizes") == 0)

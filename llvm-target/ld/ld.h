@@ -66,7 +66,7 @@ const char *ld_demangle(ld_context *ctx, const char *text); /* text with the nam
 void *ld_grow(ld_context *ctx, void *items, size_t count, size_t *capacity, size_t size);
 void ld_free_all(ld_context *ctx);
 
-/* From byte strings, which must outlive the map, to values. */
+/* A map from byte strings, which must outlive it, to values. */
 typedef struct ld_map_entry {
   const void *key;
   uint32_t length, hash;
@@ -320,7 +320,7 @@ ld_output *ld_output_find(const ld_context *ctx, const char *name);
 /* --- gather.c --- */
 
 void ld_gather(ld_context *ctx);
-/* By class, order and header_index: for qsort. */
+/* Compares class, order and header_index, for qsort. */
 int ld_compare_outputs(const void *left, const void *right);
 
 /* --- callgraph.c --- */

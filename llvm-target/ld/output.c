@@ -49,7 +49,7 @@ static bool is_wanted(const ld_context *ctx, const ld_symbol *symbol) {
   return !ctx->options.strip_debug || symbol->type != STT_FILE;
 }
 
-/* In an executable, hidden and internal symbols are local ones (the gABI, "Symbol Table"). */
+/* Hidden and internal symbols are local in an executable (the gABI, "Symbol Table"). */
 static bool becomes_local(const ld_symbol *symbol) {
   return symbol->visibility == STV_HIDDEN || symbol->visibility == STV_INTERNAL;
 }

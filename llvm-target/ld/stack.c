@@ -178,7 +178,7 @@ static void leave(walk *walk, uint32_t function) {
   do
     walk->nodes[walk->stack.items[--first]].component = walk->component_count;
   while (walk->stack.items[first] != function);
-  /* From the top of the stack down to function, which was reached first. */
+  /* The members lie from the top of the stack down to `function`, which was reached first. */
   size_t count = walk->stack.count - first;
   uint32_t *members = ld_alloc_array(walk->ctx, count, sizeof *members);
   for (size_t i = 0; i < count; i++)

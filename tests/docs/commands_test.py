@@ -103,6 +103,11 @@ def help_of(program):
     return " ".join(f"--{word[at:].decode()}" for word in set(words) if len(word) < 40 for at in range(len(word) - 2))
 
 
+@functools.cache
+def options_in(text):
+    return set(re.findall(r"(?<![\w-])--[a-z][\w-]*", text)) | {"--help", "--version"}
+
+
 class Commands:
     def __init__(self, source, build):
         self.source, self.build, self.binaries = source, build, build / "bin"
@@ -171,8 +176,7 @@ class Commands:
             if word in ("--", "|", ">", "&&", ";"):
                 break
             option = word.split("=")[0].rstrip(",.")
-            is_known = option in ("--help", "--version") or re.search(rf"(?<![\w-]){option}(?![\w-])", text)
-            if re.fullmatch(r"--[a-z][\w-]*", option) and not is_known:
+            if re.fullmatch(r"--[a-z][\w-]*", option) and option not in options_in(text):
                 return f"`{command}`: {words[0]} has no {option}"
         return None
 

@@ -14,8 +14,8 @@ from mutation import ROOT, Mutant, failure, main, relinked  # noqa: E402
 SOURCE = ROOT / "raytracer/scene"
 TREES = ("scene-builder-test", "scene-scene-test", "scene-layout-test")
 READERS = ("scene-material-test", "scene-import-test")
-TESTS = {"bvh.c": TREES, "clip.c": TREES, "rank.c": TREES, "ply_values.c": READERS[1:], "splits.c": TREES, "reinsert.c": TREES, "reinsert.h": TREES,
-         "reinsert_search.c": TREES, "sah.c": TREES, "sah_spatial.c": TREES, "texture.c": READERS[:1],
+TESTS = {"bvh.c": TREES, "clip.c": TREES, "rank.c": TREES, "ply_values.c": READERS[1:], "splits.c": TREES,
+         "reinsert.c": TREES, "reinsert.h": TREES, "reinsert_search.c": TREES, "sah.c": TREES, "sah_spatial.c": TREES, "texture.c": READERS[:1],
          "gltf_reader.c": READERS,
          "gltf_materials.c": READERS[:1], "gltf_meshes.c": READERS, "gltf_nodes.c": READERS}
 SECONDS = 300
@@ -23,7 +23,8 @@ SECONDS = 300
 # Name, file of raytracer/scene, text, what it becomes.
 MUTANTS = [
     ("splits-of-duplicates", "splits.c", "    if (duplicates->first[i] != i)\n      continue;\n", ""),
-    ("splits-of-lamps", "splits.c", "if (emits(mesh, &mesh->triangles[i]))\n      return false;", "if (false)\n      return false;"),
+    ("splits-of-lamps", "splits.c", "if (emits(mesh, &mesh->triangles[i]))\n      return false;",
+     "if (false)\n      return false;"),
     ("splits-of-equals", "splits.c", "2 * of_few >= all", "2 * of_few >= 0"),
     ("splits-never", "splits.c", "#define BOXES_IN_VAIN 2", "#define BOXES_IN_VAIN 1000000"),
     ("splits-always", "splits.c", "#define BOXES_IN_VAIN 2", "#define BOXES_IN_VAIN 0"),
@@ -49,7 +50,8 @@ MUTANTS = [
     ("boxes-transposed", "reinsert_search.c", "links[i] = &nodes[queue[first + (i < count ? i : 0)].node]",
      "links[i] = &nodes[queue[first].node]"),
     ("digits-rounded-twice", "ply_values.c", "== 0x10000000)", "== 0x10000001)"),
-    ("digits-of-power", "ply_values.c", "power = (int64_t)whole - (int64_t)count;", "power = (int64_t)whole - (int64_t)count - 1;"),
+    ("digits-of-power", "ply_values.c", "power = (int64_t)whole - (int64_t)count;",
+     "power = (int64_t)whole - (int64_t)count - 1;"),
     ("changes-unseen", "reinsert.c", "return any & 1;", "return false;"),
     ("stale-visits-above", "reinsert_search.c", "changed ? above->visits : node->visits", "node->visits"),
     ("leaves-unseen", "reinsert_search.c", "if (cost < limit)\n        return true;",

@@ -459,7 +459,8 @@ MUTANTS = [
     ("fast/merge.c", "  if (trax_fast_is_loaded(&chip->blocks, write->address))\n    return false;",
      "  if (trax_fast_is_loaded(&chip->blocks, write->address) && write->bytes)\n    return false;"),
     # Stores of a cycle in the TMs' order.
-    ("fast/merge.c", "const uint32_t tm = trax_first(rest);\n      const struct trax_store_buffer *buffer = &merge->buffers[tm];\n"
+    ("fast/merge.c", "const uint32_t tm = trax_first(rest);\n"
+     "      const struct trax_store_buffer *buffer = &merge->buffers[tm];\n"
      "      for (size_t *i = &order->done[tm]; *i < buffer->write_count",
      "const uint32_t first = trax_first(rest);\n"
      "      const uint32_t tm = first ^ (order->tms[order->next - order->begin] >> (first ^ 1) & 1);\n"
@@ -570,6 +571,7 @@ MUTANTS = [
     # --- Output ---
     ("fast/merge.c", "  trax_transfer_log_discard(&merge->chip->transfers);\n  merge->printed_count = 0;",
      "  trax_transfer_log_discard(&merge->chip->transfers);"),
-    ("fast/epochs.c", "  trax_merge_keep(&epochs->merge);\n  epochs->has_snapshot = epochs->chip->transfers.holds = true;",
+    ("fast/epochs.c",
+     "  trax_merge_keep(&epochs->merge);\n  epochs->has_snapshot = epochs->chip->transfers.holds = true;",
      "  epochs->has_snapshot = epochs->chip->transfers.holds = true;"),
 ]
