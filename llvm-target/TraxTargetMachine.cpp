@@ -5,6 +5,7 @@
 #include "Trax.h"
 #include "TraxBuiltins.h"
 #include "TraxMachineFunctionInfo.h"
+#include "TraxNontemporal.h"
 #include "TraxTargetTransformInfo.h"
 #include "trax/abi.h"
 #include "llvm/CodeGen/Passes.h"
@@ -67,6 +68,7 @@ MachineFunctionInfo *TraxTargetMachine::createMachineFunctionInfo(BumpPtrAllocat
 void TraxTargetMachine::registerPassBuilderCallbacks(PassBuilder &PB) {
   PB.registerPipelineStartEPCallback(
       [](ModulePassManager &MPM, OptimizationLevel) { MPM.addPass(TraxBuiltinsPass()); });
+  TraxNontemporalPass::registerWith(PB);
   PB.registerVectorizerStartEPCallback([](FunctionPassManager &FPM, OptimizationLevel Level) {
     if (Level == OptimizationLevel::O3)
       FPM.addPass(createFunctionToLoopPassAdaptor(LoopUnrollAndJamPass(Level.getSpeedupLevel())));

@@ -1,4 +1,4 @@
-/* An old name of <stdlib.h>, which declares the heap's functions, and one more. */
+/* The heap's functions: those of <stdlib.h>, and two more. */
 #ifndef TRAX_MALLOC_H
 #define TRAX_MALLOC_H
 
@@ -8,6 +8,7 @@
 extern "C" {
 #endif
 
+void *memalign(size_t alignment, size_t size);
 size_t malloc_usable_size(void *memory);
 
 #ifdef __cplusplus

@@ -3,12 +3,15 @@
 #ifndef TRAX_MATH_H
 #define TRAX_MATH_H
 
+#include <trax/names.h>
+
 #define HUGE_VALF __builtin_huge_valf()
 #define HUGE_VAL __builtin_huge_val()
 #define HUGE_VALL __builtin_huge_vall()
 #define INFINITY __builtin_inff()
 #define NAN __builtin_nanf("")
 
+#ifdef __TRAX_ALL_NAMES
 #define M_E 2.7182818284590452354
 #define M_LOG2E 1.4426950408889634074
 #define M_LOG10E 0.43429448190325182765
@@ -22,6 +25,7 @@
 #define M_2_SQRTPI 1.12837916709551257390
 #define M_SQRT2 1.41421356237309504880
 #define M_SQRT1_2 0.70710678118654752440
+#endif
 
 #define FP_NAN 0
 #define FP_INFINITE 1
@@ -146,6 +150,7 @@ __TRAX_MATH_1(lgamma)
 __TRAX_MATH_2(atan2)
 __TRAX_MATH_2(pow)
 __TRAX_MATH_2(hypot)
+#ifdef __TRAX_ALL_NAMES
 void sincos(double x, double *sine, double *cosine);
 void sincosf(float x, float *sine, float *cosine);
 double lgamma_r(double x, int *sign);
@@ -153,6 +158,7 @@ float lgammaf_r(float x, int *sign);
 
 /* The sign of the gamma function after lgamma; each thread has its own. */
 extern __thread int signgam;
+#endif
 
 #undef __TRAX_MATH_1
 #undef __TRAX_MATH_2

@@ -7,7 +7,10 @@
 #define __need_size_t
 #define __need_NULL
 #include <stddef.h>
+#include <trax/names.h>
+#ifdef __TRAX_ALL_NAMES
 #include <sys/types.h>
+#endif
 
 #define EOF (-1)
 #define BUFSIZ 4096
@@ -51,10 +54,12 @@ int snprintf(char *__restrict to, size_t size, const char *__restrict format, ..
 int vsnprintf(char *__restrict to, size_t size, const char *__restrict format, __builtin_va_list arguments)
     __TRAX_PRINTF(3, 0);
 
+#ifdef __TRAX_ALL_NAMES
 int iprintf(const char *__restrict format, ...) __TRAX_PRINTF(1, 2);
 int fiprintf(FILE *__restrict stream, const char *__restrict format, ...) __TRAX_PRINTF(2, 3);
 int siprintf(char *__restrict to, const char *__restrict format, ...) __TRAX_PRINTF(2, 3);
 int sniprintf(char *__restrict to, size_t size, const char *__restrict format, ...) __TRAX_PRINTF(3, 4);
+#endif
 
 int putchar(int c);
 int putc(int c, FILE *stream);
@@ -67,27 +72,35 @@ void perror(const char *text);
 /* Mode "r", "w" or "a", with "+", "b" and "x". setvbuf sets when text is written; the buffer is the library's. */
 FILE *fopen(const char *__restrict path, const char *__restrict mode);
 FILE *freopen(const char *__restrict path, const char *__restrict mode, FILE *__restrict stream);
+#ifdef __TRAX_ALL_NAMES
 FILE *fdopen(int descriptor, const char *mode);
 int fileno(FILE *stream);
+#endif
 int fclose(FILE *stream);
 int fflush(FILE *stream);
 int setvbuf(FILE *__restrict stream, char *__restrict buffer, int mode, size_t size);
 void setbuf(FILE *__restrict stream, char *__restrict buffer);
+#ifdef __TRAX_ALL_NAMES
 void setbuffer(FILE *stream, char *buffer, size_t size);
 void setlinebuf(FILE *stream);
+#endif
 
 int fgetc(FILE *stream);
 int getc(FILE *stream);
 int getchar(void);
+#ifdef __TRAX_ALL_NAMES
 int getc_unlocked(FILE *stream);
 int getchar_unlocked(void);
+#endif
 int ungetc(int c, FILE *stream);
 char *fgets(char *__restrict to, int size, FILE *__restrict stream);
 size_t fread(void *__restrict memory, size_t size, size_t count, FILE *__restrict stream);
+#ifdef __TRAX_ALL_NAMES
 ssize_t getline(char **__restrict line, size_t *__restrict capacity, FILE *__restrict stream);
 ssize_t getdelim(char **__restrict line, size_t *__restrict capacity, int last, FILE *__restrict stream);
 #define putc_unlocked putc
 #define putchar_unlocked putchar
+#endif
 
 int scanf(const char *__restrict format, ...) __TRAX_SCANF(1, 2);
 int vscanf(const char *__restrict format, __builtin_va_list arguments) __TRAX_SCANF(1, 0);
@@ -97,15 +110,19 @@ int sscanf(const char *__restrict text, const char *__restrict format, ...) __TR
 int vsscanf(const char *__restrict text, const char *__restrict format, __builtin_va_list arguments)
     __TRAX_SCANF(2, 0);
 
+#ifdef __TRAX_ALL_NAMES
 int asprintf(char **__restrict to, const char *__restrict format, ...) __TRAX_PRINTF(2, 3);
 int vasprintf(char **__restrict to, const char *__restrict format, __builtin_va_list arguments) __TRAX_PRINTF(2, 0);
 int dprintf(int descriptor, const char *__restrict format, ...) __TRAX_PRINTF(2, 3);
 int vdprintf(int descriptor, const char *__restrict format, __builtin_va_list arguments) __TRAX_PRINTF(2, 0);
+#endif
 
 int fseek(FILE *stream, long offset, int origin);
 long ftell(FILE *stream);
+#ifdef __TRAX_ALL_NAMES
 int fseeko(FILE *stream, off_t offset, int origin);
 off_t ftello(FILE *stream);
+#endif
 void rewind(FILE *stream);
 int fgetpos(FILE *__restrict stream, fpos_t *__restrict position);
 int fsetpos(FILE *stream, const fpos_t *position);
@@ -115,19 +132,18 @@ void clearerr(FILE *stream);
 
 int remove(const char *path);
 int rename(const char *from, const char *to);
+FILE *tmpfile(void);      /* fails: there is no folder for temporary files */
+char *tmpnam(char *name); /* fails */
+#ifdef __TRAX_ALL_NAMES
 int renameat(int folder, const char *from, int to_folder, const char *to);
-#ifndef TRAX_POSIX
-/* Not here: their use is an error. */
-FILE *popen(const char *command, const char *mode) __attribute__((unavailable("there are no processes")));
-int pclose(FILE *stream) __attribute__((unavailable("there are no processes")));
+/* Not here: the use of the last two is an error. */
+__TRAX_REFUSES(FILE *, popen, (const char *command, const char *mode), 0, "there are no processes")
+__TRAX_FAILS(int, pclose, (FILE * stream), -1)
 FILE *fmemopen(void *memory, size_t size, const char *mode)
     __attribute__((unavailable("a stream is a file; use sscanf and snprintf")));
 FILE *open_memstream(char **to, size_t *size)
     __attribute__((unavailable("a stream is a file; use asprintf, or snprintf and realloc")));
 #endif
-
-FILE *tmpfile(void);       /* fails: there is no folder for temporary files */
-char *tmpnam(char *name); /* fails */
 
 #ifdef __cplusplus
 }

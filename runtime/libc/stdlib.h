@@ -7,7 +7,10 @@
 #define __need_wchar_t
 #include <stddef.h>
 
+#include <trax/names.h>
+#ifdef __TRAX_ALL_NAMES
 #include <alloca.h>
+#endif
 
 #define EXIT_SUCCESS 0
 #define EXIT_FAILURE 1
@@ -73,7 +76,9 @@ void free(void *memory);
 /* Each thread has a sequence of its own. */
 int rand(void);
 void srand(unsigned seed);
+#ifdef __TRAX_ALL_NAMES
 int rand_r(unsigned *seed);
+#endif
 
 /* Multibyte characters are those of UTF-8. */
 #define MB_CUR_MAX ((size_t)4)
@@ -84,6 +89,11 @@ int wctomb(char *bytes, wchar_t c);
 size_t mbstowcs(wchar_t *__restrict to, const char *__restrict from, size_t count);
 size_t wcstombs(char *__restrict to, const wchar_t *__restrict from, size_t count);
 
+/* The environment is empty at the start. */
+char *getenv(const char *name);
+int system(const char *command); /* 0 for NULL: there is no command processor */
+
+#ifdef __TRAX_ALL_NAMES
 /* glibc's numbers; one sequence for all threads. */
 long random(void);
 void srandom(unsigned seed);
@@ -99,24 +109,25 @@ unsigned short *seed48(unsigned short state[3]);
 
 void qsort_r(void *base, size_t count, size_t size, int (*compare)(const void *, const void *, void *), void *context);
 int posix_memalign(void **memory, size_t alignment, size_t size);
-void *memalign(size_t alignment, size_t size);
 void *reallocarray(void *memory, size_t count, size_t size);
 
 const char *getprogname(void); /* "program" in those whose main has no parameters */
 
-/* The environment is empty at the start. */
-char *getenv(const char *name);
 int setenv(const char *name, const char *value, int overwrite);
 int unsetenv(const char *name);
 int putenv(char *text);
 int clearenv(void);
-int system(const char *command); /* 0 for NULL: there is no command processor */
 char *realpath(const char *__restrict path, char *__restrict resolved); /* the path as it is, if there is such a file */
 int mkstemp(char *pattern);
 char *mkdtemp(char *pattern);
+#endif
 
 #ifdef __cplusplus
 }
+#endif
+
+#ifdef __TRAX_ALL_NAMES
+#include <malloc.h> /* as on Android: QuickJS takes malloc_usable_size from here */
 #endif
 
 #endif

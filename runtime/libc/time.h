@@ -7,6 +7,7 @@
 #define __need_size_t
 #define __need_NULL
 #include <stddef.h>
+#include <trax/names.h>
 
 #ifndef TRAX_TIME_T
 #define TRAX_TIME_T
@@ -23,37 +24,48 @@ struct timespec {
 
 struct tm {
   int tm_sec, tm_min, tm_hour, tm_mday, tm_mon, tm_year, tm_wday, tm_yday, tm_isdst;
+#ifdef __TRAX_ALL_NAMES
   long tm_gmtoff;      /* 0 */
   const char *tm_zone; /* "UTC" */
+#else
+  long __tm_gmtoff;
+  const char *__tm_zone;
+#endif
 };
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
+#define TIME_UTC 1
+#ifdef __TRAX_ALL_NAMES
 #define CLOCK_REALTIME 0
 #define CLOCK_MONOTONIC 1
 #define CLOCK_PROCESS_CPUTIME_ID 2
-#define TIME_UTC 1
 typedef int clockid_t;
+#endif
 
 clock_t clock(void);
 time_t time(time_t *seconds);
-int clock_gettime(clockid_t clock, struct timespec *now);
-int clock_getres(clockid_t clock, struct timespec *step);
 int timespec_get(struct timespec *now, int base);
-int nanosleep(const struct timespec *duration, struct timespec *left); /* waits for so much simulated time */
 struct tm *gmtime(const time_t *seconds); /* each thread has a struct tm and a text of its own */
 struct tm *localtime(const time_t *seconds);
-struct tm *gmtime_r(const time_t *__restrict seconds, struct tm *__restrict parts);
-struct tm *localtime_r(const time_t *__restrict seconds, struct tm *__restrict parts);
 time_t mktime(struct tm *parts);
-time_t timegm(struct tm *parts);
 char *asctime(const struct tm *parts);
 char *ctime(const time_t *seconds);
 size_t strftime(char *__restrict to, size_t size, const char *__restrict format, const struct tm *__restrict parts);
 double difftime(time_t end, time_t start);
+#if defined __TRAX_ALL_NAMES || __STDC_VERSION__ > 201710L
+struct tm *gmtime_r(const time_t *__restrict seconds, struct tm *__restrict parts);
+struct tm *localtime_r(const time_t *__restrict seconds, struct tm *__restrict parts);
+time_t timegm(struct tm *parts);
+#endif
+#ifdef __TRAX_ALL_NAMES
+int clock_gettime(clockid_t clock, struct timespec *now);
+int clock_getres(clockid_t clock, struct timespec *step);
+int nanosleep(const struct timespec *duration, struct timespec *left); /* waits for so much simulated time */
 char *strptime(const char *__restrict text, const char *__restrict format, struct tm *__restrict parts);
+#endif
 
 #ifdef __cplusplus
 }

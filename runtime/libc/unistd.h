@@ -7,6 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <sys/types.h>
+#include <trax/names.h>
 
 #include <getopt.h>
 
@@ -73,28 +74,25 @@ extern char **environ;
 unsigned sleep(unsigned seconds);
 int usleep(useconds_t microseconds);
 
-#ifndef TRAX_POSIX
-/* Not here: their use is an error, or fails when they are called (<trax/posix.h>). */
-#define __TRAX_NO_PROCESSES __attribute__((unavailable("there are no processes")))
-pid_t fork(void) __TRAX_NO_PROCESSES;
-pid_t vfork(void) __TRAX_NO_PROCESSES;
-int execv(const char *path, char *const arguments[]) __TRAX_NO_PROCESSES;
-int execve(const char *path, char *const arguments[], char *const environment[]) __TRAX_NO_PROCESSES;
-int execvp(const char *name, char *const arguments[]) __TRAX_NO_PROCESSES;
-int execl(const char *path, const char *argument, ...) __TRAX_NO_PROCESSES;
-int execlp(const char *name, const char *argument, ...) __TRAX_NO_PROCESSES;
+/* Not here. */
+#define __TRAX_NO_PROCESSES "there are no processes"
+__TRAX_REFUSES(pid_t, fork, (void), -1, __TRAX_NO_PROCESSES)
+__TRAX_REFUSES(pid_t, vfork, (void), -1, __TRAX_NO_PROCESSES)
+__TRAX_REFUSES(int, execv, (const char *path, char *const arguments[]), -1, __TRAX_NO_PROCESSES)
+__TRAX_REFUSES(int, execve, (const char *path, char *const arguments[], char *const environment[]), -1,
+               __TRAX_NO_PROCESSES)
+__TRAX_REFUSES(int, execvp, (const char *name, char *const arguments[]), -1, __TRAX_NO_PROCESSES)
+__TRAX_REFUSES(int, execl, (const char *path, const char *argument, ...), -1, __TRAX_NO_PROCESSES)
+__TRAX_REFUSES(int, execlp, (const char *name, const char *argument, ...), -1, __TRAX_NO_PROCESSES)
 #undef __TRAX_NO_PROCESSES
-unsigned alarm(unsigned seconds) __attribute__((unavailable("nothing interrupts a thread; compare time()")));
-int link(const char *from, const char *to) __attribute__((unavailable("copy the file")));
-int symlink(const char *from, const char *to) __attribute__((unavailable("copy the file")));
-#endif
+__TRAX_FAILS(int, setuid, (uid_t user), -1)
+__TRAX_FAILS(int, setgid, (gid_t group), -1)
+__TRAX_REFUSES(unsigned, alarm, (unsigned seconds), 0, "nothing interrupts a thread; compare time()")
+__TRAX_REFUSES(int, link, (const char *from, const char *to), -1, "copy the file")
+__TRAX_REFUSES(int, symlink, (const char *from, const char *to), -1, "copy the file")
 
 #ifdef __cplusplus
 }
-#endif
-
-#ifdef TRAX_POSIX
-#include <trax/posix.h>
 #endif
 
 #endif

@@ -7,6 +7,7 @@
 #define __need_NULL
 #define __need_wchar_t
 #include <stddef.h>
+#include <trax/names.h>
 
 typedef __WINT_TYPE__ wint_t;
 #ifndef TRAX_MBSTATE_T
@@ -59,7 +60,9 @@ unsigned long long wcstoull(const wchar_t *__restrict text, wchar_t **__restrict
 struct tm;
 size_t wcsftime(wchar_t *__restrict to, size_t size, const wchar_t *__restrict format,
                 const struct tm *__restrict time);
+#ifdef __TRAX_ALL_NAMES
 int wcwidth(wchar_t c); /* 1, 0 for the null character, -1 for control characters */
+#endif
 
 struct trax_stream;
 int fwide(struct trax_stream *stream, int mode); /* the mode */

@@ -19,6 +19,10 @@ int system(const char *command) {
   return -1;
 }
 
+void __trax_not_here(void) {
+  errno = ENOSYS;
+}
+
 void _exit(int status) {
   _Exit(status);
 }

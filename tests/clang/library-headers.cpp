@@ -3,9 +3,9 @@
 // RUN: %clangxx -std=gnu++98 -fsyntax-only -Wall -Wextra -Werror %s
 // RUN: %clangxx -std=c++11 -fsyntax-only -Wall -Wextra -Werror %s
 // RUN: %clangxx -std=c++20 -fsyntax-only -Wall -Wextra -Werror %s
-// RUN: %clang -x c -std=c99 -fsyntax-only -Wall -Wextra -Werror %s
-// RUN: %clang -x c -std=c11 -pedantic -fsyntax-only -Wall -Wextra -Werror %s
-// RUN: %clang -x c -std=c23 -fsyntax-only -Wall -Wextra -Werror %s
+// RUN: %clang -x c -std=c99 -D_DEFAULT_SOURCE -fsyntax-only -Wall -Wextra -Werror %s
+// RUN: %clang -x c -std=c11 -pedantic -D_XOPEN_SOURCE=700 -fsyntax-only -Wall -Wextra -Werror %s
+// RUN: %clang -x c -std=c23 -D_GNU_SOURCE -fsyntax-only -Wall -Wextra -Werror %s
 // The address of a thread's errno is a constant in C++ too: no wrapper is called.
 // RUN: %clangxx -O1 -S %s -o - | FileCheck %s --implicit-check-not=_ZTW
 // RUN: %clangxx -O1 %s -o %t && %trax_sim %t | FileCheck %s --check-prefix=OUTPUT

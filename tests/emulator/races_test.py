@@ -138,6 +138,13 @@ def locks(scratch):
     check(neighbours.returncode == 0 and not neighbours.stderr, "neighbours", neighbours.stderr)
 
 
+def counted(scratch):
+    """The compiler keeps loops of loads past the cache (llvm-target/TraxNontemporal.cpp)."""
+    right = run(build(scratch, OWN / "counted.c"), 4, 1)
+    check(right.returncode == 0 and not right.stderr, "counted", right.stderr)
+    check("(parts" in run(build(scratch, OWN / "counted.c", "-DPLAIN"), 4, 1).stderr, "counted, through the cache")
+
+
 def mixed(scratch):
     """Words that atomic and plain accesses share: only a plain load after a store is a race."""
     cases = {"increment_load": ("trax_atomic_inc(&X);", "sink = *(volatile unsigned *)&X;"),
@@ -205,7 +212,7 @@ def refused(scratch):
 
 
 def main():
-    for test in (pairs, message, locks, mixed, programs, releases, picture, refused):
+    for test in (pairs, message, locks, counted, mixed, programs, releases, picture, refused):
         with tempfile.TemporaryDirectory() as scratch:
             test(pathlib.Path(scratch))
     return checking.failures != 0

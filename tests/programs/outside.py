@@ -251,11 +251,11 @@ PROGRAMS = [
         Case(["-json", "test.db", "select a, b from t limit 3"]), Case(["test.db", "select none"])], [
             ["./configure", "--host=riscv32-unknown-elf", "--build=x86_64-linux-gnu", "--disable-tcl",
              "--disable-threadsafe", "--disable-load-extension", "--disable-readline", "--disable-shared", CC,
-             "CFLAGS=-O1"], ["make", "sqlite3"]], options=("--dir", ".::/"), flags=" -DTRAX_POSIX"),
+             "CFLAGS=-O1"], ["make", "sqlite3"]], options=("--dir", ".::/")),
     Program("quickjs", "quickjs/trixie", "qjs", [
         Case(["--std", "script.js", "one"]), Case(["-e", "print([1,2,3].map(x => x ** 2), typeof std)"]),
         Case(["missing.js"])], [["make", CC, "qjs", "CROSS_PREFIX={prefix}"]], files={"script.js": SCRIPT},
-            flags=" -DTRAX_POSIX -include malloc.h -mstack-size=1024k"),
+            flags=" -mstack-size=1024k"),
     # --- renderers ---
     Program("tachyon", "tachyon", "compile/linux/tachyon", [
         Case(["scene.dat", "-format", "PPM", "-o", "out.ppm"]),
