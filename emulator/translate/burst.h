@@ -29,8 +29,6 @@ struct trax_burst {
   uint8_t distance[TRAX_BURST + TRAX_CHUNK]; /* [step]: from the first step of its segment */
   uint32_t index[TRAX_BURST + TRAX_CHUNK];   /* [first step of a segment]: the index of its instruction */
   uint32_t loads[TRAX_BURST + 1];            /* the addresses of the loads of global memory, and stores to it */
-  uint64_t stored;                           /* bits trax_fast_word_bit of stores that take effect at their issue */
-  uint64_t stores[2];                        /* bits of `loads`: these stores; not valid if `stored` is 0 */
   uint32_t load_count;
   uint32_t jumps; /* taken jumps, that of the last step included */
   uint64_t lines; /* bit line % 64: a superset of the lines of the steps */
@@ -42,10 +40,6 @@ struct trax_burst {
    towards its entries, and both together are no more than the burst's instructions. */
 static inline uint32_t *trax_burst_value(struct trax_burst *burst, unsigned load) {
   return (uint32_t *)(burst->undo + TRAX_BURST) - 1 - load;
-}
-
-static inline bool trax_burst_stores(const struct trax_burst *burst, unsigned load) {
-  return burst->stored && burst->stores[load / 64] >> load % 64 & 1;
 }
 
 /* The facts that translated bursts depend on. */

@@ -159,14 +159,14 @@ static uint32_t any_racing_operation(unsigned left) {
   }
 }
 
-/* Hardly anything but loads, stores and arithmetic: on the thread's own 16 words, on those of the next thread, on eight
-   words of all threads in each of two pages, and on local memory. */
+/* Hardly anything but loads, stores and arithmetic: on the thread's own 16 words, on those of the next thread, on words
+   of all threads in two pages, and on local memory. */
 static uint32_t any_writing_operation(unsigned left) {
   static const trax_op loads[] = {TRAX_OP_LB, TRAX_OP_LHU, TRAX_OP_LW, TRAX_OP_LW, TRAX_OP_LW};
   static const trax_op stores[] = {TRAX_OP_SB, TRAX_OP_SH, TRAX_OP_SW, TRAX_OP_SW, TRAX_OP_SW};
   const uint8_t rd = (uint8_t)any(0, 15), ra = (uint8_t)any(0, 15);
-  const uint8_t base = any(0, 3) ? BASE : (uint8_t)any(16, 17);
-  const int32_t offset = 4 * (int32_t)any(0, base == BASE ? 15 : 7);
+  const uint8_t base = any(0, 2) ? BASE : (uint8_t)any(16, 17);
+  const int32_t offset = 4 * (int32_t)any(0, base == BASE ? 15 : any(0, 1) ? 7 : 63);
   switch (any(0, 11)) {
   case 0:
   case 1:
@@ -179,7 +179,9 @@ static uint32_t any_writing_operation(unsigned left) {
   case 6:
     return any(0, 1) ? I(LW, rd, BASE, 256 + offset) : I(LW, rd, SHARED, 0x6000 + offset);
   case 7:
-    return any(0, 1) ? S(SW, ra, 0, -4 - offset) : I(LW, rd, 0, -4 - offset);
+    return any(0, 3) == 0 ? S(SWNT, ra, base, offset)
+           : any(0, 1)    ? S(SW, ra, 0, -4 - offset)
+                          : I(LW, rd, 0, -4 - offset);
   case 8:
     return any(0, 7) ? R(FDIV, rd, ra, any(0, 15)) : any_racing_operation(left);
   case 9:

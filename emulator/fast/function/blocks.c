@@ -79,11 +79,11 @@ void trax_fast_roll_back(void *context) {
 }
 
 /* Whether the TP's burst has loaded from a range of words, as far as the loads may not have been issued: heads.load is
-   behind a quick head that is being issued. */
+   behind a quick head that is being issued in the cycle of a store past the cache. */
 static bool reads(const struct trax_tm *tm, unsigned number, uint32_t begin, uint32_t bytes) {
-  const struct trax_burst *burst = &tm->tp[number].burst;
-  for (uint32_t i = tm->heads.load[number] - (tm->heads.load[number] > 0); i < burst->load_count; i++)
-    if ((burst->loads[i] & ~3u) - begin < bytes && !trax_burst_stores(burst, i))
+  const struct trax_tp *tp = &tm->tp[number];
+  for (uint32_t i = tm->heads.load[number] - (tm->heads.load[number] > 0); i < tp->burst.load_count; i++)
+    if ((tp->burst.loads[i] & ~3u) - begin < bytes && !trax_tp_stores(tp, i))
       return true;
   return false;
 }
@@ -114,7 +114,7 @@ void trax_fast_record_readers(struct trax_tm *tm) {
     for (uint32_t i = tm->heads.load[number]; tm->watched[number] && i < tm->tp[number].burst.load_count; i++)
       if (__atomic_load_n(&state[tm->tp[number].burst.loads[i] >> TRAX_BLOCK_SHIFT], __ATOMIC_RELAXED) >=
               TRAX_BLOCK_WRITTEN &&
-          !trax_burst_stores(&tm->tp[number].burst, i))
+          !trax_tp_stores(&tm->tp[number], i))
         trax_store_buffer_read(tm->buffer, tm->tp[number].burst.loads[i]);
 }
 

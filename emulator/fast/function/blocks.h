@@ -30,7 +30,7 @@ static inline void trax_fast_set_written(struct trax_fast_blocks *blocks, uint32
     blocks->input_bytes = 0;
 }
 
-/* Returns the bit of a word in trax_burst.stored. */
+/* Returns the bit of a word in trax_tp.stored. */
 static inline uint64_t trax_fast_word_bit(uint32_t address) {
   return (uint64_t)1 << ((address >> 2) * 0x9E3779B1u >> 26);
 }

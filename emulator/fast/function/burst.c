@@ -29,10 +29,10 @@ static inline void record_segment(struct trax_burst *burst, unsigned at, const u
 }
 
 /* Whether the burst has a store to the word among its first `loads` accesses. */
-static bool has_stored(const struct trax_burst *burst, uint32_t address, unsigned loads) {
-  if (burst->stored & trax_fast_word_bit(address))
+static bool has_stored(const struct trax_tp *tp, uint32_t address, unsigned loads) {
+  if (tp->stored & trax_fast_word_bit(address))
     for (unsigned i = 0; i < loads; i++)
-      if (trax_burst_stores(burst, i) && !((burst->loads[i] ^ address) & ~3u))
+      if (trax_tp_stores(tp, i) && !((tp->burst.loads[i] ^ address) & ~3u))
         return true;
   return false;
 }
@@ -45,7 +45,7 @@ static __attribute__((noinline)) uint64_t load_written(struct trax_tm *tm, unsig
   struct trax_tp *const tp = &tm->tp[number];
   uint32_t *const value = trax_burst_value(&tp->burst, load);
   if (!tp->again) {
-    if (has_stored(&tp->burst, address, load))
+    if (has_stored(tp, address, load))
       return NOWHERE;
     tm->watched[number] |= (uint64_t)1 << trax_fast_line_hash(address) % 64;
     tm->readers[trax_fast_line_hash(address)] |= (uint64_t)1 << number;
@@ -61,8 +61,8 @@ static __attribute__((noinline)) bool store_later(const struct trax_tm *tm, stru
   if (!tp->again && (chip->burst == 1 || trax_space_check(&chip->machine->space, address, bytes, true) ||
                      trax_fast_is_loaded(&chip->blocks, address)))
     return false;
-  tp->burst.stores[load / 64] |= (uint64_t)1 << load % 64;
-  tp->burst.stored |= trax_fast_word_bit(address);
+  tp->stores[load / 64] |= (uint64_t)1 << load % 64;
+  tp->stored |= trax_fast_word_bit(address);
   *trax_burst_value(&tp->burst, load) = value;
   return true;
 }
@@ -107,7 +107,7 @@ static unsigned run_translated(struct trax_chip *chip, struct trax_tm *tm, unsig
   const unsigned count = trax_translation_burst(chip->translation, begin, &run);
   if (!count)
     return 0;
-  tm->watched[number] = tp->burst.stored = 0; /* so nobody asks for `stores` */
+  tm->watched[number] = tp->stored = 0; /* so nobody asks for `stores` */
   tm->count_deltas[begin]++;
   if (run.index == TRAX_NO_INDEX) {
     const uint32_t end = trax_fast_index(tp, count - 1) + 1;

@@ -34,7 +34,7 @@ static unsigned BURST(struct trax_chip *chip, struct trax_tm *tm, unsigned numbe
   const bool alone = tp->alone;
   const uint8_t last_loadable = limit < TRAX_BURST || alone ? TRAX_BLOCK_SHARED : TRAX_BLOCK_WRITTEN;
   burst->undo_count = 0;
-  tm->watched[number] = burst->stores[0] = burst->stores[1] = burst->stored = 0;
+  tm->watched[number] = tp->stores[0] = tp->stores[1] = tp->stored = 0;
   /* The number of inst's step is its distance from `begin`, which changes with each jump. */
   uintptr_t begin = (uintptr_t)inst;
   unsigned at;

@@ -46,7 +46,7 @@ static bool store(struct trax_tm *tm, unsigned number, unsigned at, unsigned loa
   struct trax_tp *tp = &tm->tp[number];
   const struct trax_fast_timing *timing = &tm->chip->program.timing[trax_fast_index(tp, at)];
   if (!timing->decoded->is_store || !trax_queue_has_place(&tm->queue) ||
-      (trax_burst_stores(&tp->burst, load) && !trax_fast_store(tm, number, load, timing->decoded->bytes, t)))
+      (trax_tp_stores(tp, load) && !trax_fast_store(tm, number, load, timing->decoded->bytes, t)))
     return false;
   tp->inst = timing->decoded;
   tp->pc = timing->pc;

@@ -58,7 +58,7 @@ void trax_fast_refill(struct trax_tm *tm, unsigned number) {
   const unsigned count = tp->alone && tp->atomics ? 0 : trax_fast_burst(tm->chip, tm, number, tm->chip->burst);
   if (count) {
     tm->executes_at_issue &= ~bit;
-    tm->storing = (tm->storing & ~bit) | (tp->alone || tp->burst.stored ? bit : 0);
+    tm->storing = (tm->storing & ~bit) | (tp->alone || tp->stored ? bit : 0);
     tm->uncertain = (tm->uncertain & ~bit) | (all_resident(tm, number, count) ? 0 : bit);
     tp->ends_slowly = tp->burst.step[count - 1] & TRAX_STEP_SLOW;
     tp->burst.step[count - 1] |= TRAX_STEP_SLOW;

@@ -60,7 +60,7 @@ static void set_result_usable(struct trax_tm *tm, unsigned number, uint64_t t) {
 /* Performs a store of a burst if the head is one, or rolls the TP back so that its head executes at issue. */
 static void store_now(struct trax_tm *tm, unsigned number, uint64_t t) {
   const unsigned load = tm->heads.load[number];
-  if ((tm->heads.low[number] & TRAX_STEP_KIND) != TRAX_STEP_BANK || !trax_burst_stores(&tm->tp[number].burst, load))
+  if ((tm->heads.low[number] & TRAX_STEP_KIND) != TRAX_STEP_BANK || !trax_tp_stores(&tm->tp[number], load))
     return;
   if (!trax_fast_store(tm, number, load, trax_fast_head_timing(tm, number)->decoded->bytes, t))
     trax_fast_roll_back_tp(tm, number);
@@ -137,10 +137,11 @@ static void issue_all_quickly(struct trax_tm *tm, uint64_t quick) {
 
 /* Issues the TPs with quick heads and those with slow heads (TRAX_STEP_SLOW). */
 static void issue_in_order(struct trax_tm *tm, uint64_t quick, uint64_t slow, uint64_t t) {
-  /* Stores, and heads that execute at issue, may affect other TPs, so the order of TPs matters: TPs before such a head
-     issue first. TPs after it may roll back, and their heads then execute at issue (blocks.c). */
+  /* Heads that execute at issue may affect other TPs, so the order of TPs matters: TPs before such a head issue first.
+     TPs after it may roll back, and their heads then execute at issue (blocks.c). A store of a burst has its word's
+     bank, so that no other TP accesses the word in this cycle. */
   uint64_t effects;
-  while (__builtin_expect((effects = slow & (tm->executes_at_issue | tm->storing)) != 0, false)) {
+  while (__builtin_expect((effects = slow & tm->executes_at_issue) != 0, false)) {
     const uint64_t up_to = effects ^ (effects - 1);
     issue_all_quickly(tm, quick & up_to);
     quick &= ~up_to;

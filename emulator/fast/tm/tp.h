@@ -40,6 +40,8 @@ struct trax_tp {
   bool ends_slowly;       /* the last step of the current burst is slow even if another one followed */
   bool alone;             /* the current burst has stored to global memory (trax_chip.alone) */
   bool again;             /* the issued part of the burst is executed again, after a roll back */
+  uint64_t stored;        /* words of stores that take effect at their issue, as bits of trax_fast_word_bit */
+  uint64_t stores[2];     /* bits of burst.loads: these stores; not valid if `stored` is 0 */
 
   /* The state at the beginning of the burst, for a roll back (blocks.c). */
   const struct trax_fast_inst *begin;
@@ -61,6 +63,11 @@ static inline void trax_tp_set_usable(struct trax_tp *tp, unsigned rd, uint64_t 
 
 /* Whether a store of `bytes` bytes combines with the run in the buffer. */
 bool trax_tp_combines(const struct trax_tp *tp, uint32_t address, uint32_t bytes);
+
+/* Whether access `load` of the TP's burst is a store that takes effect at its issue. */
+static inline bool trax_tp_stores(const struct trax_tp *tp, unsigned load) {
+  return tp->stored && tp->stores[load / 64] >> load % 64 & 1;
+}
 
 /* Returns special register `number` of TP `tp` in cycle t. */
 uint32_t trax_tp_special_register(const struct trax_tm *tm, unsigned tp, uint32_t number, uint64_t t);
