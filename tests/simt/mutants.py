@@ -15,7 +15,7 @@ from mutation import ROOT, Mutant, failure, main, relinked  # noqa: E402
 SOURCE = ROOT / "emulator/simt"
 SECONDS = 15
 TESTS = {"simt-rules-test": [],
-         "timing-engines-test": ["--engine", "simt", "--seed", "7001", "--count", "12", "--stop"]}
+         "timing-engines-test": ["--engine", "simt", "--seed", "7001", "--count", "24", "--stop"]}
 
 # File below emulator/simt/, what stands there once, what the mutant has instead.
 MUTANTS = [

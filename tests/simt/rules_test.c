@@ -230,6 +230,19 @@ static void the_group_waits_for_the_register_of_a_lane(void **state) {
   bench_end(&bench);
 }
 
+/* The sum of lane 1 is there in 8, the quotient of lane 0 in 11. */
+static void the_group_waits_for_its_first_lane_when_others_are_ready(void **state) {
+  (void)state;
+  struct trax_config config = near_warps(2, 2);
+  config.fpu.add_latency_cycles = 3;
+  struct bench bench = BENCH(config, U(RDSR, 1, TRAX_SR_TP), B(BNE, 1, 0, 12), R(FDIV, 3, 0, 0), J(0, 8),
+                             R(FADD, 3, 0, 0), R(ADD, 4, 3, 3), HALT);
+  ISSUES(&bench, 0, 1, 2, 3, 4, 11, 12);
+  ISSUES(&bench, 1, 1, 2, 5, 11, 12);
+  CHARGES(&bench, 0, TRAX_CAUSE_ICACHE_MISS, 1, TRAX_CAUSE_DIVERGENCE, 1, TRAX_CAUSE_DATA_SPECIAL, 5);
+  bench_end(&bench);
+}
+
 static void increments_are_of_lanes(void **state) {
   (void)state;
   const struct trax_config config = near_warps(4, 4);
@@ -457,6 +470,7 @@ int main(void) {
       cmocka_unit_test(stores_are_no_broadcast),
       cmocka_unit_test(the_group_waits_for_the_miss_of_a_lane),
       cmocka_unit_test(the_group_waits_for_the_register_of_a_lane),
+      cmocka_unit_test(the_group_waits_for_its_first_lane_when_others_are_ready),
       cmocka_unit_test(increments_are_of_lanes),
       cmocka_unit_test(a_lane_that_spins_for_another),
       cmocka_unit_test(a_group_fetches_from_the_cache_of_its_first_lane),
