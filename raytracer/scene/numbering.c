@@ -1,4 +1,4 @@
-/* Numbers the nodes of a built tree depth first, so that nothing depends on where or when Embree's callbacks ran, and
+/* Numbers the nodes of a built tree depth first, so that nothing depends on which thread built them, and
    rebuilds subtrees that are too deep. */
 #include "built_tree.h"
 
