@@ -25,6 +25,8 @@ static void print_file(const char *name) {
   char line[64];
   while (file && fgets(line, sizeof line, file))
     printf("  %s", line);
+  if (file && ferror(file))
+    report("read from", name, 0);
   if (file)
     fclose(file);
 }
