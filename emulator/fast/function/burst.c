@@ -58,8 +58,9 @@ static __attribute__((noinline)) uint64_t load_written(struct trax_tm *tm, unsig
 static __attribute__((noinline)) bool store_later(const struct trax_tm *tm, struct trax_tp *tp, unsigned load,
                                                   uint32_t address, uint32_t value, unsigned bytes) {
   const struct trax_chip *const chip = tm->chip;
+  /* In an epoch other TMs may set LOADED at any time; its end finds out (merge.c). */
   if (!tp->again && (chip->burst == 1 || trax_space_check(&chip->machine->space, address, bytes, true) ||
-                     trax_fast_is_loaded(&chip->blocks, address)))
+                     (!tm->buffer && trax_fast_is_loaded(&chip->blocks, address))))
     return false;
   tp->stores[load / 64] |= (uint64_t)1 << load % 64;
   tp->stored |= trax_fast_word_bit(address);
