@@ -88,6 +88,60 @@ static void effects_of_one_cycle(void **state) {
     }
 }
 
+/* The same for a word of a block that has been written, and whose line is in the cache, so that the load is ahead in a
+   burst. Of seven distances of the two, one has both in one cycle. */
+static void a_store_past_the_cache_of_a_load_ahead(void **state) {
+  (void)state;
+  struct trax_config config = bench_near(1, 2);
+  config.icache.ports_per_bank = 64;
+  unsigned in_one_cycle = 0;
+  for (int distance = 0; distance < 14; distance++) {
+    const int writer = distance / 7;
+    const uint32_t program[] = {U(LUI, 1, 1),
+                                U(RDSR, 2, TRAX_SR_THREAD),
+                                I(ADDI, 3, 0, 7),
+                                I(ADDI, 4, 0, writer),
+                                I(LW, 5, 1, 0),
+                                R(ADD, 6, 5, 5),
+                                S(SW, 0, 1, 8),
+                                NOP,
+                                NOP,
+                                B(BEQ, 2, 4, (7 + distance % 7) * 4),
+                                NOP, /* the reader */
+                                NOP,
+                                NOP,
+                                I(LW, 5, 1, 0),
+                                S(SW, 5, 1, 64),
+                                HALT,
+                                NOP, /* the writer */
+                                NOP,
+                                NOP,
+                                NOP,
+                                NOP,
+                                NOP,
+                                S(SWNT, 3, 1, 0),
+                                HALT};
+    struct bench bench = bench_begin(&config, program, sizeof program / 4);
+    bench_run(&bench, 0);
+    uint64_t read = 0, written = 0;
+    for (size_t i = 0; i < bench.issues.count; i++) {
+      const struct trax_issue *issue = &bench.issues.issue[i];
+      read = issue->pc == TEXT + 13 * 4 ? issue->cycle : read;
+      written = issue->pc == TEXT + 22 * 4 ? issue->cycle : written;
+    }
+    in_one_cycle += read == written;
+    const bool sees_it = written < read || (written == read && writer == 0);
+    assert_int_equal(bench_word(&bench, DATA + 64), sees_it ? 7 : 0);
+    bench_end(&bench);
+    bench = bench_begin(&config, program, sizeof program / 4);
+    bench.status = trax_machine_run(bench.machine, NULL, &bench.error); /* nobody looks */
+    assert_int_equal(bench.status, TRAX_OK);
+    assert_int_equal(bench_word(&bench, DATA + 64), sees_it ? 7 : 0);
+    bench_end(&bench);
+  }
+  assert_int_equal(in_one_cycle, 2);
+}
+
 /* A thread that is alone runs ahead when nobody looks, but not of its own increment: the load of 106 gets 1. */
 static void own_increment_before_load(void **state) {
   (void)state;
@@ -185,6 +239,7 @@ int main(void) {
       cmocka_unit_test(comparisons_use_the_adder),
       cmocka_unit_test(special_unit_serves_64_in_turn),
       cmocka_unit_test(effects_of_one_cycle),
+      cmocka_unit_test(a_store_past_the_cache_of_a_load_ahead),
       cmocka_unit_test(own_increment_before_load),
       cmocka_unit_test(every_value_once),
       cmocka_unit_test(exit_statuses),
