@@ -17,6 +17,14 @@ static struct trax_config near_the_defaults(uint32_t tms, uint32_t tps) {
   return config;
 }
 
+/* The number of the cycle is not the same without time. */
+static void leave_out_cycles(uint32_t *words, size_t count) {
+  for (size_t i = 0; i < count; i++) {
+    const trax_inst inst = trax_decode(words[i]);
+    words[i] = inst.op == TRAX_OP_RDSR && inst.imm == TRAX_SR_CYCLE ? NOP : words[i];
+  }
+}
+
 struct random_case case_of_seed(unsigned seed) {
   struct random_case c = {0};
   random_state = 0x9E3779B97F4A7C15u * (seed + 1);
@@ -57,6 +65,7 @@ struct random_case case_of_seed(unsigned seed) {
       c.one_thread = true;
       c.config = any_machine(1, 1);
       any_words(c.words, c.count = 32);
+      leave_out_cycles(c.words, c.count);
       c.max_cycles = 5000;
     } else { /* many that do not meet */
       c.config = any_machine(tms, tps);
