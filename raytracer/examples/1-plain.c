@@ -2,45 +2,11 @@
    our program's. It is as near to the paper's as its text allows; docs/evaluation.md says what the text leaves open and
    what was chosen. Plain C: a binary BVH of boxes, 32-bit floats compared as floats, Moeller and Trumbore's triangle
    test, an epsilon, pixels row by row from the atomic counter. Nothing here knows what the machine shares. */
+#include "picture.h"
 #include "trax/plain_scene.h"
-#include "trax/render_params.h"
-
-#include <math.h>
-#include <stdbool.h>
-#include <trax.h>
 
 struct trax_buffer plain_nodes, plain_triangles, params, image;
-unsigned next_pixel;                                    /* shared by all threads */
-__asm__(".globl workload_rays\n.set workload_rays, 1"); /* as many rays as the device program: sampled runs need not
-                                                           guess */
-
-#define EPSILON 1e-4f /* of the distance: how far a shadow ray's origin is off the surface */
-
-struct vector {
-  float x, y, z;
-};
-
-static inline struct vector load(const float *v) {
-  return (struct vector){v[0], v[1], v[2]};
-}
-static inline struct vector add(struct vector a, struct vector b) {
-  return (struct vector){a.x + b.x, a.y + b.y, a.z + b.z};
-}
-static inline struct vector subtract(struct vector a, struct vector b) {
-  return (struct vector){a.x - b.x, a.y - b.y, a.z - b.z};
-}
-static inline struct vector scale(struct vector v, float factor) {
-  return (struct vector){v.x * factor, v.y * factor, v.z * factor};
-}
-static inline float dot(struct vector a, struct vector b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-static inline struct vector cross(struct vector a, struct vector b) {
-  return (struct vector){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-static inline struct vector normalise(struct vector v) {
-  return scale(v, trax_rsqrt(dot(v, v)));
-}
+unsigned next_pixel; /* shared by all threads */
 
 struct ray {
   struct vector origin, direction, inverse; /* of unit length; 1 / direction */
@@ -126,10 +92,6 @@ static inline struct ray make_ray(struct vector origin, struct vector direction)
   return (struct ray){origin, direction, inverse};
 }
 
-static inline unsigned channel(float value) {
-  return value < 255 ? (unsigned)(int)(value + 0.5f) : 255;
-}
-
 static inline unsigned render(const struct trax_render_params *frame, unsigned x, unsigned y) {
   float column = (float)(int)x + 0.5f, row = (float)(int)y + 0.5f;
   struct vector eye = load(frame->eye);
@@ -168,12 +130,9 @@ static inline unsigned render(const struct trax_render_params *frame, unsigned x
   return channel(colour[0] * root) | channel(colour[1] * root) << 8 | channel(colour[2] * root) << 16 | 0xFF000000u;
 }
 
-#define WORKLOAD (TRAX_FEATURE_BIT(SHADOWS) | TRAX_FEATURE_BIT(MATERIALS))
-
 int main(void) {
   const struct trax_render_params *frame = params.data;
-  if ((frame->features & ~WORKLOAD) || !(frame->features & TRAX_FEATURE_BIT(SHADOWS)))
-    trax_abort("this program renders the paper's workload only: one point light, its shadows, Lambert's law");
+  check_workload(frame);
   unsigned pixels = frame->width * frame->height;
   for (unsigned pixel = trax_atomic_inc(&next_pixel); pixel < pixels; pixel = trax_atomic_inc(&next_pixel)) {
     trax_store_nt((unsigned *)image.data + pixel, render(frame, pixel % frame->width, pixel / frame->width));

@@ -246,7 +246,7 @@ static __attribute__((noinline)) void advance_rays(struct state *state, unsigned
 int main(void) {
   struct state state = {.frame = params.data};
   unsigned visits = 0;
-  check_input(state.frame);
+  check_scene(state.frame);
   check_threads();
   make_treelets(&state);
   for (unsigned first = 0; first < state.frame->slot_count; first += WAVE) {

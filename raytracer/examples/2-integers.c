@@ -1,60 +1,11 @@
 /* Step 2: floats are compared as integers. Comparisons, minima and maxima of floats are the adder's work, and eight TPs
    share an adder; every TP has an integer unit of its own, and one register file holds both kinds of numbers. So the
    comparisons of 1-plain.c become integer ones. Their results are the same. */
+#include "picture.h"
 #include "trax/plain_scene.h"
-#include "trax/render_params.h"
-
-#include <math.h>
-#include <stdbool.h>
-#include <trax.h>
 
 struct trax_buffer plain_nodes, plain_triangles, params, image;
-unsigned next_pixel;                                    /* shared by all threads */
-__asm__(".globl workload_rays\n.set workload_rays, 1"); /* as many rays as the device program: sampled runs need not
-                                                           guess */
-
-#define SIGN_BIT (-0x7FFFFFFF - 1)
-#define EPSILON 1e-4f /* of the distance: how far a shadow ray's origin is off the surface */
-
-/* The bits of a float. Floats that are not negative are ordered as their bits are; a negative one is less than each of
-   them, and only two negative ones stand in the wrong order. */
-static inline int bits(float value) {
-  int result;
-  __builtin_memcpy(&result, &value, sizeof result);
-  return result;
-}
-static inline int smaller(int a, int b) {
-  return a < b ? a : b;
-}
-static inline int larger(int a, int b) {
-  return a > b ? a : b;
-}
-
-struct vector {
-  float x, y, z;
-};
-
-static inline struct vector load(const float *v) {
-  return (struct vector){v[0], v[1], v[2]};
-}
-static inline struct vector add(struct vector a, struct vector b) {
-  return (struct vector){a.x + b.x, a.y + b.y, a.z + b.z};
-}
-static inline struct vector subtract(struct vector a, struct vector b) {
-  return (struct vector){a.x - b.x, a.y - b.y, a.z - b.z};
-}
-static inline struct vector scale(struct vector v, float factor) {
-  return (struct vector){v.x * factor, v.y * factor, v.z * factor};
-}
-static inline float dot(struct vector a, struct vector b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-static inline struct vector cross(struct vector a, struct vector b) {
-  return (struct vector){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-static inline struct vector normalise(struct vector v) {
-  return scale(v, trax_rsqrt(dot(v, v)));
-}
+unsigned next_pixel; /* shared by all threads */
 
 struct ray {
   struct vector origin, direction, inverse; /* of unit length; 1 / direction */
@@ -141,10 +92,6 @@ static inline struct ray make_ray(struct vector origin, struct vector direction)
   return (struct ray){origin, direction, inverse};
 }
 
-static inline unsigned channel(float value) {
-  return value < 255 ? (unsigned)(int)(value + 0.5f) : 255;
-}
-
 static inline unsigned render(const struct trax_render_params *frame, unsigned x, unsigned y) {
   float column = (float)(int)x + 0.5f, row = (float)(int)y + 0.5f;
   struct vector eye = load(frame->eye);
@@ -183,12 +130,9 @@ static inline unsigned render(const struct trax_render_params *frame, unsigned x
   return channel(colour[0] * root) | channel(colour[1] * root) << 8 | channel(colour[2] * root) << 16 | 0xFF000000u;
 }
 
-#define WORKLOAD (TRAX_FEATURE_BIT(SHADOWS) | TRAX_FEATURE_BIT(MATERIALS))
-
 int main(void) {
   const struct trax_render_params *frame = params.data;
-  if ((frame->features & ~WORKLOAD) || !(frame->features & TRAX_FEATURE_BIT(SHADOWS)))
-    trax_abort("this program renders the paper's workload only: one point light, its shadows, Lambert's law");
+  check_workload(frame);
   unsigned pixels = frame->width * frame->height;
   for (unsigned pixel = trax_atomic_inc(&next_pixel); pixel < pixels; pixel = trax_atomic_inc(&next_pixel)) {
     trax_store_nt((unsigned *)image.data + pixel, render(frame, pixel % frame->width, pixel / frame->width));

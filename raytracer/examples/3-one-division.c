@@ -2,73 +2,15 @@
    multiplications. Triangles are compared by products, so that only a nearer hit takes a division. A ray to the light
    asks only whether anything is in its way: it takes no other division, and ends at the first hit. */
 #include "trax/plain_scene.h"
-#include "trax/render_params.h"
 
-#include <math.h>
-#include <stdbool.h>
-#include <trax.h>
+typedef struct trax_plain_triangle triangle_record;
+#include "one-division.h"
 
 struct trax_buffer plain_nodes, plain_triangles, params, image;
-unsigned next_pixel;                                    /* shared by all threads */
-__asm__(".globl workload_rays\n.set workload_rays, 1"); /* as many rays as the device program: sampled runs need not
-                                                           guess */
-
-#define SIGN_BIT (-0x7FFFFFFF - 1)
-#define UNITS_OF_DOUBT 2 /* by which the product may be rounded otherwise than the quotient, in its last place */
-#define EPSILON 1e-4f    /* of the distance: how far a shadow ray's origin is off the surface */
-
-/* The bits of a float. Floats that are not negative are ordered as their bits are; a negative one is less than each of
-   them, and only two negative ones stand in the wrong order. */
-static inline int bits(float number) {
-  int result;
-  __builtin_memcpy(&result, &number, sizeof result);
-  return result;
-}
-static inline float value(int bits) {
-  float result;
-  __builtin_memcpy(&result, &bits, sizeof result);
-  return result;
-}
-static inline int smaller(int a, int b) {
-  return a < b ? a : b;
-}
-static inline int larger(int a, int b) {
-  return a > b ? a : b;
-}
-
-struct vector {
-  float x, y, z;
-};
-
-static inline struct vector load(const float *v) {
-  return (struct vector){v[0], v[1], v[2]};
-}
-static inline struct vector add(struct vector a, struct vector b) {
-  return (struct vector){a.x + b.x, a.y + b.y, a.z + b.z};
-}
-static inline struct vector subtract(struct vector a, struct vector b) {
-  return (struct vector){a.x - b.x, a.y - b.y, a.z - b.z};
-}
-static inline struct vector scale(struct vector v, float factor) {
-  return (struct vector){v.x * factor, v.y * factor, v.z * factor};
-}
-static inline float dot(struct vector a, struct vector b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-static inline struct vector cross(struct vector a, struct vector b) {
-  return (struct vector){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-static inline struct vector normalise(struct vector v) {
-  return scale(v, trax_rsqrt(dot(v, v)));
-}
+unsigned next_pixel; /* shared by all threads */
 
 struct ray {
   struct vector origin, direction, inverse; /* of unit length; 1 / direction */
-};
-
-struct hit {
-  float distance;
-  const struct trax_plain_triangle *triangle; /* NULL: nothing was hit */
 };
 
 /* Whether the ray hits the box before `nearest`, and where it enters it: the slabs of Kay and Kajiya (SIGGRAPH 1986).
@@ -84,38 +26,6 @@ static inline bool hit_box(const struct ray *ray, const struct trax_plain_node *
   *enter = larger(larger(smaller(x0, x1), smaller(y0, y1)), smaller(z0, z1));
   int leave = smaller(smaller(larger(x0, x1), larger(y0, y1)), larger(z0, z1));
   return *enter <= leave && leave >= 0 && *enter < nearest;
-}
-
-/* "Fast, Minimum Storage Ray/Triangle Intersection" (Journal of Graphics Tools 2(1), 1997), for both sides. What
-   is compared is the distance times the determinant; only a nearer hit is divided, and none if any hit will do. */
-static inline bool hit_triangle(const struct ray *ray, const struct trax_plain_triangle *triangle, bool any,
-                                struct hit *hit) {
-  struct vector corner = load(triangle->v0);
-  struct vector edge1 = subtract(load(triangle->v1), corner), edge2 = subtract(load(triangle->v2), corner);
-  struct vector p = cross(ray->direction, edge2);
-  float determinant = dot(edge1, p);
-  int sign = bits(determinant) & SIGN_BIT, size = bits(determinant) ^ sign; /* what is below is times the sign */
-  struct vector t = subtract(ray->origin, corner);
-  float u = dot(t, p);
-  int u_bits = bits(u) ^ sign;
-  struct vector q = cross(t, edge1);
-  float v = dot(ray->direction, q);
-  int v_bits = bits(v) ^ sign, sum_bits = bits(u + v) ^ sign;
-  if (size == 0 || (unsigned)u_bits > (unsigned)SIGN_BIT || u_bits > size || (unsigned)v_bits > (unsigned)SIGN_BIT ||
-      sum_bits > size) /* a zero of either sign is inside */
-    return false;
-  float scaled = dot(edge2, q);
-  int scaled_bits = bits(scaled) ^ sign;
-  if (scaled_bits <= 0 || scaled_bits > bits(hit->distance * value(size)) + UNITS_OF_DOUBT)
-    return false;
-  if (!any) {
-    float distance = scaled / determinant;
-    if (bits(distance) >= bits(hit->distance))
-      return false;
-    hit->distance = distance;
-    hit->triangle = triangle;
-  }
-  return true;
 }
 
 /* The nearest hit before hit->distance; or, if any hit will do, whether there is one. */
@@ -142,19 +52,13 @@ static __attribute__((noinline)) bool trace(const struct ray *ray, bool any, str
       }
     } else {
       for (int i = 0; i < node->count; i++)
-        if (hit_triangle(ray, &triangles[node->first + i], any, hit) && any)
+        if (hit_triangle(&ray->origin, &ray->direction, &triangles[node->first + i], any, hit) && any)
           return true;
     }
     if (top == 0)
       return hit->triangle != NULL;
     number = stack[--top];
   }
-}
-
-/* A direction that is turned by 2^-30 enters the same boxes. */
-static inline float away_from_zero(float component) {
-  int sign = bits(component) & SIGN_BIT;
-  return value(larger(bits(component) ^ sign, bits(0x1p-30f)) | sign);
 }
 
 static inline struct ray make_ray(struct vector origin, struct vector direction) {
@@ -166,10 +70,6 @@ static inline struct ray make_ray(struct vector origin, struct vector direction)
   float reciprocal = 1 / product;
   struct vector inverse = {y * z * reciprocal, x * z * reciprocal, x * y * reciprocal};
   return (struct ray){origin, direction, inverse};
-}
-
-static inline unsigned channel(float value) {
-  return value < 255 ? (unsigned)(int)(value + 0.5f) : 255;
 }
 
 static inline unsigned render(const struct trax_render_params *frame, unsigned x, unsigned y) {
@@ -208,12 +108,9 @@ static inline unsigned render(const struct trax_render_params *frame, unsigned x
   return channel(colour[0] * root) | channel(colour[1] * root) << 8 | channel(colour[2] * root) << 16 | 0xFF000000u;
 }
 
-#define WORKLOAD (TRAX_FEATURE_BIT(SHADOWS) | TRAX_FEATURE_BIT(MATERIALS))
-
 int main(void) {
   const struct trax_render_params *frame = params.data;
-  if ((frame->features & ~WORKLOAD) || !(frame->features & TRAX_FEATURE_BIT(SHADOWS)))
-    trax_abort("this program renders the paper's workload only: one point light, its shadows, Lambert's law");
+  check_workload(frame);
   unsigned pixels = frame->width * frame->height;
   for (unsigned pixel = trax_atomic_inc(&next_pixel); pixel < pixels; pixel = trax_atomic_inc(&next_pixel)) {
     trax_store_nt((unsigned *)image.data + pixel, render(frame, pixel % frame->width, pixel / frame->width));

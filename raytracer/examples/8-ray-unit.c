@@ -1,78 +1,10 @@
 /* Step 8: the ray unit. Boxes and triangles are tested by a unit that TPs share: two instructions, which read a ray and
    a box or a triangle from registers. The data cache holds the threads up then, so two planes of a box are one load.
    The paper's machine has no such unit (docs/results/ray-unit.md). The program needs ray.units_per_group=1. */
-#include "trax/render_params.h"
-#include "trax/scene_format.h"
-
-#include <math.h>
-#include <stdbool.h>
-#include <trax.h>
+#include "quantised.h"
+#include "queues.h"
 
 struct trax_buffer scene, params, image;
-#ifndef QUEUES
-#define QUEUES 4 /* as many as the chip has TMs */
-#endif
-unsigned taken[QUEUES];                                 /* slots of each queue; shared by all threads */
-__asm__(".globl workload_rays\n.set workload_rays, 1"); /* as many rays as the device program: sampled runs need not
-                                                           guess */
-
-#define SIGN_BIT (-0x7FFFFFFF - 1)
-#define EPSILON 1e-4f /* of the distance: how far a shadow ray's origin is off the surface */
-
-/* The bits of a float. Floats that are not negative are ordered as their bits are; a negative one is less than each of
-   them, and only two negative ones stand in the wrong order. */
-static inline int bits(float number) {
-  int result;
-  __builtin_memcpy(&result, &number, sizeof result);
-  return result;
-}
-static inline float value(int bits) {
-  float result;
-  __builtin_memcpy(&result, &bits, sizeof result);
-  return result;
-}
-static inline int larger(int a, int b) {
-  return a > b ? a : b;
-}
-
-struct vector {
-  float x, y, z;
-};
-
-static inline struct vector load(const float *v) {
-  return (struct vector){v[0], v[1], v[2]};
-}
-static inline struct vector add(struct vector a, struct vector b) {
-  return (struct vector){a.x + b.x, a.y + b.y, a.z + b.z};
-}
-static inline struct vector subtract(struct vector a, struct vector b) {
-  return (struct vector){a.x - b.x, a.y - b.y, a.z - b.z};
-}
-static inline struct vector scale(struct vector v, float factor) {
-  return (struct vector){v.x * factor, v.y * factor, v.z * factor};
-}
-static inline struct vector multiply(struct vector a, struct vector b) {
-  return (struct vector){a.x * b.x, a.y * b.y, a.z * b.z};
-}
-static inline float dot(struct vector a, struct vector b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-static inline struct vector cross(struct vector a, struct vector b) {
-  return (struct vector){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-static inline struct vector normalise(struct vector v) {
-  return scale(v, trax_rsqrt(dot(v, v)));
-}
-
-struct ray {
-  struct vector origin, direction; /* of unit length */
-  struct vector factor, start;     /* a plane is at plane * factor - start along the ray, divided by 2^64 */
-};
-
-struct hit {
-  float distance;
-  const struct trax_triangle *triangle; /* NULL: nothing was hit */
-};
 
 /* Two planes of a word. The numbers of 16 bits are not converted: taken for floats they are subnormals, the numbers
    times 2^-149, which the unit multiplies as any other. */
@@ -93,16 +25,11 @@ static inline float enter_box(const struct ray *ray, const uint16_t *planes, flo
 }
 
 /* The distance at which the ray hits the triangle, if that is before `nearest`, else `nearest`. */
-static inline float hit_triangle(const struct ray *ray, const struct trax_triangle *triangle, float nearest) {
+static inline float reach_triangle(const struct ray *ray, const struct trax_triangle *triangle, float nearest) {
   const float *a = triangle->v0, *b = triangle->v1, *c = triangle->v2;
   return __builtin_trax_triangle(nearest, ray->origin.x, ray->origin.y, ray->origin.z, ray->direction.x,
                                  ray->direction.y, ray->direction.z, a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1],
                                  c[2]);
-}
-
-/* A distance in the units of boxes, as bits: what is divided by 2^64 has 64 less in its exponent. */
-static inline int in_units_of_boxes(float distance) {
-  return larger(bits(distance) - (64 << 23), bits(0x1p-126f));
 }
 
 /* The nearest hit before hit->distance; or, if any hit will do, whether there is one. */
@@ -127,7 +54,7 @@ static inline __attribute__((always_inline)) bool trace(const struct ray *ray, b
     } else {
       const struct trax_triangle *triangle = (const void *)(bytes + TRAX_SCENE_REF_OFFSET(reference));
       for (const struct trax_triangle *end = triangle + count; triangle != end; triangle++) {
-        float distance = hit_triangle(ray, triangle, hit->distance);
+        float distance = reach_triangle(ray, triangle, hit->distance);
         if (bits(distance) < bits(hit->distance)) {
           *hit = (struct hit){distance, triangle};
           if (any)
@@ -141,111 +68,11 @@ static inline __attribute__((always_inline)) bool trace(const struct ray *ray, b
   }
 }
 
-/* A direction that is turned by 2^-30 enters the same boxes. */
-static inline float away_from_zero(float component) {
-  int sign = bits(component) & SIGN_BIT;
-  return value(larger(bits(component) ^ sign, bits(0x1p-30f)) | sign);
-}
-
-/* 2^149 makes numbers of what was taken for subnormals, and distances are divided by 2^64, which keeps all of this
-   within the range of floats. */
-static inline struct ray make_ray(const struct trax_ray_grid *grid, struct vector origin, struct vector direction) {
-  float x = direction.x, y = direction.y, z = direction.z, product = x * y * z;
-  if ((bits(product) & ~SIGN_BIT) < bits(0x1p-30f)) { /* along an axis or a plane of two, or nearly so: rarely */
-    x = away_from_zero(x), y = away_from_zero(y), z = away_from_zero(z);
-    product = x * y * z;
-  }
-  float reciprocal = 1 / product * 0x1p-64f;
-  struct vector inverse = {y * z * reciprocal, x * z * reciprocal, x * y * reciprocal};
-  struct vector factor = scale(scale(multiply(inverse, load(grid->cell)), 0x1p75f), 0x1p74f);
-  struct vector start = multiply(subtract(origin, load(grid->origin)), inverse);
-  return (struct ray){origin, direction, factor, start};
-}
-
-static inline unsigned channel(float value) {
-  return value < 255 ? (unsigned)(int)(value + 0.5f) : 255;
-}
-
-/* The first ray comes from the eye, the second, where what is hit faces the light, goes to it. */
-static inline unsigned render(const struct trax_render_params *frame, unsigned x, unsigned y) {
-  float column = (float)(int)x + 0.5f, row = (float)(int)y + 0.5f;
-  struct vector origin = load(frame->eye);
-  struct vector direction =
-      normalise(add(add(load(frame->corner), scale(load(frame->step_x), column)), scale(load(frame->step_y), row)));
-  struct hit hit = {INFINITY, NULL};
-  const struct trax_triangle *seen = NULL;
-  float light = 0, from_light = 0;
-  for (;;) {
-    struct ray ray = make_ray(&frame->grid, origin, direction);
-    bool found = trace(&ray, seen != NULL, &hit);
-    trax_count_rays(1);
-    if (seen) {
-      if (!found)
-        light += from_light;
-      break;
-    }
-    if (!found)
-      return frame->background;
-    seen = hit.triangle;
-    struct vector corner = load(seen->v0);
-    struct vector normal = normalise(cross(subtract(load(seen->v1), corner), subtract(load(seen->v2), corner)));
-    if (dot(normal, direction) > 0)
-      normal = scale(normal, -1);
-    origin = add(origin, scale(direction, hit.distance));
-    origin = add(origin, scale(normal, EPSILON * hit.distance));
-    light = frame->ambient + dot(normal, load(frame->fill));
-    struct vector to_light = subtract(load(frame->light), origin);
-    float square = dot(to_light, to_light), inverse = trax_rsqrt(square);
-    direction = scale(to_light, inverse);
-    float cosine = dot(normal, direction);
-    if (cosine <= 0)
-      break;
-    from_light = frame->light_strength * cosine;
-    hit = (struct hit){square * inverse, NULL};
-  }
-  const struct trax_palette_entry *palette = (const struct trax_palette_entry *)(frame + 1);
-  const float *colour = palette[seen->material].colour; /* its square root, and the light's: gamma 2 */
-  float root = light > 0 ? light * trax_rsqrt(light) : 0;
-  return channel(colour[0] * root) | channel(colour[1] * root) << 8 | channel(colour[2] * root) << 16 | 0xFF000000u;
-}
-
-#define WORKLOAD (TRAX_FEATURE_BIT(SHADOWS) | TRAX_FEATURE_BIT(MATERIALS))
-
-/* A number's bits of even places, put together. */
-static inline unsigned even_bits(unsigned number) {
-  number &= 0x155;
-  number = (number | number >> 1) & 0x133;
-  number = (number | number >> 2) & 0x10F;
-  return (number | number >> 4) & 0x1F;
-}
-
-/* The pixels of a tile stand along a Z-order curve. Tiles stand row by row; a tile's row is its number divided by the
-   tiles of a row, which takes a multiplication (trax/render_params.h). False: the slot is beyond the picture's edge. */
-static inline bool slot_pixel(const struct trax_render_params *frame, unsigned slot, unsigned *x, unsigned *y) {
-  unsigned tile = slot >> 2 * frame->tile_log2_side;
-  unsigned row = (unsigned)((uint64_t)(2 * tile) * frame->row_multiplier >> 32) >> frame->row_shift;
-  unsigned column = tile - row * frame->tiles_across;
-  unsigned within = slot & ((1u << 2 * frame->tile_log2_side) - 1);
-  *x = column << frame->tile_log2_side | even_bits(within);
-  *y = row << frame->tile_log2_side | even_bits(within >> 1);
-  return *x < frame->width && *y < frame->height;
-}
-
-/* Of N queues, queue q has the tiles q, q + N, q + 2 N and so on. */
-static inline unsigned take_slot(const struct trax_render_params *frame, unsigned queue) {
-  unsigned tile_bits = 2 * frame->tile_log2_side, number = trax_atomic_inc(&taken[queue]);
-  return ((number >> tile_bits) * QUEUES + queue) << tile_bits | (number & ((1u << tile_bits) - 1));
-}
+#include "registers.h"
 
 int main(void) {
   const struct trax_render_params *frame = params.data;
-  if ((frame->features & ~WORKLOAD) || !(frame->features & TRAX_FEATURE_BIT(SHADOWS)))
-    trax_abort("this program renders the paper's workload only: one point light, its shadows, Lambert's law");
-  if (frame->node_layout != TRAX_NODES_QUANTISED)
-    trax_abort("this program needs a scene of quantised nodes (trax-scene --nodes quantised)");
-  const struct trax_scene_header *header = scene.data;
-  if (header->root == 0 || header->max_depth > TRAX_SCENE_DEFAULT_DEPTH)
-    trax_abort("this program needs a scene with triangles, no deeper than its stack (trax-scene --depth)");
+  check_input(frame, scene.data);
   for (unsigned turn = 0; turn < QUEUES; turn++) { /* a thread whose queue is empty goes on with the next */
     unsigned queue = (trax_tm() + turn) % QUEUES, slot, x, y;
     while ((slot = take_slot(frame, queue)) < frame->slot_count) {

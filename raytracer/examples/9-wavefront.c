@@ -129,7 +129,7 @@ static __attribute__((noinline)) void trace_light_rays(struct wave *wave) {
 int main(void) {
   struct wave wave = {.frame = params.data};
   const struct trax_scene_header *header = scene.data;
-  check_input(wave.frame);
+  check_scene(wave.frame);
   check_threads();
   struct vector size = subtract(load(header->bounds_max), load(header->bounds_min));
   wave.cells = (1 << CELL_BITS) / value(larger(bits(size.x), larger(bits(size.y), bits(size.z))));
