@@ -93,6 +93,21 @@ static void notify_passage(const struct trax_explain *explain, const struct trax
       explain->readers[i]->kind->passage(explain->readers[i], passage);
 }
 
+/* Adds the refusals of a passage to the thread's cycles. */
+static void add_refused(const struct trax_places *places, const struct trax_passage *passage, uint64_t *cycles) {
+  const uint8_t *const refusals = trax_places_refusals(places);
+  const uint16_t *refused = passage->refused;
+  uint32_t fetch = 0;
+  for (size_t i = 0; refused && i < passage->pieces; refused += passage->piece[i++].count) {
+    const uint8_t *const causes = refusals + passage->piece[i].index;
+    for (unsigned k = 0; k < passage->piece[i].count; k++) {
+      fetch += refused[k] & 0xFF;
+      cycles[causes[k]] += refused[k] >> 8;
+    }
+  }
+  cycles[TRAX_CAUSE_ICACHE_BANK] += fetch;
+}
+
 static void read_passage(struct trax_explain *explain, struct trax_passage *passage) {
   struct trax_open_span *open = &explain->open_spans[passage->thread];
   size_t charged = 0, accessed = 0;
@@ -105,6 +120,7 @@ static void read_passage(struct trax_explain *explain, struct trax_passage *pass
   passage->last = last->index + last->count - 1;
   passage->inst = *trax_places_inst(explain->places, passage->last);
   open->cycles[TRAX_CAUSE_ISSUED] += passage->count;
+  add_refused(explain->places, passage, open->cycles);
   passage->cycles = open->cycles;
   notify_passage(explain, passage);
   open->end_pc = passage->next_pc;
@@ -165,16 +181,16 @@ static void add_issue(void *context, const struct trax_issue *issue) {
     notify_span(explain, issue->tm, issue->tp, issue);
   if (!explain->has_passages)
     return;
-  struct trax_thread_log *log =
-      &explain->observer.logs[issue->tm * explain->machine->config.chip.tps_per_tm + issue->tp];
   const trax_inst *inst = trax_places_inst(explain->places, trax_places_index(explain->places, issue->pc));
-  if (trax_op_table[inst->op].access_bytes && issue->address < TRAX_LOCAL_BASE)
-    log->accessed[log->accessed_count++] = (struct trax_accessed){.address = issue->address, .outcome = issue->outcome};
+  struct trax_accessed accessed = {.address = issue->address, .outcome = issue->outcome};
   add_stretch(explain, &(struct trax_stretch){.tm = issue->tm,
                                               .tp = issue->tp,
                                               .count = 1,
                                               .piece = &(struct trax_piece){.pc = issue->pc, .count = 1},
                                               .pieces = 1,
+                                              .accessed = &accessed,
+                                              .accessed_count = trax_op_table[inst->op].access_bytes &&
+                                                                issue->address < TRAX_LOCAL_BASE,
                                               .next_pc = issue->next_pc,
                                               .result = issue->result});
 }
@@ -247,16 +263,13 @@ static trax_status create(struct trax_explain *explain, trax_error *error) {
   const size_t threads = explain->machine->stats.threads;
   explain->open_spans = trax_explain_array(threads, sizeof *explain->open_spans, error);
   explain->observer.logs = trax_explain_array(threads, sizeof *explain->observer.logs, error);
-  explain->accessed = trax_explain_array(threads, sizeof *explain->accessed, error);
   explain->places = trax_places_create(explain->machine);
   explain->passages = trax_passages_create(explain, read_passage);
-  if (!explain->open_spans || !explain->observer.logs || !explain->accessed || !explain->places || !explain->passages)
+  if (!explain->open_spans || !explain->observer.logs || !explain->places || !explain->passages)
     return trax_fail(error, "out of memory for the explanation of %zu threads", threads);
-  for (size_t i = 0; i < threads; i++) {
-    explain->observer.logs[i].accessed = explain->accessed[i];
+  for (size_t i = 0; i < threads; i++)
     explain->open_spans[i].pc = explain->open_spans[i].previous_pc = explain->open_spans[i].end_pc =
         trax_machine_entry_of(explain->machine, (uint32_t)i);
-  }
   for (unsigned i = 0; i < TRAX_READER_KINDS; i++)
     if (is_wanted(&explain->options, reader_kinds[i]) && open_reader(explain, reader_kinds[i], error) != TRAX_OK)
       return TRAX_ERROR;
@@ -398,7 +411,6 @@ void trax_explain_discard(struct trax_explain *explain) {
     free(explain->observer.logs[i].charged);
   free(explain->open_spans);
   free(explain->observer.logs);
-  free(explain->accessed);
   free(explain->arrivals);
   trax_places_destroy(explain->places);
   free(explain);

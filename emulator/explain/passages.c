@@ -4,11 +4,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A stretch in a chunk. Its pieces, charges and accesses follow. */
+/* A stretch in a chunk. Its pieces, charges, accesses and refusals follow. */
 struct stored {
-  uint32_t thread, count, next_pc, result;
-  uint32_t pieces, charged, accessed;
+  uint32_t thread, next_pc, result;
+  uint16_t count, pieces, accessed;
+  bool is_refused; /* it has refusals */
+  uint32_t charged;
 };
+
+enum { PADDING = 32 /* bytes behind the refusals, which readers load by vectors */ };
 
 struct chunk {
   uint8_t *bytes;
@@ -28,12 +32,17 @@ struct trax_passages {
   bool ended;                /* no more come */
 };
 
+static size_t refused_bytes(bool is_refused, uint32_t count) {
+  return is_refused ? (2 * (size_t)count + 3) / 4 * 4 : 0;
+}
+
 static void read_chunk(struct trax_passages *passages, struct chunk *chunk) {
   for (uint8_t *at = chunk->bytes, *const end = at + chunk->used; at < end;) {
     const struct stored *stored = (const void *)at;
     struct trax_piece *piece = (void *)(at + sizeof *stored);
     struct trax_charged *charged = (void *)(piece + stored->pieces);
     struct trax_accessed *accessed = (void *)(charged + stored->charged);
+    const uint16_t *refused = (void *)(accessed + stored->accessed);
     passages->read(passages->explain, &(struct trax_passage){.thread = stored->thread,
                                                              .count = stored->count,
                                                              .piece = piece,
@@ -42,9 +51,10 @@ static void read_chunk(struct trax_passages *passages, struct chunk *chunk) {
                                                              .charged_count = stored->charged,
                                                              .accessed = accessed,
                                                              .accessed_count = stored->accessed,
+                                                             .refused = stored->is_refused ? refused : NULL,
                                                              .next_pc = stored->next_pc,
                                                              .result = stored->result});
-    at = (void *)(accessed + stored->accessed);
+    at = (uint8_t *)refused + refused_bytes(stored->is_refused, stored->count);
   }
   chunk->used = chunk->instructions = chunk->calls = 0;
 }
@@ -90,9 +100,9 @@ static void end_chunk(struct trax_passages *passages) {
 }
 
 static bool reserve(struct chunk *chunk, size_t bytes) {
-  if (chunk->used + bytes <= chunk->capacity)
+  if (chunk->used + bytes + PADDING <= chunk->capacity)
     return true;
-  const size_t capacity = 2 * (chunk->used + bytes);
+  const size_t capacity = 2 * (chunk->used + bytes + PADDING);
   uint8_t *larger = realloc(chunk->bytes, capacity);
   if (!larger)
     return false;
@@ -108,46 +118,42 @@ static void append(struct chunk *chunk, const void *array, size_t bytes) {
 }
 
 /* Takes what belongs to a stretch out of the log. */
-static void shorten(struct trax_thread_log *log, size_t charged, size_t accessed, uint32_t count) {
+static void shorten(struct trax_thread_log *log, size_t charged, uint32_t count) {
   log->charged_count -= charged;
-  log->accessed_count -= (uint32_t)accessed;
   for (size_t i = 0; i < log->charged_count; i++) {
     log->charged[i] = log->charged[charged + i];
     log->charged[i].at -= count;
-  }
-  for (size_t i = 0; i < log->accessed_count; i++) {
-    log->accessed[i] = log->accessed[accessed + i];
-    log->accessed[i].at -= (uint8_t)count;
   }
 }
 
 void trax_passages_add(struct trax_passages *passages, const struct trax_stretch *stretch,
                        struct trax_thread_log *log) {
   struct chunk *chunk = current(passages);
-  size_t charged = log->charged_count, accessed = log->accessed_count;
+  size_t charged = log->charged_count;
   while (charged && log->charged[charged - 1].at >= stretch->count)
     charged--;
-  while (accessed && log->accessed[accessed - 1].at >= stretch->count)
-    accessed--;
   const struct stored stored = {.thread =
                                     stretch->tm * passages->explain->machine->config.chip.tps_per_tm + stretch->tp,
-                                .count = stretch->count,
+                                .count = (uint16_t)stretch->count,
                                 .next_pc = stretch->next_pc,
                                 .result = stretch->result,
-                                .pieces = (uint32_t)stretch->pieces,
+                                .pieces = (uint16_t)stretch->pieces,
                                 .charged = (uint32_t)charged,
-                                .accessed = (uint32_t)accessed};
+                                .accessed = (uint16_t)stretch->accessed_count,
+                                .is_refused = stretch->refused != NULL};
+  const size_t refused = refused_bytes(stored.is_refused, stretch->count);
   const size_t bytes = sizeof stored + stretch->pieces * sizeof *stretch->piece + charged * sizeof *log->charged +
-                       accessed * sizeof *log->accessed;
+                       stretch->accessed_count * sizeof *stretch->accessed + refused;
   if (reserve(chunk, bytes)) {
     append(chunk, &stored, sizeof stored);
     append(chunk, stretch->piece, stretch->pieces * sizeof *stretch->piece);
     append(chunk, log->charged, charged * sizeof *log->charged);
-    append(chunk, log->accessed, accessed * sizeof *log->accessed);
+    append(chunk, stretch->accessed, stretch->accessed_count * sizeof *stretch->accessed);
+    append(chunk, stretch->refused, refused);
   } else {
     passages->explain->observer.lost = true;
   }
-  shorten(log, charged, accessed, stretch->count);
+  shorten(log, charged, stretch->count);
   chunk->instructions += stretch->count;
   chunk->calls += stretch->count == 1;
   if (chunk->instructions >= TRAX_PASSAGES_INSTRUCTIONS || chunk->calls >= TRAX_PASSAGES_CALLS)

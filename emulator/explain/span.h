@@ -41,6 +41,7 @@ struct trax_passage {
   size_t charged_count;
   struct trax_accessed *accessed; /* [accessed_count] */
   size_t accessed_count;
+  const uint16_t *refused;  /* trax_stretch.refused, followed by 32 bytes that may be read */
   const uint64_t *cycles;   /* [TRAX_CAUSE_COUNT]: of the thread so far, with this passage */
   uint32_t next_pc, result; /* of the last instruction */
   uint32_t last;            /* its index */
@@ -130,7 +131,6 @@ struct trax_explain {
   struct trax_open_span *open_spans; /* [threads]: since the latest issue of each */
   bool has_spans, has_passages;      /* readers take them */
   struct trax_passages *passages;
-  struct trax_accessed (*accessed)[TRAX_MOST_STRETCH]; /* [threads]: of the observer's logs */
   struct trax_places *places;
   struct trax_reader *readers[TRAX_READER_KINDS];
   unsigned reader_count;

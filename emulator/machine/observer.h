@@ -76,20 +76,23 @@ struct trax_accessed {
   uint8_t at, outcome;
 };
 
-/* What a TP was charged and what it accessed since its latest stretch: the observer's memory, to which the engine adds.
-   The observer takes out what belongs to a stretch, and subtracts the stretch's instructions from the others' `at`.
-   The entries are elsewhere, since the engine uses the logs of all TPs in turn. */
+/* What a TP was charged since its latest stretch, except for what trax_stretch.refused has: the observer's memory, to
+   which the engine adds. The observer takes out what belongs to a stretch, and subtracts the stretch's instructions
+   from the others' `at`. */
 struct trax_thread_log {
   struct trax_charged *charged; /* [charged_count] */
   size_t charged_count, charged_capacity;
-  struct trax_accessed *accessed; /* [TRAX_MOST_STRETCH] */
-  uint32_t accessed_count;
 };
 
 struct trax_stretch {
   uint32_t tm, tp, count;   /* instructions */
   struct trax_piece *piece; /* [pieces] */
   size_t pieces;
+  struct trax_accessed *accessed; /* [accessed_count] */
+  size_t accessed_count;
+  /* [count], or NULL: cycles in which the instruction was refused the bank of the instruction cache, in the low byte,
+     and then its unit or its bank of the data cache. They follow the charges of the log. */
+  const uint16_t *refused;
   uint32_t next_pc; /* of the last instruction */
   /* A trap's operand, or the value that an instruction writes to r2, the stack pointer. Such an instruction, a jalr,
      and a jal that writes a register each are a stretch of their own. */
