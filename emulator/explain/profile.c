@@ -31,14 +31,9 @@ struct trax_profile_thread {
   size_t depth, capacity;
 };
 
-_Static_assert(MAX_RECORDS / 2 > (TRAX_PASSAGES_CHUNKS + 1) * (TRAX_PASSAGES_INSTRUCTIONS + TRAX_MOST_STRETCH) &&
-                   MAX_CALLS / 2 > (TRAX_PASSAGES_CHUNKS + 1) * TRAX_PASSAGES_CALLS * (MAX_DEPTH + 1),
-               "stretches become single before a limit is reached");
-
-/* What a limit leaves out must not depend on the engine's stretches, so they are single before. */
-static void take_single(struct trax_profile *profile) {
-  __atomic_store_n(&profile->reader.explain->observer.single, true, __ATOMIC_RELAXED);
-}
+/* What the limit of records leaves out must not depend on the engine's stretches, so they are single before. Calls come
+   in the order of the chip's issues in any case. */
+_Static_assert(MAX_RECORDS / 2 > TRAX_PASSAGES_FEW, "stretches become single before the limit is reached");
 
 /* Returns the record of an instruction in a context; UINT32_MAX: out of memory. */
 static __attribute__((noinline)) uint32_t find_record(struct trax_profile *profile, uint32_t context, uint32_t index) {
@@ -55,7 +50,8 @@ static __attribute__((noinline)) uint32_t find_record(struct trax_profile *profi
   const uint32_t record = entry->value;
   if (record == profile->record_count) {
     if (record == MAX_RECORDS / 2)
-      take_single(profile);
+      profile->reader.explain->observer.single = true;
+    profile->reader.explain->found++;
     profile->pieces[record] = (struct trax_profile_pieces){0};
     profile->records[profile->record_count++] = (struct trax_profile_record){.context = context, .index = index};
   }
@@ -96,8 +92,6 @@ static uint32_t context_of(struct trax_profile *profile, uint32_t parent, uint32
     return 0;
   profile->contexts[profile->context_count++] = (struct trax_profile_context){parent, index};
   profile->call_count += depth + 1;
-  if (profile->call_count > MAX_CALLS / 2)
-    take_single(profile);
   if (!profile->first_of[index])
     profile->first_of[index] = context;
   return context;

@@ -63,6 +63,8 @@ void trax_fast_settle_rays(struct trax_tm *tm);
 extern const trax_cause trax_fast_refusal_causes[TRAX_FAST_REFUSALS];
 /* Notifies an observer, which is none of stretches, of the refusals of the current cycle. */
 void trax_fast_notify_refusals(struct trax_tm *tm, const struct trax_fast_refused *refused);
+/* Calls the observer's `keep`, if it has one. */
+void trax_fast_keep(struct trax_chip *chip, bool holds);
 /* For an observer of stretches: logs the refusals of some TPs' heads; records the outcomes of accesses by TPs that
    issue in this cycle, `issued`; tells the observer of the instruction at pc, which was executed at issue; of the steps
    before `end` of the current burst, of which it does not know yet; of those that were issued; of these before the TP

@@ -86,10 +86,19 @@ void trax_tm_notify_issue(struct trax_tm *tm, unsigned number, uint32_t pc, cons
 
 /* --- stretches --- */
 
-static void tell(struct trax_tm *tm, const struct trax_stretch *stretch) {
+static void tell(const struct trax_tm *tm, const struct trax_stretch *stretch) {
   tm->observer->stretch(tm->observer->context, stretch);
-  if (__atomic_load_n(&tm->observer->single, __ATOMIC_RELAXED))
+  if (!tm->buffer && tm->observer->single) /* else by trax_fast_keep */
     tm->chip->burst = 1;
+}
+
+void trax_fast_keep(struct trax_chip *chip, bool holds) {
+  const struct trax_observer *observer = chip->machine->observer;
+  if (!observer || !observer->keep)
+    return;
+  observer->keep(observer->context, holds);
+  if (observer->single)
+    chip->burst = 1;
 }
 
 void trax_fast_record_outcomes(struct trax_tm *tm, uint64_t issued) {
@@ -107,7 +116,8 @@ void trax_fast_tell_single(struct trax_tm *tm, unsigned number, uint32_t pc, con
   struct trax_accessed accessed = {.address = tp->address};
   if (is_global)
     accessed.outcome = take_outcome(tp, inst, true);
-  tell(tm, &(struct trax_stretch){.tm = tm->number,
+  tell(tm, &(struct trax_stretch){.cycle = tm->now,
+                                  .tm = tm->number,
                                   .tp = number,
                                   .count = 1,
                                   .piece = &(struct trax_piece){pc, 1, 0},
@@ -171,7 +181,8 @@ void trax_fast_tell_steps(struct trax_tm *tm, unsigned number, unsigned end, uin
     at = next;
   }
   const size_t accessed_count = list_accesses(tm, number, begin, end, accessed);
-  tell(tm, &(struct trax_stretch){.tm = tm->number,
+  tell(tm, &(struct trax_stretch){.cycle = tm->now,
+                                  .tm = tm->number,
                                   .tp = number,
                                   .count = end - begin,
                                   .piece = pieces,
