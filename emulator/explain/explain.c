@@ -19,9 +19,6 @@ struct trax_open_span {
   size_t count, capacity;
   uint64_t begin;
   uint32_t pc, previous_pc;
-  /* Of the thread's passages: cycles by cause, and where it goes on. */
-  uint64_t cycles[TRAX_CAUSE_COUNT];
-  uint32_t end_pc;
 };
 
 static void add_charge(void *context, uint32_t tm, uint32_t tp, trax_cause cause, unsigned rd, uint64_t since,
@@ -71,43 +68,10 @@ static void notify_span(struct trax_explain *explain, uint32_t tm, uint32_t tp, 
   }
 }
 
-/* Sets the indices of what belongs to a piece whose first instruction has the number `at`, and adds the charges to
-   `cycles`. Returns the charges; *accessed becomes the accesses. */
-static size_t place_piece(const struct trax_piece *piece, unsigned at, struct trax_passage *passage, size_t charged,
-                          size_t *accessed, uint64_t *cycles) {
-  const unsigned end = at + piece->count;
-  size_t i = *accessed;
-  for (; i < passage->accessed_count && passage->accessed[i].at < end; i++)
-    passage->accessed[i].index = piece->index + (passage->accessed[i].at - at);
-  *accessed = i;
-  for (i = charged; i < passage->charged_count && passage->charged[i].at < end; i++) {
-    passage->charged[i].index = piece->index + (passage->charged[i].at - at);
-    cycles[passage->charged[i].cause] += passage->charged[i].cycles;
-  }
-  return i;
-}
-
 static void notify_passage(const struct trax_explain *explain, const struct trax_passage *passage) {
   for (unsigned i = 0; i < explain->reader_count; i++)
     if (explain->readers[i]->kind->passage)
       explain->readers[i]->kind->passage(explain->readers[i], passage);
-}
-
-static void read_passage(struct trax_explain *explain, struct trax_passage *passage) {
-  struct trax_open_span *open = &explain->open_spans[passage->thread];
-  size_t charged = 0, accessed = 0;
-  unsigned at = 0;
-  for (size_t i = 0; i < passage->pieces; at += passage->piece[i++].count) {
-    passage->piece[i].index = trax_places_index(explain->places, passage->piece[i].pc);
-    charged = place_piece(&passage->piece[i], at, passage, charged, &accessed, open->cycles);
-  }
-  const struct trax_piece *last = &passage->piece[passage->pieces - 1];
-  passage->last = last->index + last->count - 1;
-  passage->inst = *trax_places_inst(explain->places, passage->last);
-  open->cycles[TRAX_CAUSE_ISSUED] += passage->count;
-  passage->cycles = open->cycles;
-  notify_passage(explain, passage);
-  open->end_pc = passage->next_pc;
 }
 
 static void add_stretch(void *context, const struct trax_stretch *stretch) {
@@ -118,19 +82,29 @@ static void add_stretch(void *context, const struct trax_stretch *stretch) {
 
 static void begin_run(void *context, unsigned host_threads) {
   const struct trax_explain *explain = context;
-  if (!explain->has_spans && (host_threads ? host_threads : trax_host_processors()) > 1)
-    trax_passages_start(explain->passages);
+  if (!explain->has_spans)
+    trax_passages_start(explain->passages, host_threads ? host_threads : trax_host_processors());
 }
 
 static void end_run(void *context) {
   const struct trax_explain *explain = context;
-  trax_passages_finish(explain->passages);
+  trax_passages_keep(explain->passages, false);
+}
+
+static void keep(void *context, bool holds) {
+  const struct trax_explain *explain = context;
+  trax_passages_keep(explain->passages, holds);
+}
+
+static void go_back(void *context) {
+  const struct trax_explain *explain = context;
+  trax_passages_go_back(explain->passages);
 }
 
 /* What the thread was charged after its last instruction. */
 static void end_passages(struct trax_explain *explain, uint32_t thread) {
   struct trax_thread_log *log = &explain->observer.logs[thread];
-  struct trax_open_span *open = &explain->open_spans[thread];
+  struct trax_open_thread *open = &explain->open_threads[thread];
   const uint32_t index = trax_places_index(explain->places, open->end_pc);
   for (size_t i = 0; i < log->charged_count; i++) {
     log->charged[i].index = index;
@@ -165,16 +139,17 @@ static void add_issue(void *context, const struct trax_issue *issue) {
     notify_span(explain, issue->tm, issue->tp, issue);
   if (!explain->has_passages)
     return;
-  struct trax_thread_log *log =
-      &explain->observer.logs[issue->tm * explain->machine->config.chip.tps_per_tm + issue->tp];
   const trax_inst *inst = trax_places_inst(explain->places, trax_places_index(explain->places, issue->pc));
-  if (trax_op_table[inst->op].access_bytes && issue->address < TRAX_LOCAL_BASE)
-    log->accessed[log->accessed_count++] = (struct trax_accessed){.address = issue->address, .outcome = issue->outcome};
-  add_stretch(explain, &(struct trax_stretch){.tm = issue->tm,
+  struct trax_accessed accessed = {.address = issue->address, .outcome = issue->outcome};
+  add_stretch(explain, &(struct trax_stretch){.cycle = issue->cycle,
+                                              .tm = issue->tm,
                                               .tp = issue->tp,
                                               .count = 1,
                                               .piece = &(struct trax_piece){.pc = issue->pc, .count = 1},
                                               .pieces = 1,
+                                              .accessed = &accessed,
+                                              .accessed_count = trax_op_table[inst->op].access_bytes &&
+                                                                issue->address < TRAX_LOCAL_BASE,
                                               .next_pc = issue->next_pc,
                                               .result = issue->result});
 }
@@ -247,16 +222,15 @@ static trax_status create(struct trax_explain *explain, trax_error *error) {
   const size_t threads = explain->machine->stats.threads;
   explain->open_spans = trax_explain_array(threads, sizeof *explain->open_spans, error);
   explain->observer.logs = trax_explain_array(threads, sizeof *explain->observer.logs, error);
-  explain->accessed = trax_explain_array(threads, sizeof *explain->accessed, error);
   explain->places = trax_places_create(explain->machine);
-  explain->passages = trax_passages_create(explain, read_passage);
-  if (!explain->open_spans || !explain->observer.logs || !explain->accessed || !explain->places || !explain->passages)
+  explain->open_threads = trax_explain_array(threads, sizeof *explain->open_threads, error);
+  explain->passages = trax_passages_create(explain);
+  if (!explain->open_spans || !explain->open_threads || !explain->observer.logs || !explain->places ||
+      !explain->passages)
     return trax_fail(error, "out of memory for the explanation of %zu threads", threads);
-  for (size_t i = 0; i < threads; i++) {
-    explain->observer.logs[i].accessed = explain->accessed[i];
-    explain->open_spans[i].pc = explain->open_spans[i].previous_pc = explain->open_spans[i].end_pc =
+  for (size_t i = 0; i < threads; i++)
+    explain->open_spans[i].pc = explain->open_spans[i].previous_pc = explain->open_threads[i].end_pc =
         trax_machine_entry_of(explain->machine, (uint32_t)i);
-  }
   for (unsigned i = 0; i < TRAX_READER_KINDS; i++)
     if (is_wanted(&explain->options, reader_kinds[i]) && open_reader(explain, reader_kinds[i], error) != TRAX_OK)
       return TRAX_ERROR;
@@ -312,7 +286,11 @@ trax_status trax_explain_begin(struct trax_explain **result, trax_machine *machi
   explain->observer.issue = add_issue;
   explain->observer.charge = add_charge;
   explain->observer.arrival = add_arrival;
-  explain->observer.stretch = explain->has_spans ? NULL : add_stretch;
+  if (!explain->has_spans) {
+    explain->observer.stretch = add_stretch;
+    explain->observer.keep = keep;
+    explain->observer.go_back = go_back;
+  }
   if (explain->has_spans || explain->has_passages) /* other readers watch the machine or its transfers */
     machine->observer = &explain->observer;
   *result = explain;
@@ -345,7 +323,7 @@ trax_status trax_explain_end(struct trax_explain *explain, trax_error *error) {
   trax_status status = TRAX_OK;
   trax_error reason;
   notify_arrivals(explain, UINT64_MAX, 0);
-  trax_passages_finish(explain->passages);
+  trax_passages_keep(explain->passages, false);
   for (uint32_t thread = 0; thread < machine->stats.threads; thread++) {
     if (explain->has_spans)
       notify_span(explain, thread / tps, thread % tps, NULL);
@@ -397,8 +375,8 @@ void trax_explain_discard(struct trax_explain *explain) {
   for (uint64_t i = 0; explain->observer.logs && i < explain->machine->stats.threads; i++)
     free(explain->observer.logs[i].charged);
   free(explain->open_spans);
+  free(explain->open_threads);
   free(explain->observer.logs);
-  free(explain->accessed);
   free(explain->arrivals);
   trax_places_destroy(explain->places);
   free(explain);

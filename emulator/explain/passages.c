@@ -1,198 +1,365 @@
 #include "explain/passages.h"
+#include "explain/places.h"
+#include "trax/grow.h"
+#include "trax/pool.h"
 
-#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* A stretch in a chunk. Its pieces, charges and accesses follow. */
+/* A stretch in a log. Its pieces, charges, accesses and refusals follow. */
 struct stored {
-  uint32_t thread, count, next_pc, result;
-  uint32_t pieces, charged, accessed;
+  uint64_t cycle;
+  uint32_t thread, next_pc, result;
+  uint16_t count, pieces, accessed;
+  bool is_refused; /* it has refusals */
+  uint32_t charged;
 };
 
-struct chunk {
-  uint8_t *bytes;
+enum {
+  PADDING = 32, /* bytes behind the refusals, which readers load by vectors */
+  MUCH = 4096,  /* new in the logs, after which few are read at once */
+  BATCH = 64    /* passages that one reader reads after the other, if there is one thread: they stay in its caches */
+};
+
+/* What a TM has added. */
+struct log {
+  _Alignas(64) uint8_t *bytes;
   size_t used, capacity;
-  uint32_t instructions, calls;
+  uint32_t instructions, stretches, traps;
+  struct passage {
+    struct trax_passage passage;
+    uint64_t cycle;
+  } * passages; /* [stretches], when they are read */
+  size_t passages_capacity;
+  uint64_t (*cycles)[TRAX_CAUSE_COUNT]; /* of the passages that are a trap */
+  size_t cycles_capacity;
 };
 
 struct trax_passages {
   struct trax_explain *explain;
-  void (*read)(struct trax_explain *explain, struct trax_passage *passage);
-  struct chunk chunks[TRAX_PASSAGES_CHUNKS]; /* a ring */
-  bool threaded;
-  pthread_t thread;
-  pthread_mutex_t mutex;
-  pthread_cond_t filled, emptied;
-  uint64_t full, read_count; /* chunks so far that were filled, and those that were read */
-  bool ended;                /* no more come */
+  uint32_t tms;
+  struct log *logs;            /* [tms] */
+  struct trax_passage **order; /* of all logs */
+  size_t count, order_capacity;
+  uint32_t most; /* instructions in the logs */
+  bool holds;
+  struct trax_charged *charged;            /* of the observer's logs, when the passages were held, */
+  size_t charged_capacity, *charged_count; /* [threads] */
+  unsigned threads;
+  struct trax_pool *placers, *readers; /* items: TMs, readers; NULL: there is one thread */
 };
 
-static void read_chunk(struct trax_passages *passages, struct chunk *chunk) {
-  for (uint8_t *at = chunk->bytes, *const end = at + chunk->used; at < end;) {
-    const struct stored *stored = (const void *)at;
-    struct trax_piece *piece = (void *)(at + sizeof *stored);
-    struct trax_charged *charged = (void *)(piece + stored->pieces);
-    struct trax_accessed *accessed = (void *)(charged + stored->charged);
-    passages->read(passages->explain, &(struct trax_passage){.thread = stored->thread,
-                                                             .count = stored->count,
-                                                             .piece = piece,
-                                                             .pieces = stored->pieces,
-                                                             .charged = charged,
-                                                             .charged_count = stored->charged,
-                                                             .accessed = accessed,
-                                                             .accessed_count = stored->accessed,
-                                                             .next_pc = stored->next_pc,
-                                                             .result = stored->result});
-    at = (void *)(accessed + stored->accessed);
-  }
-  chunk->used = chunk->instructions = chunk->calls = 0;
+/* --- adding --- */
+
+static size_t refused_bytes(bool is_refused, uint32_t count) {
+  return is_refused ? (2 * (size_t)count + 7) / 8 * 8 : 0;
 }
 
-static void *read_chunks(void *context) {
-  struct trax_passages *passages = context;
-  pthread_mutex_lock(&passages->mutex);
-  for (;;) {
-    while (passages->read_count == passages->full && !passages->ended)
-      pthread_cond_wait(&passages->filled, &passages->mutex);
-    if (passages->read_count == passages->full)
-      break;
-    pthread_mutex_unlock(&passages->mutex);
-    read_chunk(passages, &passages->chunks[passages->read_count % TRAX_PASSAGES_CHUNKS]);
-    pthread_mutex_lock(&passages->mutex);
-    passages->read_count++;
-    pthread_cond_signal(&passages->emptied);
-  }
-  pthread_mutex_unlock(&passages->mutex);
-  return NULL;
-}
-
-/* Waits until at most `most` chunks are to be read. */
-static void wait_for_reader(struct trax_passages *passages, uint64_t most) {
-  while (passages->full - passages->read_count > most)
-    pthread_cond_wait(&passages->emptied, &passages->mutex);
-}
-
-static struct chunk *current(struct trax_passages *passages) {
-  return &passages->chunks[passages->full % TRAX_PASSAGES_CHUNKS];
-}
-
-static void end_chunk(struct trax_passages *passages) {
-  if (!passages->threaded) {
-    read_chunk(passages, current(passages));
-    return;
-  }
-  pthread_mutex_lock(&passages->mutex);
-  passages->full++;
-  pthread_cond_signal(&passages->filled);
-  wait_for_reader(passages, TRAX_PASSAGES_CHUNKS - 1);
-  pthread_mutex_unlock(&passages->mutex);
-}
-
-static bool reserve(struct chunk *chunk, size_t bytes) {
-  if (chunk->used + bytes <= chunk->capacity)
+static bool reserve(struct log *log, size_t bytes) {
+  if (log->used + bytes + PADDING <= log->capacity)
     return true;
-  const size_t capacity = 2 * (chunk->used + bytes);
-  uint8_t *larger = realloc(chunk->bytes, capacity);
+  const size_t capacity = 2 * (log->used + bytes + PADDING);
+  uint8_t *larger = realloc(log->bytes, capacity);
   if (!larger)
     return false;
-  chunk->bytes = larger;
-  chunk->capacity = capacity;
+  log->bytes = larger;
+  log->capacity = capacity;
   return true;
 }
 
-static void append(struct chunk *chunk, const void *array, size_t bytes) {
+static void append(struct log *log, const void *array, size_t bytes) {
   if (bytes)
-    memcpy(chunk->bytes + chunk->used, array, bytes);
-  chunk->used += bytes;
+    memcpy(log->bytes + log->used, array, bytes);
+  log->used += bytes;
 }
 
-/* Takes what belongs to a stretch out of the log. */
-static void shorten(struct trax_thread_log *log, size_t charged, size_t accessed, uint32_t count) {
+/* Takes what belongs to a stretch out of the thread's log. */
+static void shorten(struct trax_thread_log *log, size_t charged, uint32_t count) {
   log->charged_count -= charged;
-  log->accessed_count -= (uint32_t)accessed;
   for (size_t i = 0; i < log->charged_count; i++) {
     log->charged[i] = log->charged[charged + i];
     log->charged[i].at -= count;
   }
-  for (size_t i = 0; i < log->accessed_count; i++) {
-    log->accessed[i] = log->accessed[accessed + i];
-    log->accessed[i].at -= (uint8_t)count;
-  }
 }
 
 void trax_passages_add(struct trax_passages *passages, const struct trax_stretch *stretch,
-                       struct trax_thread_log *log) {
-  struct chunk *chunk = current(passages);
-  size_t charged = log->charged_count, accessed = log->accessed_count;
-  while (charged && log->charged[charged - 1].at >= stretch->count)
+                       struct trax_thread_log *thread) {
+  struct log *log = &passages->logs[stretch->tm];
+  size_t charged = thread->charged_count;
+  while (charged && thread->charged[charged - 1].at >= stretch->count)
     charged--;
-  while (accessed && log->accessed[accessed - 1].at >= stretch->count)
-    accessed--;
-  const struct stored stored = {.thread =
+  const struct stored stored = {.cycle = stretch->cycle,
+                                .thread =
                                     stretch->tm * passages->explain->machine->config.chip.tps_per_tm + stretch->tp,
-                                .count = stretch->count,
+                                .count = (uint16_t)stretch->count,
                                 .next_pc = stretch->next_pc,
                                 .result = stretch->result,
-                                .pieces = (uint32_t)stretch->pieces,
+                                .pieces = (uint16_t)stretch->pieces,
                                 .charged = (uint32_t)charged,
-                                .accessed = (uint32_t)accessed};
-  const size_t bytes = sizeof stored + stretch->pieces * sizeof *stretch->piece + charged * sizeof *log->charged +
-                       accessed * sizeof *log->accessed;
-  if (reserve(chunk, bytes)) {
-    append(chunk, &stored, sizeof stored);
-    append(chunk, stretch->piece, stretch->pieces * sizeof *stretch->piece);
-    append(chunk, log->charged, charged * sizeof *log->charged);
-    append(chunk, log->accessed, accessed * sizeof *log->accessed);
+                                .accessed = (uint16_t)stretch->accessed_count,
+                                .is_refused = stretch->refused != NULL};
+  const size_t refused = refused_bytes(stored.is_refused, stretch->count);
+  const size_t arrays = stretch->pieces * sizeof *stretch->piece + charged * sizeof *thread->charged +
+                        stretch->accessed_count * sizeof *stretch->accessed;
+  const size_t gap = -arrays & 7;
+  if (reserve(log, sizeof stored + arrays + gap + refused)) {
+    append(log, &stored, sizeof stored);
+    append(log, stretch->piece, stretch->pieces * sizeof *stretch->piece);
+    append(log, thread->charged, charged * sizeof *thread->charged);
+    append(log, stretch->accessed, stretch->accessed_count * sizeof *stretch->accessed);
+    log->used += gap;
+    append(log, stretch->refused, 2 * (size_t)(refused ? stretch->count : 0));
+    log->used = (log->used + 7) / 8 * 8;
+    log->stretches++;
+    log->traps += stretch->count == 1;
   } else {
-    passages->explain->observer.lost = true;
+    __atomic_store_n(&passages->explain->observer.lost, true, __ATOMIC_RELAXED);
   }
-  shorten(log, charged, accessed, stretch->count);
-  chunk->instructions += stretch->count;
-  chunk->calls += stretch->count == 1;
-  if (chunk->instructions >= TRAX_PASSAGES_INSTRUCTIONS || chunk->calls >= TRAX_PASSAGES_CALLS)
-    end_chunk(passages);
+  if (thread->charged_count)
+    shorten(thread, charged, stretch->count);
+  log->instructions += stretch->count;
+  if (log->instructions * passages->tms < passages->most)
+    return;
+  if (passages->holds)
+    __atomic_store_n(&passages->explain->observer.full, true, __ATOMIC_RELAXED);
+  else
+    trax_passages_keep(passages, false);
 }
 
-void trax_passages_finish(struct trax_passages *passages) {
-  end_chunk(passages);
-  pthread_mutex_lock(&passages->mutex);
-  wait_for_reader(passages, 0);
-  pthread_mutex_unlock(&passages->mutex);
+/* --- placing --- */
+
+/* Sets the indices of what belongs to a piece whose first instruction has the number `at`, and adds its cycles to
+   `cycles`. Returns the charges; *accessed becomes the accesses. */
+static size_t place_piece(const struct trax_places *places, const struct trax_piece *piece, unsigned at,
+                          struct trax_passage *passage, size_t charged, size_t *accessed, uint64_t *cycles) {
+  const unsigned end = at + piece->count;
+  const uint8_t *const causes = trax_places_refusals(places) + piece->index;
+  size_t i = *accessed;
+  for (; i < passage->accessed_count && passage->accessed[i].at < end; i++)
+    passage->accessed[i].index = piece->index + (passage->accessed[i].at - at);
+  *accessed = i;
+  for (i = charged; i < passage->charged_count && passage->charged[i].at < end; i++) {
+    passage->charged[i].index = piece->index + (passage->charged[i].at - at);
+    cycles[passage->charged[i].cause] += passage->charged[i].cycles;
+  }
+  uint32_t fetch = 0;
+  for (unsigned k = 0; passage->refused && k < piece->count; k++) {
+    const uint16_t refused = passage->refused[at + k];
+    fetch += refused & 0xFF;
+    if (refused >> 8)
+      cycles[causes[k]] += refused >> 8;
+  }
+  cycles[TRAX_CAUSE_ICACHE_BANK] += fetch;
+  return i;
 }
 
-struct trax_passages *trax_passages_create(struct trax_explain *explain,
-                                           void (*read)(struct trax_explain *explain, struct trax_passage *passage)) {
+static void place(struct trax_explain *explain, struct trax_passage *passage) {
+  struct trax_open_thread *open = &explain->open_threads[passage->thread];
+  size_t charged = 0, accessed = 0;
+  unsigned at = 0;
+  for (size_t i = 0; i < passage->pieces; at += passage->piece[i++].count) {
+    passage->piece[i].index = trax_places_index(explain->places, passage->piece[i].pc);
+    charged = place_piece(explain->places, &passage->piece[i], at, passage, charged, &accessed, open->cycles);
+  }
+  const struct trax_piece *last = &passage->piece[passage->pieces - 1];
+  passage->last = last->index + last->count - 1;
+  passage->inst = *trax_places_inst(explain->places, passage->last);
+  open->cycles[TRAX_CAUSE_ISSUED] += passage->count;
+  open->end_pc = passage->next_pc;
+}
+
+/* Makes the passages of a TM's log. */
+static void place_log(void *context, uint32_t tm) {
+  struct trax_passages *passages = context;
+  struct log *log = &passages->logs[tm];
+  size_t count = 0, traps = 0;
+  if (!trax_grow_to((void **)&log->passages, log->stretches, &log->passages_capacity, sizeof *log->passages) ||
+      !trax_grow_to((void **)&log->cycles, log->traps, &log->cycles_capacity, sizeof *log->cycles)) {
+    __atomic_store_n(&passages->explain->observer.lost, true, __ATOMIC_RELAXED);
+    log->stretches = 0;
+    return;
+  }
+  for (uint8_t *at = log->bytes, *const end = at + log->used; at < end;) {
+    const struct stored *stored = (const void *)at;
+    struct trax_piece *piece = (void *)(at + sizeof *stored);
+    struct trax_charged *charged = (void *)(piece + stored->pieces);
+    struct trax_accessed *accessed = (void *)(charged + stored->charged);
+    const uintptr_t arrays_end = (uintptr_t)(accessed + stored->accessed);
+    uint8_t *refused = (uint8_t *)(accessed + stored->accessed) + (-arrays_end & 7);
+    struct trax_passage *passage = &log->passages[count].passage;
+    log->passages[count++].cycle = stored->cycle;
+    *passage = (struct trax_passage){.thread = stored->thread,
+                                     .count = stored->count,
+                                     .piece = piece,
+                                     .pieces = stored->pieces,
+                                     .charged = charged,
+                                     .charged_count = stored->charged,
+                                     .accessed = accessed,
+                                     .accessed_count = stored->accessed,
+                                     .refused = stored->is_refused ? (const void *)refused : NULL,
+                                     .next_pc = stored->next_pc,
+                                     .result = stored->result};
+    place(passages->explain, passage);
+    if (passage->inst.op == TRAX_OP_TRAP) { /* others do not tell the thread's cycles */
+      memcpy(log->cycles[traps], passages->explain->open_threads[passage->thread].cycles, sizeof *log->cycles);
+      passage->cycles = log->cycles[traps++];
+    }
+    at = refused + refused_bytes(stored->is_refused, stored->count);
+  }
+}
+
+/* Orders the passages by their cycles and TMs. False: out of memory. */
+static bool order(struct trax_passages *passages) {
+  size_t next[TRAX_MAX_TMS] = {0}, count = 0;
+  for (uint32_t tm = 0; tm < passages->tms; tm++)
+    count += passages->logs[tm].stretches;
+  if (!trax_grow_to((void **)&passages->order, count, &passages->order_capacity, sizeof *passages->order))
+    return false;
+  for (passages->count = 0; passages->count < count; passages->count++) {
+    uint32_t first = 0;
+    uint64_t cycle = UINT64_MAX;
+    for (uint32_t tm = 0; tm < passages->tms; tm++) {
+      const struct log *log = &passages->logs[tm];
+      if (next[tm] < log->stretches && log->passages[next[tm]].cycle < cycle) {
+        first = tm;
+        cycle = log->passages[next[tm]].cycle;
+      }
+    }
+    passages->order[passages->count] = &passages->logs[first].passages[next[first]++].passage;
+  }
+  return true;
+}
+
+/* --- reading --- */
+
+static void read_part(const struct trax_passages *passages, uint32_t reader, size_t begin, size_t end) {
+  struct trax_reader *it = passages->explain->readers[reader];
+  for (size_t i = begin; it->kind->passage && i < end && i < passages->count; i++)
+    it->kind->passage(it, passages->order[i]);
+}
+
+static void read_all(void *context, uint32_t reader) {
+  const struct trax_passages *passages = context;
+  read_part(passages, reader, 0, passages->count);
+}
+
+static void empty_logs(struct trax_passages *passages) {
+  for (uint32_t tm = 0; tm < passages->tms; tm++) {
+    struct log *log = &passages->logs[tm];
+    log->used = log->instructions = log->stretches = log->traps = 0;
+  }
+}
+
+static void read_logs(struct trax_passages *passages) {
+  uint32_t instructions = 0;
+  for (uint32_t tm = 0; tm < passages->tms; tm++)
+    instructions += passages->logs[tm].instructions;
+  if (!instructions)
+    return;
+  if (passages->placers)
+    trax_pool_run(passages->placers);
+  for (uint32_t tm = 0; !passages->placers && tm < passages->tms; tm++)
+    place_log(passages, tm);
+  passages->explain->found = 0;
+  if (!order(passages))
+    passages->explain->observer.lost = true;
+  else if (passages->readers)
+    trax_pool_run(passages->readers);
+  else
+    for (size_t begin = 0; begin < passages->count; begin += BATCH)
+      for (unsigned i = 0; i < passages->explain->reader_count; i++)
+        read_part(passages, i, begin, begin + BATCH);
+  passages->most = passages->explain->found < MUCH ? TRAX_PASSAGES_MANY : TRAX_PASSAGES_FEW;
+  empty_logs(passages);
+}
+
+/* --- holding --- */
+
+/* Saves the charges that are in no stretch yet. */
+static void save_charges(struct trax_passages *passages) {
+  const struct trax_observer *observer = &passages->explain->observer;
+  size_t count = 0;
+  for (uint64_t i = 0; i < passages->explain->machine->stats.threads; i++)
+    count += observer->logs[i].charged_count;
+  if (!trax_grow_to((void **)&passages->charged, count, &passages->charged_capacity, sizeof *passages->charged)) {
+    passages->explain->observer.lost = true;
+    count = 0;
+  }
+  struct trax_charged *to = passages->charged;
+  for (uint64_t i = 0; i < passages->explain->machine->stats.threads; i++) {
+    passages->charged_count[i] = count ? observer->logs[i].charged_count : 0;
+    if (passages->charged_count[i])
+      memcpy(to, observer->logs[i].charged, passages->charged_count[i] * sizeof *to);
+    to += passages->charged_count[i];
+  }
+}
+
+void trax_passages_keep(struct trax_passages *passages, bool holds) {
+  read_logs(passages);
+  passages->explain->observer.full = false;
+  passages->holds = holds;
+  if (holds)
+    save_charges(passages);
+}
+
+void trax_passages_go_back(struct trax_passages *passages) {
+  const struct trax_charged *from = passages->charged;
+  empty_logs(passages);
+  for (uint64_t i = 0; i < passages->explain->machine->stats.threads; i++) {
+    struct trax_thread_log *log = &passages->explain->observer.logs[i];
+    log->charged_count = passages->charged_count[i]; /* a log does not become smaller */
+    if (log->charged_count)
+      memcpy(log->charged, from, log->charged_count * sizeof *from);
+    from += log->charged_count;
+  }
+  passages->explain->observer.full = false;
+}
+
+/* --- creation --- */
+
+struct trax_passages *trax_passages_create(struct trax_explain *explain) {
   struct trax_passages *passages = calloc(1, sizeof *passages);
   if (!passages)
     return NULL;
   passages->explain = explain;
-  passages->read = read;
-  pthread_mutex_init(&passages->mutex, NULL);
-  pthread_cond_init(&passages->filled, NULL);
-  pthread_cond_init(&passages->emptied, NULL);
-  return passages;
+  passages->tms = explain->machine->config.chip.tms;
+  passages->most = TRAX_PASSAGES_FEW;
+  passages->logs = aligned_alloc(_Alignof(struct log), passages->tms * sizeof *passages->logs);
+  passages->charged_count = calloc(explain->machine->stats.threads, sizeof *passages->charged_count);
+  if (passages->logs)
+    memset(passages->logs, 0, passages->tms * sizeof *passages->logs);
+  if (passages->logs && passages->charged_count)
+    return passages;
+  trax_passages_destroy(passages);
+  return NULL;
 }
 
-void trax_passages_start(struct trax_passages *passages) {
-  if (!passages->threaded)
-    passages->threaded = pthread_create(&passages->thread, NULL, read_chunks, passages) == 0;
+void trax_passages_start(struct trax_passages *passages, unsigned threads) {
+  trax_error error; /* without pools, one thread reads */
+  unsigned readers = 0;
+  for (unsigned i = 0; i < passages->explain->reader_count; i++)
+    readers += passages->explain->readers[i]->kind->passage != NULL;
+  if (passages->readers || threads < 2 || readers < 2)
+    return;
+  passages->placers =
+      trax_pool_create(threads < passages->tms ? threads : passages->tms, passages->tms, place_log, passages, &error);
+  passages->readers = trax_pool_create(threads < readers ? threads : readers, passages->explain->reader_count, read_all,
+                                       passages, &error);
 }
 
 void trax_passages_destroy(struct trax_passages *passages) {
   if (!passages)
     return;
-  if (passages->threaded) {
-    pthread_mutex_lock(&passages->mutex);
-    passages->ended = true;
-    pthread_cond_signal(&passages->filled);
-    pthread_mutex_unlock(&passages->mutex);
-    pthread_join(passages->thread, NULL);
+  trax_pool_destroy(passages->placers);
+  trax_pool_destroy(passages->readers);
+  for (uint32_t tm = 0; passages->logs && tm < passages->tms; tm++) {
+    free(passages->logs[tm].bytes);
+    free(passages->logs[tm].passages);
+    free(passages->logs[tm].cycles);
   }
-  for (unsigned i = 0; i < TRAX_PASSAGES_CHUNKS; i++)
-    free(passages->chunks[i].bytes);
-  pthread_cond_destroy(&passages->emptied);
-  pthread_cond_destroy(&passages->filled);
-  pthread_mutex_destroy(&passages->mutex);
+  free(passages->logs);
+  free(passages->order);
+  free(passages->charged);
+  free(passages->charged_count);
   free(passages);
 }

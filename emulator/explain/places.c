@@ -1,6 +1,7 @@
 #include "explain/places.h"
 
 #include "explain/texts.h"
+#include "machine/timing.h"
 #include "program/program.h"
 
 #include <stdio.h>
@@ -22,6 +23,7 @@ struct trax_places {
   struct trax_place *place; /* [count + 2]; `frames` is NULL until the first look-up */
   trax_inst *inst;          /* [count + 2] */
   uint8_t *accesses;        /* [count + 2] */
+  uint8_t *refusals;        /* [count + 2] */
 
   struct trax_texts names;
 };
@@ -33,6 +35,11 @@ static enum trax_access_class access_of(trax_op op) {
   if (flags & (TRAX_IS_NONTEMPORAL | TRAX_IS_ATOMIC))
     return TRAX_ACCESS_PAST_CACHE;
   return flags & TRAX_IS_STORE ? TRAX_ACCESS_STORE : TRAX_ACCESS_LOAD;
+}
+
+static trax_cause refusal_of(trax_op op, const struct trax_config *config) {
+  const trax_shared unit = trax_op_table[op].access_bytes ? TRAX_SHARED_NONE : trax_timing_of(op, config).unit;
+  return unit == TRAX_SHARED_NONE ? TRAX_CAUSE_DCACHE_BANK : trax_shared_kind(unit, config).refused;
 }
 
 struct trax_places *trax_places_create(const trax_machine *machine) {
@@ -51,7 +58,8 @@ struct trax_places *trax_places_create(const trax_machine *machine) {
   places->place = calloc((size_t)places->count + 2, sizeof *places->place);
   places->inst = calloc((size_t)places->count + 2, sizeof *places->inst);
   places->accesses = calloc((size_t)places->count + 2, sizeof *places->accesses);
-  if (!places->ranges || !places->place || !places->inst || !places->accesses) {
+  places->refusals = calloc((size_t)places->count + 2, sizeof *places->refusals);
+  if (!places->ranges || !places->place || !places->inst || !places->accesses || !places->refusals) {
     trax_places_destroy(places);
     return NULL;
   }
@@ -60,6 +68,7 @@ struct trax_places *trax_places_create(const trax_machine *machine) {
     memcpy(&word, machine->space.bytes + trax_places_pc(places, i), sizeof word);
     places->inst[i] = trax_decode(word);
     places->accesses[i] = (uint8_t)access_of(places->inst[i].op);
+    places->refusals[i] = (uint8_t)refusal_of(places->inst[i].op, &machine->config);
   }
   return places;
 }
@@ -74,6 +83,7 @@ void trax_places_destroy(struct trax_places *places) {
   free(places->place);
   free(places->inst);
   free(places->accesses);
+  free(places->refusals);
   free(places);
 }
 
@@ -101,6 +111,10 @@ const trax_inst *trax_places_inst(const struct trax_places *places, uint32_t ind
 
 const uint8_t *trax_places_accesses(const struct trax_places *places) {
   return places->accesses;
+}
+
+const uint8_t *trax_places_refusals(const struct trax_places *places) {
+  return places->refusals;
 }
 
 /* --- names --- */

@@ -31,6 +31,8 @@ const trax_inst *trax_places_inst(const struct trax_places *places, uint32_t ind
 /* [count + 2]: how the instruction accesses memory. */
 enum trax_access_class { TRAX_ACCESS_NONE, TRAX_ACCESS_LOAD, TRAX_ACCESS_STORE, TRAX_ACCESS_PAST_CACHE };
 const uint8_t *trax_places_accesses(const struct trax_places *places);
+/* [count + 2]: the trax_cause of its refusals after its fetch: of its unit, or of a bank of the data cache. */
+const uint8_t *trax_places_refusals(const struct trax_places *places);
 static inline uint32_t trax_places_halted(const struct trax_places *places) {
   return trax_places_count(places);
 }

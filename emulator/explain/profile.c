@@ -15,8 +15,10 @@ enum {
   MAX_DEPTH = 512,
   /* No new stack is kept beyond this number of records, or of calls in all stacks. */
   MAX_RECORDS = 1 << 18,
-  MAX_CALLS = 1 << 22
+  MAX_CALLS = 1 << 22,
+  MOST_SUMMED = UINT16_MAX /* passages after which no sum of bytes can exceed 32 bits */
 };
+_Static_assert((uint64_t)MOST_SUMMED *TRAX_MOST_STRETCH *UINT8_MAX <= UINT32_MAX, "");
 
 struct call {
   uint32_t return_pc, stack_pointer, context; /* context: of the callee */
@@ -29,14 +31,9 @@ struct trax_profile_thread {
   size_t depth, capacity;
 };
 
-_Static_assert(MAX_RECORDS / 2 > (TRAX_PASSAGES_CHUNKS + 1) * (TRAX_PASSAGES_INSTRUCTIONS + TRAX_MOST_STRETCH) &&
-                   MAX_CALLS / 2 > (TRAX_PASSAGES_CHUNKS + 1) * TRAX_PASSAGES_CALLS * (MAX_DEPTH + 1),
-               "stretches become single before a limit is reached");
-
-/* What a limit leaves out must not depend on the engine's stretches, so they are single before. */
-static void take_single(struct trax_profile *profile) {
-  __atomic_store_n(&profile->reader.explain->observer.single, true, __ATOMIC_RELAXED);
-}
+/* What the limit of records leaves out must not depend on the engine's stretches, so they are single before. Calls come
+   in the order of the chip's issues in any case. */
+_Static_assert(MAX_RECORDS / 2 > TRAX_PASSAGES_FEW, "stretches become single before the limit is reached");
 
 /* Returns the record of an instruction in a context; UINT32_MAX: out of memory. */
 static __attribute__((noinline)) uint32_t find_record(struct trax_profile *profile, uint32_t context, uint32_t index) {
@@ -53,7 +50,8 @@ static __attribute__((noinline)) uint32_t find_record(struct trax_profile *profi
   const uint32_t record = entry->value;
   if (record == profile->record_count) {
     if (record == MAX_RECORDS / 2)
-      take_single(profile);
+      profile->reader.explain->observer.single = true;
+    profile->reader.explain->found++;
     profile->pieces[record] = (struct trax_profile_pieces){0};
     profile->records[profile->record_count++] = (struct trax_profile_record){.context = context, .index = index};
   }
@@ -94,8 +92,6 @@ static uint32_t context_of(struct trax_profile *profile, uint32_t parent, uint32
     return 0;
   profile->contexts[profile->context_count++] = (struct trax_profile_context){parent, index};
   profile->call_count += depth + 1;
-  if (profile->call_count > MAX_CALLS / 2)
-    take_single(profile);
   if (!profile->first_of[index])
     profile->first_of[index] = context;
   return context;
@@ -194,12 +190,85 @@ static void add_charges(struct trax_profile *profile, const struct trax_profile_
   }
 }
 
+/* --- sums --- */
+
+/* Returns the sums of a context; NULL: it has none. */
+static const struct trax_profile_sums *sums_of(struct trax_profile *profile, uint32_t context) {
+  struct trax_profile_sums *sums = context < TRAX_PROFILE_SUMS ? &profile->sums[context] : NULL;
+  if (sums && !sums->fetch) {
+    const size_t places = (size_t)trax_places_count(profile->reader.explain->places) + 2 + 8;
+    if (!(sums->fetch = calloc(4 * places, sizeof *sums->fetch)))
+      return NULL;
+    sums->others = sums->fetch + places;
+    sums->loads = sums->others + places;
+    sums->hits = sums->loads + places;
+  }
+  return sums;
+}
+
+static void take_sums(struct trax_profile *profile) {
+  const struct trax_places *places = profile->reader.explain->places;
+  const uint8_t *const refusals = trax_places_refusals(places);
+  for (uint32_t context = 0; context < TRAX_PROFILE_SUMS; context++) {
+    const struct trax_profile_sums *sums = &profile->sums[context];
+    for (uint32_t i = 0; sums->fetch && i < trax_places_count(places); i++) {
+      if (!(sums->fetch[i] | sums->others[i] | sums->loads[i]))
+        continue;
+      struct trax_profile_counts *counts = counts_of(profile, context, i);
+      counts->cycles[TRAX_CAUSE_ICACHE_BANK] += sums->fetch[i];
+      counts->cycles[refusals[i]] += sums->others[i];
+      counts->loads += sums->loads[i];
+      counts->hits += sums->hits[i];
+      sums->fetch[i] = sums->others[i] = sums->loads[i] = sums->hits[i] = 0;
+    }
+  }
+  profile->summed = 0;
+}
+
+typedef uint16_t halves __attribute__((vector_size(16), aligned(2), may_alias));
+typedef uint32_t words __attribute__((vector_size(32), aligned(4), may_alias));
+
+/* Adds the refusals of `count` neighbouring instructions to sums. */
+static void add_to_sums(uint32_t *fetch, uint32_t *others, const uint16_t *refused, uint32_t count) {
+  const halves number = {0, 1, 2, 3, 4, 5, 6, 7};
+  for (uint32_t i = 0; i < count; i += 8) {
+    halves some = *(const halves *)(refused + i);
+    if (count - i < 8)
+      some &= (halves)(number < (uint16_t)(count - i));
+    *(words *)(fetch + i) += __builtin_convertvector(some & 0xFF, words);
+    *(words *)(others + i) += __builtin_convertvector(some >> 8, words);
+  }
+}
+
+static void add_refused(struct trax_profile *profile, uint32_t context, const struct trax_passage *passage) {
+  const struct trax_profile_sums *sums = sums_of(profile, context);
+  const uint8_t *const refusals = trax_places_refusals(profile->reader.explain->places);
+  const uint16_t *refused = passage->refused;
+  for (size_t i = 0; i < passage->pieces; refused += passage->piece[i++].count) {
+    const struct trax_piece *piece = &passage->piece[i];
+    if (sums)
+      add_to_sums(sums->fetch + piece->index, sums->others + piece->index, refused, piece->count);
+    for (uint32_t k = 0; !sums && k < piece->count; k++)
+      if (refused[k]) {
+        struct trax_profile_counts *counts = counts_of(profile, context, piece->index + k);
+        counts->cycles[TRAX_CAUSE_ICACHE_BANK] += refused[k] & 0xFF;
+        counts->cycles[refusals[piece->index + k]] += refused[k] >> 8;
+      }
+  }
+}
+
 static void add_accesses(struct trax_profile *profile, uint32_t context, const struct trax_passage *passage) {
   const uint8_t *const accesses = trax_places_accesses(profile->reader.explain->places);
+  const struct trax_profile_sums *sums = sums_of(profile, context);
   for (size_t i = 0; i < passage->accessed_count; i++) {
     const struct trax_accessed *accessed = &passage->accessed[i];
     if (!accessed->outcome || accesses[accessed->index] != TRAX_ACCESS_LOAD)
       continue;
+    if (sums) {
+      sums->loads[accessed->index]++;
+      sums->hits[accessed->index] += accessed->outcome & TRAX_OUTCOME_HIT;
+      continue;
+    }
     struct trax_profile_counts *counts = counts_of(profile, context, accessed->index);
     counts->loads++;
     counts->hits += accessed->outcome & TRAX_OUTCOME_HIT;
@@ -213,7 +282,11 @@ static void add_passage(void *self, const struct trax_passage *passage) {
   for (size_t i = 0; i < passage->pieces; i++)
     add_piece(profile, context, &passage->piece[i]);
   add_charges(profile, thread, context, passage);
+  if (passage->refused)
+    add_refused(profile, context, passage);
   add_accesses(profile, context, passage);
+  if (++profile->summed == MOST_SUMMED)
+    take_sums(profile);
   if (!passage->count)
     return;
   thread->latest = passage->last;
@@ -235,6 +308,7 @@ static int by_place(const void *a, const void *b) {
 /* Sets the executions of each record. */
 static trax_status add_issued(void *self, trax_error *error) {
   struct trax_profile *profile = self;
+  take_sums(profile);
   struct order *order = trax_explain_array(profile->record_count, sizeof *order, error);
   uint64_t executed = 0; /* by the pieces that have begun and not ended */
   if (!order)
@@ -280,6 +354,8 @@ static void close_profile(void *self) {
   free(profile->pieces);
   free(profile->latest_of);
   free(profile->first_of);
+  for (unsigned i = 0; i < TRAX_PROFILE_SUMS; i++)
+    free(profile->sums[i].fetch);
   trax_map_free(&profile->context_of);
   trax_map_free(&profile->record_of);
 }

@@ -6,6 +6,8 @@
 #include "explain/span.h"
 #include "trax/map.h"
 
+enum { TRAX_PROFILE_SUMS = 64 };
+
 /* The counts of one instruction in one context, or a sum of such counts. */
 struct trax_profile_counts {
   uint64_t cycles[TRAX_CAUSE_COUNT]; /* thread-cycles; those issued are the instructions */
@@ -42,6 +44,12 @@ struct trax_profile {
     uint32_t longest;
   } * pieces;
   size_t pieces_capacity;
+  /* [TRAX_PROFILE_SUMS]: of the first contexts, sums by instruction that are not in the records yet. */
+  struct trax_profile_sums {
+    uint32_t *fetch, *others; /* refusals (trax_stretch.refused); [places + 8]; NULL: none yet */
+    uint32_t *loads, *hits;
+  } sums[TRAX_PROFILE_SUMS];
+  uint32_t summed;           /* passages in them */
   struct trax_map record_of; /* (context, index) */
   struct trax_profile_latest {
     uint32_t context, record; /* its number + 1; 0: none */

@@ -2,8 +2,9 @@
    Readers of spans are called for those of all threads in the order of the issues that end them, which does not depend
    on the engine. A passage is what a thread did for a stretch of instructions (machine/observer.h). Readers of passages
    are much faster, since the engine executes ahead for them. Only the passages of one thread are in order, and those
-   that end with a trap, a call, a return, or a write of the stack pointer, which each are passages of their own. One
-   thread of the host calls their readers, perhaps not the engine's, and later than the engine goes on. */
+   that end with a trap, a call, a return, or a write of the stack pointer, which each are passages of their own. They
+   come later than the engine goes on. One thread of the host at a time calls a reader, perhaps not the engine's, and
+   others may call other readers meanwhile. */
 #ifndef TRAX_EXPLAIN_SPAN_H
 #define TRAX_EXPLAIN_SPAN_H
 
@@ -41,7 +42,9 @@ struct trax_passage {
   size_t charged_count;
   struct trax_accessed *accessed; /* [accessed_count] */
   size_t accessed_count;
-  const uint64_t *cycles;   /* [TRAX_CAUSE_COUNT]: of the thread so far, with this passage */
+  const uint16_t *refused;  /* trax_stretch.refused, followed by 32 bytes that may be read */
+  const uint64_t *cycles;   /* [TRAX_CAUSE_COUNT]: of the thread so far, with this passage; only if it is a trap, or
+                               at the end of the run */
   uint32_t next_pc, result; /* of the last instruction */
   uint32_t last;            /* its index */
   trax_inst inst;           /* the last instruction; illegal if there is none */
@@ -123,14 +126,21 @@ TRAX_READERS(DECLARE)
 enum { TRAX_READER_KINDS = 0 TRAX_READERS(COUNT) };
 #undef COUNT
 
+/* Of the passages of a thread: cycles by cause, and where it goes on. */
+struct trax_open_thread {
+  uint64_t cycles[TRAX_CAUSE_COUNT];
+  uint32_t end_pc;
+};
+
 struct trax_explain {
   trax_machine *machine;
   struct trax_explain_options options;
   struct trax_observer observer;
   struct trax_open_span *open_spans; /* [threads]: since the latest issue of each */
   bool has_spans, has_passages;      /* readers take them */
+  struct trax_open_thread *open_threads; /* [threads] */
+  uint32_t found;                        /* what is new in the passages that are read (explain/passages.h) */
   struct trax_passages *passages;
-  struct trax_accessed (*accessed)[TRAX_MOST_STRETCH]; /* [threads]: of the observer's logs */
   struct trax_places *places;
   struct trax_reader *readers[TRAX_READER_KINDS];
   unsigned reader_count;

@@ -10,9 +10,10 @@
 
 enum { LOG_BYTES = 1 << 25, LEAST_LOG = 1 << 14, MOST_LOG = 1 << 17 }; /* of all threads; of one */
 
-/* The begin of a passage in the log. Its pieces and its charges follow. */
+/* The begin of a passage in the log. Its pieces, charges and refusals follow. */
 struct logged {
-  uint32_t pieces, charged;
+  uint32_t charged;
+  uint16_t pieces, refused; /* refused: 0, or the passage's instructions */
   uint32_t latest; /* the instruction before the passage */
   uint32_t kind;   /* of the ray that begins with the passage; TRAX_NO_RAY: none */
 };
@@ -132,30 +133,46 @@ static void add_issued(struct draft *draft, uint32_t index, uint32_t count) {
   add_cycles(draft, TRAX_CAUSE_ISSUED, count);
 }
 
+/* The cycles before the issue of an instruction, after which those of `issued` others before it have not been added. */
+static void add_before(struct draft *draft, uint32_t index, unsigned cause, uint32_t cycles, uint32_t *issued) {
+  add_issued(draft, index - *issued, *issued);
+  *issued = 0;
+  add_code(draft, index, cause, cycles);
+  add_cycles(draft, cause, cycles);
+}
+
 /* False: out of memory. */
-static bool add_passage(struct draft *draft, const struct logged *logged, const struct trax_piece *piece,
-                        const struct trax_charged *charged) {
+static bool add_passage(const struct trax_stories *stories, struct draft *draft, const struct logged *logged,
+                        const struct trax_piece *piece, const struct trax_charged *charged, const uint16_t *refused) {
+  const uint8_t *const refusals = trax_places_refusals(stories->explain->places);
   const struct trax_charged *const end = charged + logged->charged;
-  uint32_t begin = 0, latest = logged->latest; /* begin: the number of the piece's first instruction */
-  for (const struct trax_piece *const pieces_end = piece + logged->pieces; piece < pieces_end;
-       begin += piece++->count) {
+  uint32_t at = 0, latest = logged->latest; /* at: the number of the instruction in the passage */
+  for (const struct trax_piece *const pieces_end = piece + logged->pieces; piece < pieces_end; piece++) {
     uint32_t issued = 0;
-    for (; charged < end && charged->at < begin + piece->count; charged++) {
-      const uint32_t before = charged->at - begin;
-      add_issued(draft, piece->index + issued, before - issued);
-      issued = before;
-      const uint32_t jump = before ? piece->index + before - 1 : latest;
-      if (charged->cause == TRAX_CAUSE_HALTED) /* a halted thread ends no item */
-        continue;
-      add_code(draft, charged->cause == TRAX_CAUSE_BRANCH ? jump : charged->index, charged->cause, charged->cycles);
-      add_cycles(draft, charged->cause, charged->cycles);
+    for (uint32_t index = piece->index; index < piece->index + piece->count; latest = index++, at++, issued++) {
+      for (; charged < end && charged->at == at; charged++) {
+        if (charged->cause == TRAX_CAUSE_HALTED) /* a halted thread ends no item */
+          continue;
+        add_issued(draft, index - issued, issued);
+        issued = 0;
+        add_code(draft, charged->cause == TRAX_CAUSE_BRANCH ? latest : index, charged->cause, charged->cycles);
+        add_cycles(draft, charged->cause, charged->cycles);
+      }
+      if (logged->refused && refused[at] & 0xFF)
+        add_before(draft, index, TRAX_CAUSE_ICACHE_BANK, refused[at] & 0xFF, &issued);
+      if (logged->refused && refused[at] >> 8)
+        add_before(draft, index, refusals[index], refused[at] >> 8, &issued);
     }
     if (logged->kind != TRAX_NO_RAY && !begin_ray(draft, logged->kind)) /* a trap, which is a passage of its own */
       return false;
-    add_issued(draft, piece->index + issued, piece->count - issued);
-    latest = piece->index + piece->count - 1;
+    add_issued(draft, piece->index + piece->count - issued, issued);
   }
   return true;
+}
+
+/* The bytes of a passage's refusals in the log. */
+static size_t refused_bytes(const struct logged *logged) {
+  return (2 * (size_t)logged->refused + 3) / 4 * 4;
 }
 
 static void add_log(struct trax_stories *stories, struct story_thread *thread, struct draft *draft) {
@@ -163,9 +180,10 @@ static void add_log(struct trax_stories *stories, struct story_thread *thread, s
     const struct logged *logged = (const void *)at;
     const struct trax_piece *piece = (const void *)(logged + 1);
     const struct trax_charged *charged = (const void *)(piece + logged->pieces);
-    if (!add_passage(draft, logged, piece, charged))
+    const uint16_t *refused = (const void *)(charged + logged->charged);
+    if (!add_passage(stories, draft, logged, piece, charged, refused))
       stories->explain->out_of_memory = true;
-    at = (const void *)(charged + logged->charged);
+    at = (const uint8_t *)refused + refused_bytes(logged);
   }
   thread->logged = 0;
 }
@@ -182,19 +200,22 @@ static __attribute__((noinline)) void empty_log(struct trax_stories *stories, st
 
 void trax_stories_add(struct trax_stories *stories, const struct trax_passage *passage) {
   struct story_thread *thread = &stories->threads[passage->thread];
-  const struct logged logged = {.pieces = (uint32_t)passage->pieces,
+  const struct logged logged = {.pieces = (uint16_t)passage->pieces,
+                                .refused = passage->refused ? (uint16_t)passage->count : 0,
                                 .charged = (uint32_t)passage->charged_count,
                                 .latest = thread->latest,
                                 .kind = trax_counted_kind(passage)};
   const size_t pieces = passage->pieces * sizeof *passage->piece,
-               charged = passage->charged_count * sizeof *passage->charged, needed = sizeof logged + pieces + charged;
+               charged = passage->charged_count * sizeof *passage->charged, refused = refused_bytes(&logged),
+               needed = sizeof logged + pieces + charged + refused;
   if (!passage->count)
     return;
   thread->latest = passage->last;
   if (thread->logged + needed > stories->log_size)
     empty_log(stories, thread);
   if (needed > stories->log_size) {
-    if (thread->draft && !add_passage(thread->draft, &logged, passage->piece, passage->charged))
+    if (thread->draft &&
+        !add_passage(stories, thread->draft, &logged, passage->piece, passage->charged, passage->refused))
       stories->explain->out_of_memory = true;
     return;
   }
@@ -203,6 +224,8 @@ void trax_stories_add(struct trax_stories *stories, const struct trax_passage *p
   memcpy(to + sizeof logged, passage->piece, pieces);
   if (charged)
     memcpy(to + sizeof logged + pieces, passage->charged, charged);
+  if (refused)
+    memcpy(to + sizeof logged + pieces + charged, passage->refused, refused);
   thread->logged += needed;
 }
 

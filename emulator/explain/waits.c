@@ -170,6 +170,9 @@ static void add_passage(void *self, const struct trax_passage *passage) {
         charged->cycles);
   }
   write_up_to(waits, writers, &written, passage->count);
+  for (own = passage->accessed; passage->refused && own < end; own++)
+    if (passage->refused[own->at] >> 8)
+      wait_for_bank(waits, own->index, own, passage->refused[own->at] >> 8);
 }
 
 /* --- the table --- */

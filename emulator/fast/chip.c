@@ -140,7 +140,7 @@ static void settle(void *context, uint64_t t) {
   trax_fast_settle(chip);
   for (uint32_t i = 0; i < chip->tms; i++) {
     trax_tm_settle(&chip->tm[i], t);
-    for (unsigned tp = 0; chip->machine->observer && chip->machine->observer->stretch && tp < chip->tm[i].tps; tp++)
+    for (unsigned tp = 0; chip->tm[i].observed && tp < chip->tm[i].tps; tp++)
       trax_fast_tell_issued(&chip->tm[i], tp);
     trax_fast_settle_rays(&chip->tm[i]);
     chip->tm[i].stats->queue_peak = chip->tm[i].queue.peak;

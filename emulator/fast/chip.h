@@ -61,20 +61,23 @@ void trax_fast_count_rays(struct trax_tm *tm, unsigned number, int32_t code, uin
 void trax_fast_settle_rays(struct trax_tm *tm);
 /* The causes of refusals, in the order of struct trax_fast_refused. */
 extern const trax_cause trax_fast_refusal_causes[TRAX_FAST_REFUSALS];
-/* Notifies an observer of the refusals of the current cycle. */
+/* Notifies an observer, which is none of stretches, of the refusals of the current cycle. */
 void trax_fast_notify_refusals(struct trax_tm *tm, const struct trax_fast_refused *refused);
-/* For an observer of stretches: logs the refusals of some TPs' heads that are not in the log yet; records the accesses
-   by TPs that issue in this cycle, `issued`, as far as they belong to bursts; tells it of the instruction at pc, which
-   was executed at issue; of the steps before `end` of the current burst, of which it does not know yet; of those that
-   were issued. */
+/* Calls the observer's `keep`, if it has one. */
+void trax_fast_keep(struct trax_chip *chip, bool holds);
+/* For an observer of stretches: logs the refusals of some TPs' heads; records the outcomes of accesses by TPs that
+   issue in this cycle, `issued`; tells the observer of the instruction at pc, which was executed at issue; of the steps
+   before `end` of the current burst, of which it does not know yet; of those that were issued; of these before the TP
+   rolls back to them, which may be in the cycle of the head's issue. */
 void trax_fast_log_refusals(struct trax_tm *tm, uint64_t tps);
-void trax_fast_log_accesses(struct trax_tm *tm, uint64_t issued);
+void trax_fast_record_outcomes(struct trax_tm *tm, uint64_t issued);
 void trax_fast_tell_single(struct trax_tm *tm, unsigned number, uint32_t pc, const struct trax_decoded *inst);
 void trax_fast_tell_steps(struct trax_tm *tm, unsigned number, unsigned end, uint32_t next_pc);
 void trax_fast_tell_issued(struct trax_tm *tm, unsigned number);
+void trax_fast_tell_before(struct trax_tm *tm, unsigned number);
 /* The number of the TP's head in its next stretch. */
 static inline unsigned trax_fast_next_of_stretch(const struct trax_tm *tm, unsigned tp) {
-  return tm->heads.at[tp] - (unsigned)tm->told[tp];
+  return tm->heads.at[tp] - (unsigned)tm->observed->told[tp];
 }
 
 /* Simulates cycles from t on, before `end`, of a TM in which one TP is awake, as long as it issues a step in each, or

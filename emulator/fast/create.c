@@ -79,6 +79,11 @@ static trax_status create_tm(struct trax_tm *tm, uint32_t number, struct trax_ch
   tm->machine = machine;
   tm->output = output;
   tm->observer = machine->observer;
+  if (tm->observer && tm->observer->stretch) {
+    if (!(tm->observed = create_aligned(1, sizeof *tm->observed)))
+      return trax_fail(error, "out of memory");
+    memset(tm->observed->outcomes, TRAX_FAST_NO_OUTCOME, sizeof tm->observed->outcomes);
+  }
   tm->stats = &machine->tm_stats[number];
   tm->tp_stats = &machine->tp_stats[(size_t)number * tps];
   tm->exit_statuses = &machine->exit_statuses[(size_t)number * tps];
@@ -116,6 +121,7 @@ static void destroy_tm(struct trax_tm *tm) {
   free(tm->count_deltas);
   free(tm->fetch_rr_masks);
   free(tm->resident);
+  free(tm->observed);
 }
 
 /* Bursts are translated if a bank follows from bits of the address. With an observer of each issue they have one

@@ -106,6 +106,7 @@ static void run_pool(struct trax_epochs *epochs, unsigned work) {
 static void take_snapshot(struct trax_epochs *epochs, uint64_t t) {
   if (epochs->chip->translation) /* here alone: epochs that are run again have the same bursts */
     trax_translation_extend(epochs->chip->translation);
+  trax_fast_keep(epochs->chip, true);
   run_pool(epochs, SAVE);
   trax_merge_keep(&epochs->merge);
   epochs->has_snapshot = epochs->chip->transfers.holds = true;
@@ -113,6 +114,8 @@ static void take_snapshot(struct trax_epochs *epochs, uint64_t t) {
 }
 
 void trax_epochs_commit(struct trax_epochs *epochs) {
+  if (epochs->has_snapshot)
+    trax_fast_keep(epochs->chip, false);
   trax_merge_keep(&epochs->merge);
   epochs->has_snapshot = epochs->chip->transfers.holds = false;
 }
@@ -143,6 +146,8 @@ bool trax_epochs_advance(struct trax_epochs *epochs, uint64_t *t, uint64_t until
   if (!epochs->has_snapshot) {
     epochs->snapshot_interval = FIRST_SNAPSHOT_INTERVAL;
     take_snapshot(epochs, *t);
+  } else if (chip->machine->observer && chip->machine->observer->full) {
+    take_snapshot(epochs, *t);
   } else if (*t - epochs->snapshot_cycle >= epochs->snapshot_interval * epochs->length ||
              epochs->merge.undo_count >= MOST_UNDO) {
     if (epochs->snapshot_interval < LONGEST_SNAPSHOT_INTERVAL)
@@ -158,6 +163,8 @@ bool trax_epochs_advance(struct trax_epochs *epochs, uint64_t *t, uint64_t until
   }
   run_pool(epochs, RESTORE);
   trax_merge_roll_back(&epochs->merge);
+  if (chip->machine->observer)
+    chip->machine->observer->go_back(chip->machine->observer->context);
   chip->conflicts++;
   epochs->cautious_from = *t; /* the epochs up to this one will give the same results again */
   epochs->cautious_until = epochs->end + epochs->pause;
@@ -173,7 +180,7 @@ trax_status trax_epochs_create(struct trax_chip *chip, unsigned threads, trax_er
     threads = trax_host_processors();
   if (threads > chip->tms)
     threads = chip->tms;
-  if (chip->tms < 2 || length < LEAST_EPOCH || chip->machine->observer)
+  if (chip->tms < 2 || length < LEAST_EPOCH || (chip->machine->observer && !chip->machine->observer->go_back))
     return TRAX_OK;
   struct trax_epochs *epochs = chip->epochs = calloc(1, sizeof *epochs);
   if (!epochs)

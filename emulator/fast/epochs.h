@@ -17,8 +17,8 @@
 struct trax_chip;
 struct trax_epochs;
 
-/* Creates chip->epochs, which stays NULL for one TM, with an observer, and if epochs would be too short. threads: of
-   the host; 0: trax_host_processors. */
+/* Creates chip->epochs, which stays NULL for one TM, with an observer that cannot go back, and if epochs would be too
+   short. threads: of the host; 0: trax_host_processors. */
 trax_status trax_epochs_create(struct trax_chip *chip, unsigned threads, trax_error *error);
 void trax_epochs_destroy(struct trax_epochs *epochs);
 

@@ -17,7 +17,7 @@ void trax_tm_tell_charge(struct trax_tm *tm, unsigned tp, trax_cause cause, uint
   if (trax_is_wait(cause)) /* its value may have arrived, but only after `since` */
     trax_tp_wait(&tm->tp[tp], since, &until, &rd);
   if (tm->observer->stretch) {
-    trax_fast_log_refusals(tm, tm->unlogged.tps & (uint64_t)1 << tp);
+    trax_fast_log_refusals(tm, (uint64_t)1 << tp);
     trax_log_charge(tm->observer, log_of(tm, tp), trax_fast_next_of_stretch(tm, tp), cause, rd, cycles);
   } else if (tm->observer->charge)
     tm->observer->charge(tm->observer->context, tm->number, tp, cause, rd, since, cycles);
@@ -25,50 +25,21 @@ void trax_tm_tell_charge(struct trax_tm *tm, unsigned tp, trax_cause cause, uint
 
 /* --- refusals --- */
 
+/* The cause of the head's refusals after its fetch. */
+static trax_cause refusal_of(const struct trax_tm *tm, unsigned tp) {
+  const struct trax_decoded *inst = trax_fast_head_timing(tm, tp)->decoded;
+  return inst->resource == TRAX_RESOURCE_UNIT ? tm->unit[inst->unit].kind.refused : TRAX_CAUSE_DCACHE_BANK;
+}
+
 void trax_fast_log_refusals(struct trax_tm *tm, uint64_t tps) {
-  tm->unlogged.tps &= ~tps;
-  for (; tps; tps &= tps - 1) {
-    const unsigned tp = trax_first(tps);
-    trax_log_charge(tm->observer, log_of(tm, tp), trax_fast_next_of_stretch(tm, tp), (trax_cause)tm->unlogged.cause[tp],
-                    0, tm->unlogged.cycles[tp]);
-    tm->unlogged.cause[tp] = 0;
+  struct trax_fast_observed *const observed = tm->observed;
+  for (uint64_t rest = tps & observed->tps; rest; rest &= rest - 1) {
+    const unsigned tp = trax_first(rest), at = trax_fast_next_of_stretch(tm, tp);
+    trax_log_charge(tm->observer, log_of(tm, tp), at, TRAX_CAUSE_ICACHE_BANK, 0, observed->fetch[tp]);
+    trax_log_charge(tm->observer, log_of(tm, tp), at, refusal_of(tm, tp), 0, observed->others[tp]);
+    observed->fetch[tp] = observed->others[tp] = 0;
   }
-}
-
-/* A byte for each of several TPs, since many TPs are refused in a cycle. */
-typedef uint8_t bytes16 __attribute__((vector_size(16), may_alias));
-typedef uint64_t halves __attribute__((vector_size(16), may_alias));
-
-static __attribute__((noinline)) void log_bytes(struct trax_tm *tm, unsigned first, halves chosen) {
-  uint64_t tps = 0;
-  for (unsigned half = 0; half < 2; half++)
-    for (unsigned i = 0; i < 8; i++)
-      tps |= (chosen[half] >> 8 * i & 1) << (first + 8 * half + i);
-  trax_fast_log_refusals(tm, tm->unlogged.tps & tps);
-}
-
-/* Returns `cause` in the bytes of the TPs that are chosen by bits 0 to 15. */
-static inline bytes16 bytes_with(uint64_t chosen, trax_cause cause) {
-  const bytes16 bits = {1, 2, 4, 8, 16, 32, 64, 128, 1, 2, 4, 8, 16, 32, 64, 128};
-  const uint64_t ones = 0x0101010101010101;
-  return (bytes16)(((bytes16)(halves){(chosen & 0xFF) * ones, (chosen >> 8 & 0xFF) * ones} & bits) != 0) &
-         (uint8_t)cause;
-}
-
-/* Counts the refusals of 16 TPs from `first` on. A TP has at most one in a cycle. */
-static inline void count_refusals(struct trax_tm *tm, unsigned first, const uint64_t *losers) {
-  bytes16 *const causes = (bytes16 *)&tm->unlogged.cause[first], *const cycles = (bytes16 *)&tm->unlogged.cycles[first];
-  bytes16 now = {0};
-  for (unsigned i = 0; i < TRAX_FAST_REFUSALS; i++)
-    if (losers[i] >> first & 0xFFFF)
-      now |= bytes_with(losers[i] >> first, trax_fast_refusal_causes[i]);
-  const bytes16 refusals = (bytes16)(now != 0);
-  const halves others =
-      (halves)(((bytes16)((*causes != now) & (*causes != 0)) | (bytes16)(*cycles == 0xFF)) & refusals);
-  if (others[0] | others[1])
-    log_bytes(tm, first, others);
-  *cycles = (*cycles & ((bytes16)(*causes == now) | ~refusals)) + (refusals & 1);
-  *causes = (*causes & ~refusals) | now;
+  observed->tps &= ~tps;
 }
 
 static void notify_charges(struct trax_tm *tm, uint64_t tps, trax_cause cause) {
@@ -78,17 +49,8 @@ static void notify_charges(struct trax_tm *tm, uint64_t tps, trax_cause cause) {
 
 void trax_fast_notify_refusals(struct trax_tm *tm, const struct trax_fast_refused *refused) {
   const uint64_t *const losers = (const uint64_t *)refused;
-  uint64_t any = 0;
-  for (unsigned i = 0; i < TRAX_FAST_REFUSALS; i++) {
-    any |= losers[i];
-    if (!tm->observer->stretch)
-      notify_charges(tm, losers[i], trax_fast_refusal_causes[i]);
-  }
-  for (unsigned first = 0; tm->observer->stretch && first < tm->tps; first += 16)
-    if (any >> first & 0xFFFF)
-      count_refusals(tm, first, losers);
-  if (tm->observer->stretch)
-    tm->unlogged.tps |= any;
+  for (unsigned i = 0; i < TRAX_FAST_REFUSALS; i++)
+    notify_charges(tm, losers[i], trax_fast_refusal_causes[i]);
 }
 
 static uint32_t result_of(const struct trax_tp *tp, const struct trax_decoded *inst) {
@@ -124,38 +86,44 @@ void trax_tm_notify_issue(struct trax_tm *tm, unsigned number, uint32_t pc, cons
 
 /* --- stretches --- */
 
-static void tell(struct trax_tm *tm, const struct trax_stretch *stretch) {
+static void tell(const struct trax_tm *tm, const struct trax_stretch *stretch) {
   tm->observer->stretch(tm->observer->context, stretch);
-  if (__atomic_load_n(&tm->observer->single, __ATOMIC_RELAXED))
+  if (!tm->buffer && tm->observer->single) /* else by trax_fast_keep */
     tm->chip->burst = 1;
 }
 
-static void log_access(struct trax_tm *tm, unsigned number, uint32_t address, uint8_t outcome) {
-  struct trax_thread_log *log = log_of(tm, number);
-  log->accessed[log->accessed_count++] = (struct trax_accessed){
-      .address = address, .at = (uint8_t)trax_fast_next_of_stretch(tm, number), .outcome = outcome};
+void trax_fast_keep(struct trax_chip *chip, bool holds) {
+  const struct trax_observer *observer = chip->machine->observer;
+  if (!observer || !observer->keep)
+    return;
+  observer->keep(observer->context, holds);
+  if (observer->single)
+    chip->burst = 1;
 }
 
-void trax_fast_log_accesses(struct trax_tm *tm, uint64_t issued) {
+void trax_fast_record_outcomes(struct trax_tm *tm, uint64_t issued) {
   const uint64_t hits = tm->serial_hits ? 0 : tm->load_hits & ~tm->storing; /* of which grant() knew */
-  for (uint64_t rest = issued & ~tm->executes_at_issue; rest; rest &= rest - 1) {
+  for (uint64_t rest = issued & ~(tm->executes_at_issue | hits); rest; rest &= rest - 1) {
     const unsigned number = trax_first(rest);
-    const uint8_t outcome = hits >> number & 1
-                                ? TRAX_OUTCOME_HIT
-                                : take_outcome(&tm->tp[number], trax_fast_head_timing(tm, number)->decoded, true);
-    log_access(tm, number, tm->heads.address[number], outcome);
+    tm->observed->outcomes[number][tm->heads.load[number]] =
+        take_outcome(&tm->tp[number], trax_fast_head_timing(tm, number)->decoded, true);
   }
 }
 
 void trax_fast_tell_single(struct trax_tm *tm, unsigned number, uint32_t pc, const struct trax_decoded *inst) {
   struct trax_tp *tp = &tm->tp[number];
-  if (inst->bytes && tp->address < TRAX_LOCAL_BASE && !log_of(tm, number)->accessed_count) /* else before a roll back */
-    log_access(tm, number, tp->address, take_outcome(tp, inst, true));
-  tell(tm, &(struct trax_stretch){.tm = tm->number,
+  const bool is_global = inst->bytes && tp->address < TRAX_LOCAL_BASE;
+  struct trax_accessed accessed = {.address = tp->address};
+  if (is_global)
+    accessed.outcome = take_outcome(tp, inst, true);
+  tell(tm, &(struct trax_stretch){.cycle = tm->now,
+                                  .tm = tm->number,
                                   .tp = number,
                                   .count = 1,
                                   .piece = &(struct trax_piece){pc, 1, 0},
                                   .pieces = 1,
+                                  .accessed = &accessed,
+                                  .accessed_count = is_global,
                                   .next_pc = tp->pc,
                                   .result = result_of(tp, inst)});
 }
@@ -175,11 +143,34 @@ static unsigned next_chunk(const struct trax_burst *burst, unsigned at, unsigned
   return at;
 }
 
+/* Lists the accesses to global memory of the steps from `begin` to `end`. */
+static size_t list_accesses(const struct trax_tm *tm, unsigned number, unsigned begin, unsigned end,
+                            struct trax_accessed *accessed) {
+  const struct trax_burst *const burst = &tm->tp[number].burst;
+  const uint8_t *const outcomes = tm->observed->outcomes[number];
+  unsigned load = tm->observed->told_loads[number];
+  size_t count = 0;
+  for (unsigned at = begin; at < end; at++) {
+    const uint8_t outcome = outcomes[load];
+    accessed[count] = (struct trax_accessed){.address = burst->loads[load],
+                                             .at = (uint8_t)(at - begin),
+                                             .outcome = outcome == TRAX_FAST_NO_OUTCOME ? TRAX_OUTCOME_HIT : outcome};
+    const bool is_access = (burst->step[at] & TRAX_STEP_KIND) == TRAX_STEP_BANK; /* no branch: hard to predict */
+    count += is_access;
+    load += is_access;
+  }
+  return count;
+}
+
 void trax_fast_tell_steps(struct trax_tm *tm, unsigned number, unsigned end, uint32_t next_pc) {
   const struct trax_tp *tp = &tm->tp[number];
+  struct trax_fast_observed *const observed = tm->observed;
   struct trax_piece pieces[TRAX_BURST];
-  const unsigned begin = tm->told[number];
+  struct trax_accessed accessed[TRAX_BURST + 1];
+  const unsigned begin = observed->told[number];
   size_t count = 0;
+  if (begin == end)
+    return;
   for (unsigned at = begin; at < end;) {
     const uint32_t pc = tm->chip->program.timing[trax_fast_index(tp, at)].pc;
     const unsigned next = next_chunk(&tp->burst, at + 1, end);
@@ -189,18 +180,41 @@ void trax_fast_tell_steps(struct trax_tm *tm, unsigned number, unsigned end, uin
       pieces[count++] = (struct trax_piece){pc, next - at, 0};
     at = next;
   }
-  if (count)
-    tell(tm, &(struct trax_stretch){.tm = tm->number,
-                                    .tp = number,
-                                    .count = end - begin,
-                                    .piece = pieces,
-                                    .pieces = count,
-                                    .next_pc = next_pc});
-  tm->told[number] = (uint8_t)end;
+  const size_t accessed_count = list_accesses(tm, number, begin, end, accessed);
+  tell(tm, &(struct trax_stretch){.cycle = tm->now,
+                                  .tm = tm->number,
+                                  .tp = number,
+                                  .count = end - begin,
+                                  .piece = pieces,
+                                  .pieces = count,
+                                  .accessed = accessed,
+                                  .accessed_count = accessed_count,
+                                  .refused = &observed->refused[number][begin],
+                                  .next_pc = next_pc});
+  memset(&observed->refused[number][begin], 0, (end - begin) * sizeof observed->refused[number][0]);
+  memset(&observed->outcomes[number][observed->told_loads[number]], TRAX_FAST_NO_OUTCOME, accessed_count);
+  observed->told_loads[number] += (uint8_t)accessed_count;
+  observed->told[number] = (uint8_t)end;
 }
 
 void trax_fast_tell_issued(struct trax_tm *tm, unsigned number) {
-  trax_fast_log_refusals(tm, tm->unlogged.tps & (uint64_t)1 << number);
+  trax_fast_log_refusals(tm, (uint64_t)1 << number);
   if (!((tm->executes_at_issue | tm->ended) >> number & 1))
     trax_fast_tell_steps(tm, number, tm->heads.at[number], trax_fast_head_timing(tm, number)->pc);
+}
+
+void trax_fast_tell_before(struct trax_tm *tm, unsigned number) {
+  struct trax_fast_observed *const observed = tm->observed;
+  uint16_t *const refused = &observed->refused[number][tm->heads.at[number]];
+  trax_fast_tell_issued(tm, number);
+  uint8_t *const outcome =
+      &observed->outcomes[number][observed->told_loads[number]]; /* of the head, if it issues now */
+  observed->fetch[number] = (uint8_t)*refused;
+  observed->others[number] = (uint8_t)(*refused >> 8);
+  observed->tps |= (uint64_t)1 << number;
+  trax_fast_log_refusals(tm, (uint64_t)1 << number);
+  *refused = 0;
+  if (*outcome != TRAX_FAST_NO_OUTCOME)
+    tm->tp[number].outcome = *outcome;
+  *outcome = TRAX_FAST_NO_OUTCOME;
 }

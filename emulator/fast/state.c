@@ -106,6 +106,7 @@ static void visit_tm(const struct visitor *visitor, struct trax_tm *tm) {
   VISIT_DERIVED(tm->ray_counts, tm->ray_counts ? 1 : 0); /* no checkpoint has them */
   VISIT_DERIVED(tm->rays, tm->rays ? tm->tps : 0);
   VISIT_DERIVED(tm->resident, tm->icaches);
+  VISIT_DERIVED(tm->observed, tm->observed ? 1 : 0);
 }
 
 static void visit_l2(const struct visitor *visitor, struct trax_l2 *l2) {

@@ -12,7 +12,7 @@
    - The charges of different TPs may be reported in any order, which differs between engines.
    - arrival is called when an atomic increment's old value is written to its register, in the order of (cycle, TM),
      before the issues of the same cycle and TM.
-   - All calls are made by the host thread that called trax_machine_run.
+   - All calls but those of `stretch` are made by the host thread that called trax_machine_run.
 
    A run without an observer pays nothing for this. With one, the fast engine executes ahead of time only if the
    observer takes stretches. */
@@ -76,20 +76,24 @@ struct trax_accessed {
   uint8_t at, outcome;
 };
 
-/* What a TP was charged and what it accessed since its latest stretch: the observer's memory, to which the engine adds.
-   The observer takes out what belongs to a stretch, and subtracts the stretch's instructions from the others' `at`.
-   The entries are elsewhere, since the engine uses the logs of all TPs in turn. */
+/* What a TP was charged since its latest stretch, except for what trax_stretch.refused has: the observer's memory, to
+   which the engine adds. The observer takes out what belongs to a stretch, and subtracts the stretch's instructions
+   from the others' `at`. */
 struct trax_thread_log {
   struct trax_charged *charged; /* [charged_count] */
   size_t charged_count, charged_capacity;
-  struct trax_accessed *accessed; /* [TRAX_MOST_STRETCH] */
-  uint32_t accessed_count;
 };
 
 struct trax_stretch {
+  uint64_t cycle;           /* not before those of the TM's earlier ones; of a single instruction: its issue */
   uint32_t tm, tp, count;   /* instructions */
   struct trax_piece *piece; /* [pieces] */
   size_t pieces;
+  struct trax_accessed *accessed; /* [accessed_count] */
+  size_t accessed_count;
+  /* [count], or NULL: cycles in which the instruction was refused the bank of the instruction cache, in the low byte,
+     and then its unit or its bank of the data cache. They follow the charges of the log. */
+  const uint16_t *refused;
   uint32_t next_pc; /* of the last instruction */
   /* A trap's operand, or the value that an instruction writes to r2, the stack pointer. Such an instruction, a jalr,
      and a jal that writes a register each are a stretch of their own. */
@@ -110,10 +114,16 @@ struct trax_observer {
   /* If not NULL, an engine that can calls it instead of all others, when the last instruction of a stretch issues, or
      earlier. The stretches of one TP are in order. Those that consist of one instruction that is to be alone, or of
      which `single` was set before, are in the order of issue() over the chip. When trax_run_settle returns, all
-     instructions of the cycles before have been reported, and the logs have the charges since then. */
+     instructions of the cycles before have been reported, and the logs have the charges since then. Several threads of
+     the host may call it at the same time, each for other TMs; then the order over the chip is that of (cycle, TM). */
   void (*stretch)(void *context, const struct trax_stretch *stretch);
+  /* For stretches: the engine does not go back any more behind the present state. If it holds, it may come back to it,
+     which it tells by `go_back`: then the stretches told since are not valid, nor what has been added to the logs. */
+  void (*keep)(void *context, bool holds);
+  void (*go_back)(void *context);
   struct trax_thread_log *logs; /* [threads]; for stretches */
-  bool single;                  /* the observer wants stretches of one instruction from now on; any thread may set it */
+  bool single;                  /* the observer wants stretches of one instruction from now on; set in `keep` */
+  bool full;                    /* it wants a call of `keep` soon; any thread may set it */
   bool lost;                    /* a charge was not recorded: out of memory */
 };
 
@@ -123,7 +133,7 @@ static inline void trax_log_charge(struct trax_observer *observer, struct trax_t
   for (uint64_t left = cycles, part; left; left -= part) {
     if (log->charged_count == log->charged_capacity &&
         !trax_grow((void **)&log->charged, log->charged_count, &log->charged_capacity, sizeof *log->charged)) {
-      observer->lost = true;
+      __atomic_store_n(&observer->lost, true, __ATOMIC_RELAXED);
       return;
     }
     part = left < TRAX_MOST_CHARGED ? left : TRAX_MOST_CHARGED;

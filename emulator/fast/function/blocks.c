@@ -43,8 +43,8 @@ void trax_fast_roll_back_tp(struct trax_tm *tm, unsigned number) {
   struct trax_tp *tp = &tm->tp[number];
   if (tm->executes_at_issue & bit)
     return;
-  if (tm->observer && tm->observer->stretch)
-    trax_fast_tell_issued(tm, number);
+  if (tm->observed)
+    trax_fast_tell_before(tm, number);
   while (tp->burst.undo_count) {
     const struct trax_burst_undo *undo = &tp->burst.undo[--tp->burst.undo_count];
     memcpy(undo->address < TRAX_LOCAL_BASE ? chip->machine->space.bytes + undo->address
@@ -68,7 +68,8 @@ void trax_fast_roll_back_tp(struct trax_tm *tm, unsigned number) {
   tp->pc = tp->resume_pc;
   tp->address = tp->inst->bytes ? tp->reg[tp->inst->ra] + (uint32_t)tp->inst->imm : 0;
   trax_fast_execute_at_issue(tm, number, step, head, tp->address);
-  tm->told[number] = 0;
+  if (tm->observed)
+    tm->observed->told[number] = tm->observed->told_loads[number] = 0;
 }
 
 void trax_fast_roll_back(void *context) {

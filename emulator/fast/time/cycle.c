@@ -1,6 +1,7 @@
 /* The five steps of a TM's cycle (docs/timing.md, "A cycle"), as operations on masks of its TPs. */
 #include "fast/time/grant.h"
 #include "fast/time/issue.h"
+#include "fast/time/refusals.h"
 #include "fast/time/variant.h"
 
 /* --- arrivals and wake-ups --- */
@@ -199,8 +200,8 @@ static ALWAYS_INLINE void issue(struct trax_tm *tm, const bool wide, uint64_t gr
       issue_observed(tm, quick, slow, t);
       return;
     }
-    trax_fast_log_refusals(tm, granted & tm->unlogged.tps);
-    trax_fast_log_accesses(tm, granted & banks);
+    record_refusals(tm, granted & tm->observed->tps);
+    trax_fast_record_outcomes(tm, granted & banks);
   }
   for (uint64_t loads = quick & banks; loads; loads &= loads - 1)
     trax_fast_set_load(tm, trax_first(loads), tm->heads.load[trax_first(loads)] + 1u);
@@ -219,8 +220,12 @@ static ALWAYS_INLINE void simulate(struct trax_tm *tm, const bool wide, uint64_t
   issue(tm, wide, granted, slow, banks, t);
   if (trax_fast_count(&tm->refusal_counts, &refused))
     trax_fast_count_log(&tm->refusal_counts);
-  if (__builtin_expect(tm->observer != NULL, false))
-    trax_fast_notify_refusals(tm, &refused);
+  if (__builtin_expect(tm->observer != NULL, false)) {
+    if (tm->observed)
+      count_refusals(tm, wide, &refused);
+    else
+      trax_fast_notify_refusals(tm, &refused);
+  }
   tm->next_cycle = tm->awake ? t + 1 : trax_tm_next_cycle(tm, t);
 }
 

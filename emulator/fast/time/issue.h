@@ -84,7 +84,7 @@ static void tell_slow(struct trax_tm *tm, unsigned number, uint32_t pc, const st
     trax_fast_tell_single(tm, number, pc, inst);
   } else if (tm->heads.at[number] == last) {
     trax_fast_tell_steps(tm, number, last + 1, tp->resume_pc);
-    tm->told[number] = 0;
+    tm->observed->told[number] = tm->observed->told_loads[number] = 0;
   }
 }
 

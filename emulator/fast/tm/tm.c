@@ -66,7 +66,7 @@ void trax_tm_complete(struct trax_tm *tm, const struct trax_request *request, ui
   case TRAX_REQUEST_ATOMIC:
     tm->tp[request->tp].increments--;
     tm->tp[request->tp].reg[request->rd] = tm->tp[request->tp].begin_reg[request->rd] = request->value;
-    if (tm->observer && tm->observer->arrival && request->rd != TRAX_NO_REGISTER)
+    if (tm->observer && !tm->observed && tm->observer->arrival && request->rd != TRAX_NO_REGISTER)
       tm->observer->arrival(tm->observer->context,
                             &(struct trax_arrival){t, tm->number, request->tp, request->rd, request->value});
     trax_tm_data_arrival(tm, request->tp, request->rd, t);

@@ -6,6 +6,7 @@
 #include "fast/time/masks.h"
 #include "fast/tm/dcache.h"
 #include "fast/tm/icache.h"
+#include "fast/tm/observed.h"
 #include "fast/tm/queue.h"
 #include "fast/tm/tp.h"
 #include "fast/tm/unit.h"
@@ -36,13 +37,7 @@ struct trax_tm {
   struct trax_machine *machine;
   FILE *output;                         /* the guest's; NULL discards it */
   struct trax_observer *observer;       /* NULL: none */
-  uint8_t told[TRAX_MAX_TPS_PER_TM];    /* steps of the burst of which the observer knows; only for stretches */
-  /* The same: refusals of each TP's head that are not in its log yet, cycles of one cause, and the TPs with some. */
-  struct trax_fast_unlogged {
-    uint64_t tps;
-    _Alignas(16) uint8_t cause[TRAX_MAX_TPS_PER_TM];
-    _Alignas(16) uint8_t cycles[TRAX_MAX_TPS_PER_TM];
-  } unlogged;
+  struct trax_fast_observed *observed;  /* for one of stretches; else NULL */
   struct trax_tp *tp;                   /* [tps] */
   struct trax_icache *icache;           /* [icaches] */
   uint32_t icaches;
