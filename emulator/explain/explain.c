@@ -26,8 +26,11 @@ static void add_charge(void *context, uint32_t tm, uint32_t tp, trax_cause cause
   struct trax_explain *explain = context;
   const uint32_t thread = tm * explain->machine->config.chip.tps_per_tm + tp;
   struct trax_open_span *open = &explain->open_spans[thread];
-  if (explain->has_passages)
+  if (explain->has_passages) {
     trax_log_charge(&explain->observer, &explain->observer.logs[thread], 0, cause, rd, cycles);
+    explain->open_threads[thread].cycles[cause] += cycles;
+    explain->by_issue = true;
+  }
   if (!explain->has_spans)
     return;
   if (open->count && open->charges[open->count - 1].cause == cause && open->charges[open->count - 1].rd == rd) {
@@ -81,14 +84,23 @@ static void add_stretch(void *context, const struct trax_stretch *stretch) {
 }
 
 static void begin_run(void *context, unsigned host_threads) {
-  const struct trax_explain *explain = context;
+  struct trax_explain *explain = context;
+  for (uint64_t i = 0; i < explain->machine->stats.threads && !explain->begun; i++)
+    memcpy(explain->open_threads[i].begin_cycles,
+           memcpy(explain->open_threads[i].cycles, explain->machine->tp_stats[i].cycles,
+                  sizeof explain->open_threads[i].cycles),
+           sizeof explain->open_threads[i].cycles);
+  explain->begun = true;
   if (!explain->has_spans)
     trax_passages_start(explain->passages, host_threads ? host_threads : trax_host_processors());
 }
 
 static void end_run(void *context) {
-  const struct trax_explain *explain = context;
+  struct trax_explain *explain = context;
   trax_passages_keep(explain->passages, false);
+  for (uint64_t i = 0; i < explain->machine->stats.threads && !explain->by_issue; i++)
+    memcpy(explain->open_threads[i].cycles, explain->machine->tp_stats[i].cycles,
+           sizeof explain->open_threads[i].cycles);
 }
 
 static void keep(void *context, bool holds) {
@@ -106,10 +118,9 @@ static void end_passages(struct trax_explain *explain, uint32_t thread) {
   struct trax_thread_log *log = &explain->observer.logs[thread];
   struct trax_open_thread *open = &explain->open_threads[thread];
   const uint32_t index = trax_places_index(explain->places, open->end_pc);
-  for (size_t i = 0; i < log->charged_count; i++) {
+  for (size_t i = 0; i < log->charged_count; i++)
     log->charged[i].index = index;
-    open->cycles[log->charged[i].cause] += log->charged[i].cycles;
-  }
+  trax_counters_add(open->cycles, open->begin_cycles, sizeof open->cycles, -1);
   notify_passage(explain, &(struct trax_passage){.thread = thread,
                                                  .charged = log->charged,
                                                  .charged_count = log->charged_count,
@@ -141,6 +152,9 @@ static void add_issue(void *context, const struct trax_issue *issue) {
     return;
   const trax_inst *inst = trax_places_inst(explain->places, trax_places_index(explain->places, issue->pc));
   struct trax_accessed accessed = {.address = issue->address, .outcome = issue->outcome};
+  uint64_t *cycles = explain->open_threads[issue->tm * explain->machine->config.chip.tps_per_tm + issue->tp].cycles;
+  cycles[TRAX_CAUSE_ISSUED]++;
+  explain->by_issue = true;
   add_stretch(explain, &(struct trax_stretch){.cycle = issue->cycle,
                                               .tm = issue->tm,
                                               .tp = issue->tp,
@@ -150,6 +164,7 @@ static void add_issue(void *context, const struct trax_issue *issue) {
                                               .accessed = &accessed,
                                               .accessed_count = trax_op_table[inst->op].access_bytes &&
                                                                 issue->address < TRAX_LOCAL_BASE,
+                                              .cycles = inst->op == TRAX_OP_TRAP ? cycles : NULL,
                                               .next_pc = issue->next_pc,
                                               .result = issue->result});
 }

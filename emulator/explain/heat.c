@@ -29,6 +29,7 @@ struct heat {
   struct heat_counts *pages[PAGES]; /* each [LINES_PER_PAGE], or NULL */
   struct heat_counts *regions;      /* of each region */
   const struct trax_region **latest; /* [places]: of the instruction's latest access to global memory */
+  uint32_t (*outcomes)[16];    /* [places]: accesses to this region that are not in `regions` yet, by their outcome */
   uint64_t *executed, *global; /* [places]: executions of the instruction, as differences; those that accessed global
                                   memory */
 };
@@ -49,32 +50,50 @@ static void count(struct heat_counts *counts, const trax_op_info *op, unsigned o
   } else if (op->flags & TRAX_IS_STORE) {
     counts->stores += times;
     counts->store_bytes += op->access_bytes * times;
-    counts->combined += (outcome & TRAX_OUTCOME_COMBINED) != 0;
+    counts->combined += outcome & TRAX_OUTCOME_COMBINED ? times : 0;
   } else {
     counts->loads += times;
     counts->load_bytes += op->access_bytes * times;
-    counts->hits += (outcome & TRAX_OUTCOME_HIT) != 0;
-    counts->misses += (outcome & TRAX_OUTCOME_MISS) != 0;
-    counts->merged += (outcome & TRAX_OUTCOME_MERGED) != 0;
+    counts->hits += outcome & TRAX_OUTCOME_HIT ? times : 0;
+    counts->misses += outcome & TRAX_OUTCOME_MISS ? times : 0;
+    counts->merged += outcome & TRAX_OUTCOME_MERGED ? times : 0;
   }
+}
+
+/* Adds the accesses of an instruction to its latest region. */
+static __attribute__((noinline)) void flush(struct heat *heat, uint32_t index) {
+  uint32_t *const outcomes = heat->outcomes[index];
+  const trax_op_info *op = &trax_op_table[trax_places_inst(heat->reader.explain->places, index)->op];
+  for (unsigned outcome = 0; outcome < 16; outcome++)
+    if (outcomes[outcome]) {
+      count(&heat->regions[heat->latest[index] - heat->objects.regions], op, outcome, outcomes[outcome]);
+      heat->global[index] += outcomes[outcome];
+      outcomes[outcome] = 0;
+    }
 }
 
 static void add_passage(void *self, const struct trax_passage *passage) {
   struct heat *heat = self;
-  const struct trax_places *places = heat->reader.explain->places;
   const bool lines = heat->reader.explain->options.heat_lines;
   for (size_t i = 0; i < passage->pieces; i++)
     trax_count_executed(heat->executed, &passage->piece[i]);
   for (size_t i = 0; i < passage->accessed_count; i++) {
     const struct trax_accessed *accessed = &passage->accessed[i];
-    const trax_op_info *op = &trax_op_table[trax_places_inst(places, accessed->index)->op];
-    const struct trax_region *region =
-        trax_objects_region_again(&heat->objects, accessed->address, &heat->latest[accessed->index]);
-    heat->global[accessed->index]++;
-    count(&heat->regions[region - heat->objects.regions], op, accessed->outcome, 1);
-    struct heat_counts *line = lines ? line_at(heat, accessed->address) : NULL;
+    const uint32_t index = accessed->index;
+    const struct trax_region *region = heat->latest[index];
+    uint32_t *times = &heat->outcomes[index][accessed->outcome & 15];
+    if (!region || accessed->address - region->begin > region->last - region->begin || *times == UINT32_MAX) {
+      flush(heat, index);
+      heat->latest[index] = trax_objects_region(&heat->objects, accessed->address);
+    }
+    ++*times;
+  }
+  for (size_t i = 0; lines && i < passage->accessed_count; i++) {
+    const struct trax_accessed *accessed = &passage->accessed[i];
+    struct heat_counts *line = line_at(heat, accessed->address);
     if (line)
-      count(line, op, accessed->outcome, 1);
+      count(line, &trax_op_table[trax_places_inst(heat->reader.explain->places, accessed->index)->op],
+            accessed->outcome, 1);
   }
 }
 
@@ -96,6 +115,9 @@ static trax_status end_heat(void *self, trax_error *error) {
   struct trax_places *places = heat->reader.explain->places;
   struct heat_counts *local = &heat->counts[trax_objects_at(&heat->objects, TRAX_LOCAL_BASE)];
   (void)error;
+  for (uint32_t i = 0; i < trax_places_count(places) + 2; i++)
+    if (heat->latest[i])
+      flush(heat, i);
   add_regions(heat);
   trax_sum_executed(heat->executed, trax_places_count(places));
   for (uint32_t i = 0; i < trax_places_count(places); i++)
@@ -177,10 +199,13 @@ static trax_status open_heat(void *self, trax_error *error) {
   const size_t places = (size_t)trax_places_count(heat->reader.explain->places) + 3;
   heat->regions = trax_explain_array(heat->objects.region_count, sizeof *heat->regions, error);
   heat->latest = trax_explain_array(places, sizeof *heat->latest, error);
+  heat->outcomes = trax_explain_array(places, sizeof *heat->outcomes, error);
   heat->executed = trax_explain_array(places, sizeof *heat->executed, error);
   heat->global = trax_explain_array(places, sizeof *heat->global, error);
-  return heat->counts && heat->parts && heat->regions && heat->latest && heat->executed && heat->global ? TRAX_OK
-                                                                                                        : TRAX_ERROR;
+  return heat->counts && heat->parts && heat->regions && heat->latest && heat->outcomes && heat->executed &&
+                 heat->global
+             ? TRAX_OK
+             : TRAX_ERROR;
 }
 
 static void close_heat(void *self) {
@@ -192,6 +217,7 @@ static void close_heat(void *self) {
   free(heat->parts);
   free(heat->regions);
   free(heat->latest);
+  free(heat->outcomes);
   free(heat->executed);
   free(heat->global);
 }

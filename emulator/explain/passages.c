@@ -6,12 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A stretch in a log. Its pieces, charges, accesses and refusals follow. */
+/* A stretch in a log. Its pieces, charges, accesses, refusals and cycles follow. */
 struct stored {
   uint64_t cycle;
   uint32_t thread, next_pc, result;
   uint16_t count, pieces, accessed;
-  bool is_refused; /* it has refusals */
+  bool is_refused, has_cycles; /* it has refusals, cycles */
   uint32_t charged;
 };
 
@@ -25,14 +25,12 @@ enum {
 struct log {
   _Alignas(64) uint8_t *bytes;
   size_t used, capacity;
-  uint32_t instructions, stretches, traps;
+  uint32_t instructions, stretches;
   struct passage {
     struct trax_passage passage;
     uint64_t cycle;
   } * passages; /* [stretches], when they are read */
   size_t passages_capacity;
-  uint64_t (*cycles)[TRAX_CAUSE_COUNT]; /* of the passages that are a trap */
-  size_t cycles_capacity;
 };
 
 struct trax_passages {
@@ -53,6 +51,10 @@ struct trax_passages {
 
 static size_t refused_bytes(bool is_refused, uint32_t count) {
   return is_refused ? (2 * (size_t)count + 7) / 8 * 8 : 0;
+}
+
+static size_t cycles_bytes(bool has_cycles) {
+  return has_cycles ? TRAX_CAUSE_COUNT * sizeof(uint64_t) : 0;
 }
 
 static bool reserve(struct log *log, size_t bytes) {
@@ -97,12 +99,13 @@ void trax_passages_add(struct trax_passages *passages, const struct trax_stretch
                                 .pieces = (uint16_t)stretch->pieces,
                                 .charged = (uint32_t)charged,
                                 .accessed = (uint16_t)stretch->accessed_count,
-                                .is_refused = stretch->refused != NULL};
-  const size_t refused = refused_bytes(stored.is_refused, stretch->count);
+                                .is_refused = stretch->refused != NULL,
+                                .has_cycles = stretch->cycles != NULL};
+  const size_t refused = refused_bytes(stored.is_refused, stretch->count), cycles = cycles_bytes(stored.has_cycles);
   const size_t arrays = stretch->pieces * sizeof *stretch->piece + charged * sizeof *thread->charged +
                         stretch->accessed_count * sizeof *stretch->accessed;
   const size_t gap = -arrays & 7;
-  if (reserve(log, sizeof stored + arrays + gap + refused)) {
+  if (reserve(log, sizeof stored + arrays + gap + refused + cycles)) {
     append(log, &stored, sizeof stored);
     append(log, stretch->piece, stretch->pieces * sizeof *stretch->piece);
     append(log, thread->charged, charged * sizeof *thread->charged);
@@ -110,8 +113,8 @@ void trax_passages_add(struct trax_passages *passages, const struct trax_stretch
     log->used += gap;
     append(log, stretch->refused, 2 * (size_t)(refused ? stretch->count : 0));
     log->used = (log->used + 7) / 8 * 8;
+    append(log, stretch->cycles, cycles);
     log->stretches++;
-    log->traps += stretch->count == 1;
   } else {
     __atomic_store_n(&passages->explain->observer.lost, true, __ATOMIC_RELAXED);
   }
@@ -128,28 +131,17 @@ void trax_passages_add(struct trax_passages *passages, const struct trax_stretch
 
 /* --- placing --- */
 
-/* Sets the indices of what belongs to a piece whose first instruction has the number `at`, and adds its cycles to
-   `cycles`. Returns the charges; *accessed becomes the accesses. */
-static size_t place_piece(const struct trax_places *places, const struct trax_piece *piece, unsigned at,
-                          struct trax_passage *passage, size_t charged, size_t *accessed, uint64_t *cycles) {
+/* Sets the indices of what belongs to a piece whose first instruction has the number `at`. Returns the charges;
+ *accessed becomes the accesses. */
+static size_t place_piece(const struct trax_piece *piece, unsigned at, struct trax_passage *passage, size_t charged,
+                          size_t *accessed) {
   const unsigned end = at + piece->count;
-  const uint8_t *const causes = trax_places_refusals(places) + piece->index;
   size_t i = *accessed;
   for (; i < passage->accessed_count && passage->accessed[i].at < end; i++)
     passage->accessed[i].index = piece->index + (passage->accessed[i].at - at);
   *accessed = i;
-  for (i = charged; i < passage->charged_count && passage->charged[i].at < end; i++) {
+  for (i = charged; i < passage->charged_count && passage->charged[i].at < end; i++)
     passage->charged[i].index = piece->index + (passage->charged[i].at - at);
-    cycles[passage->charged[i].cause] += passage->charged[i].cycles;
-  }
-  uint32_t fetch = 0;
-  for (unsigned k = 0; passage->refused && k < piece->count; k++) {
-    const uint16_t refused = passage->refused[at + k];
-    fetch += refused & 0xFF;
-    if (refused >> 8)
-      cycles[causes[k]] += refused >> 8;
-  }
-  cycles[TRAX_CAUSE_ICACHE_BANK] += fetch;
   return i;
 }
 
@@ -159,12 +151,11 @@ static void place(struct trax_explain *explain, struct trax_passage *passage) {
   unsigned at = 0;
   for (size_t i = 0; i < passage->pieces; at += passage->piece[i++].count) {
     passage->piece[i].index = trax_places_index(explain->places, passage->piece[i].pc);
-    charged = place_piece(explain->places, &passage->piece[i], at, passage, charged, &accessed, open->cycles);
+    charged = place_piece(&passage->piece[i], at, passage, charged, &accessed);
   }
   const struct trax_piece *last = &passage->piece[passage->pieces - 1];
   passage->last = last->index + last->count - 1;
   passage->inst = *trax_places_inst(explain->places, passage->last);
-  open->cycles[TRAX_CAUSE_ISSUED] += passage->count;
   open->end_pc = passage->next_pc;
 }
 
@@ -172,9 +163,8 @@ static void place(struct trax_explain *explain, struct trax_passage *passage) {
 static void place_log(void *context, uint32_t tm) {
   struct trax_passages *passages = context;
   struct log *log = &passages->logs[tm];
-  size_t count = 0, traps = 0;
-  if (!trax_grow_to((void **)&log->passages, log->stretches, &log->passages_capacity, sizeof *log->passages) ||
-      !trax_grow_to((void **)&log->cycles, log->traps, &log->cycles_capacity, sizeof *log->cycles)) {
+  size_t count = 0;
+  if (!trax_grow_to((void **)&log->passages, log->stretches, &log->passages_capacity, sizeof *log->passages)) {
     __atomic_store_n(&passages->explain->observer.lost, true, __ATOMIC_RELAXED);
     log->stretches = 0;
     return;
@@ -200,11 +190,13 @@ static void place_log(void *context, uint32_t tm) {
                                      .next_pc = stored->next_pc,
                                      .result = stored->result};
     place(passages->explain, passage);
-    if (passage->inst.op == TRAX_OP_TRAP) { /* others do not tell the thread's cycles */
-      memcpy(log->cycles[traps], passages->explain->open_threads[passage->thread].cycles, sizeof *log->cycles);
-      passage->cycles = log->cycles[traps++];
-    }
     at = refused + refused_bytes(stored->is_refused, stored->count);
+    if (stored->has_cycles) {
+      uint64_t *cycles = (void *)at;
+      trax_counters_add(cycles, passages->explain->open_threads[passage->thread].begin_cycles, cycles_bytes(true), -1);
+      passage->cycles = cycles;
+    }
+    at += cycles_bytes(stored->has_cycles);
   }
 }
 
@@ -246,7 +238,7 @@ static void read_all(void *context, uint32_t reader) {
 static void empty_logs(struct trax_passages *passages) {
   for (uint32_t tm = 0; tm < passages->tms; tm++) {
     struct log *log = &passages->logs[tm];
-    log->used = log->instructions = log->stretches = log->traps = 0;
+    log->used = log->instructions = log->stretches = 0;
   }
 }
 
@@ -355,7 +347,6 @@ void trax_passages_destroy(struct trax_passages *passages) {
   for (uint32_t tm = 0; passages->logs && tm < passages->tms; tm++) {
     free(passages->logs[tm].bytes);
     free(passages->logs[tm].passages);
-    free(passages->logs[tm].cycles);
   }
   free(passages->logs);
   free(passages->order);

@@ -126,9 +126,10 @@ TRAX_READERS(DECLARE)
 enum { TRAX_READER_KINDS = 0 TRAX_READERS(COUNT) };
 #undef COUNT
 
-/* Of the passages of a thread: cycles by cause, and where it goes on. */
+/* Of a thread: its cycles by cause at the begin of the run; its cycles so far, if the engine tells of each issue; where
+   its passages go on. */
 struct trax_open_thread {
-  uint64_t cycles[TRAX_CAUSE_COUNT];
+  uint64_t begin_cycles[TRAX_CAUSE_COUNT], cycles[TRAX_CAUSE_COUNT];
   uint32_t end_pc;
 };
 
@@ -139,6 +140,7 @@ struct trax_explain {
   struct trax_open_span *open_spans; /* [threads]: since the latest issue of each */
   bool has_spans, has_passages;      /* readers take them */
   struct trax_open_thread *open_threads; /* [threads] */
+  bool begun, by_issue;                  /* the run has begun; the engine tells of each issue and charge */
   uint32_t found;                        /* what is new in the passages that are read (explain/passages.h) */
   struct trax_passages *passages;
   struct trax_places *places;

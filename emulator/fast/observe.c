@@ -2,6 +2,9 @@
 #include "fast/time/head.h"
 
 #include <string.h>
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
 
 _Static_assert((int)TRAX_BURST <= (int)TRAX_MOST_STRETCH, "a burst is a stretch");
 
@@ -114,6 +117,9 @@ void trax_fast_tell_single(struct trax_tm *tm, unsigned number, uint32_t pc, con
   struct trax_tp *tp = &tm->tp[number];
   const bool is_global = inst->bytes && tp->address < TRAX_LOCAL_BASE;
   struct trax_accessed accessed = {.address = tp->address};
+  uint64_t cycles[TRAX_CAUSE_COUNT];
+  if (inst->op == TRAX_OP_TRAP)
+    trax_fast_read_charges(tm, number, cycles);
   if (is_global)
     accessed.outcome = take_outcome(tp, inst, true);
   tell(tm, &(struct trax_stretch){.cycle = tm->now,
@@ -124,6 +130,7 @@ void trax_fast_tell_single(struct trax_tm *tm, unsigned number, uint32_t pc, con
                                   .pieces = 1,
                                   .accessed = &accessed,
                                   .accessed_count = is_global,
+                                  .cycles = inst->op == TRAX_OP_TRAP ? cycles : NULL,
                                   .next_pc = tp->pc,
                                   .result = result_of(tp, inst)});
 }
@@ -143,6 +150,22 @@ static unsigned next_chunk(const struct trax_burst *burst, unsigned at, unsigned
   return at;
 }
 
+/* Returns a bit for each of 16 steps: those that access global memory. */
+static inline unsigned accesses_of_16(const uint16_t *step) {
+#ifdef __SSE2__
+  const __m128i kinds = _mm_set1_epi16(TRAX_STEP_KIND), bank = _mm_set1_epi16(TRAX_STEP_BANK);
+  const __m128i some = _mm_and_si128(_mm_loadu_si128((const __m128i *)step), kinds),
+                others = _mm_and_si128(_mm_loadu_si128((const __m128i *)(step + 8)), kinds);
+  return (unsigned)_mm_movemask_epi8(_mm_packs_epi16(_mm_cmpeq_epi16(some, bank), _mm_cmpeq_epi16(others, bank)));
+#else
+  unsigned found = 0;
+  for (unsigned i = 0; i < 16; i++)
+    found |= (unsigned)((step[i] & TRAX_STEP_KIND) == TRAX_STEP_BANK) << i;
+  return found;
+#endif
+}
+_Static_assert((int)TRAX_CHUNK >= 16, "so many steps may follow the last one");
+
 /* Lists the accesses to global memory of the steps from `begin` to `end`. */
 static size_t list_accesses(const struct trax_tm *tm, unsigned number, unsigned begin, unsigned end,
                             struct trax_accessed *accessed) {
@@ -150,14 +173,17 @@ static size_t list_accesses(const struct trax_tm *tm, unsigned number, unsigned 
   const uint8_t *const outcomes = tm->observed->outcomes[number];
   unsigned load = tm->observed->told_loads[number];
   size_t count = 0;
-  for (unsigned at = begin; at < end; at++) {
-    const uint8_t outcome = outcomes[load];
-    accessed[count] = (struct trax_accessed){.address = burst->loads[load],
-                                             .at = (uint8_t)(at - begin),
-                                             .outcome = outcome == TRAX_FAST_NO_OUTCOME ? TRAX_OUTCOME_HIT : outcome};
-    const bool is_access = (burst->step[at] & TRAX_STEP_KIND) == TRAX_STEP_BANK; /* no branch: hard to predict */
-    count += is_access;
-    load += is_access;
+  for (unsigned first = begin; first < end; first += 16) {
+    unsigned rest = accesses_of_16(&burst->step[first]);
+    if (end - first < 16)
+      rest &= (1u << (end - first)) - 1;
+    for (; rest; rest &= rest - 1, load++) {
+      const uint8_t outcome = outcomes[load];
+      accessed[count++] =
+          (struct trax_accessed){.address = burst->loads[load],
+                                 .at = (uint8_t)(first - begin + trax_first(rest)),
+                                 .outcome = outcome == TRAX_FAST_NO_OUTCOME ? TRAX_OUTCOME_HIT : outcome};
+    }
   }
   return count;
 }

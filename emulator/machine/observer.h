@@ -94,6 +94,9 @@ struct trax_stretch {
   /* [count], or NULL: cycles in which the instruction was refused the bank of the instruction cache, in the low byte,
      and then its unit or its bank of the data cache. They follow the charges of the log. */
   const uint16_t *refused;
+  /* Of a trap, [TRAX_CAUSE_COUNT]: what the thread was charged since the begin of the run, the trap included, as in
+     trax_tp_stats; else NULL. */
+  const uint64_t *cycles;
   uint32_t next_pc; /* of the last instruction */
   /* A trap's operand, or the value that an instruction writes to r2, the stack pointer. Such an instruction, a jalr,
      and a jal that writes a register each are a stretch of their own. */

@@ -52,7 +52,6 @@ static unsigned issued_of_burst(const struct trax_tm *tm, unsigned tp) {
   return (tm->executes_at_issue | tm->ended) >> tp & 1 ? 0 : tm->heads.at[tp];
 }
 
-/* Sets charges, [TRAX_CAUSE_COUNT], to those of a TP that is awake or has been settled, for the cycles that are over. */
 static void read_charges(const struct trax_tm *tm, unsigned number, uint64_t *charges) {
   memcpy(charges, tm->tp_stats[number].cycles, sizeof tm->tp_stats[number].cycles);
   charges[TRAX_CAUSE_ISSUED] += tm->tp[number].issued + issued_of_burst(tm, number);
@@ -61,10 +60,14 @@ static void read_charges(const struct trax_tm *tm, unsigned number, uint64_t *ch
       charges[trax_fast_refusal_causes[refused]] += (tm->refusal_counts.planes[bit][refused] >> number & 1) << bit;
 }
 
-void trax_fast_count_rays(struct trax_tm *tm, unsigned number, int32_t code, uint32_t value) {
-  uint64_t charges[TRAX_CAUSE_COUNT];
+void trax_fast_read_charges(struct trax_tm *tm, unsigned number, uint64_t *charges) {
   tm->chip->variant->count_log(&tm->refusal_counts);
   read_charges(tm, number, charges);
+}
+
+void trax_fast_count_rays(struct trax_tm *tm, unsigned number, int32_t code, uint32_t value) {
+  uint64_t charges[TRAX_CAUSE_COUNT];
+  trax_fast_read_charges(tm, number, charges);
   trax_ray_cycles_trap(tm->ray_counts, &tm->rays[number], charges, code, value);
 }
 
