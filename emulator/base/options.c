@@ -338,12 +338,13 @@ static const char *path_of(const trax_option *row, const void *target) {
 
 void trax_command_files(const trax_command *command, const void *target, trax_files *files) {
   for (const trax_option *row = command->rows; row->name; row++) {
-    char name[64];
-    snprintf(name, sizeof name, "--%.60s", row->name);
-    if (row->file == TRAX_OPTION_INPUT)
+    if (row->file == TRAX_OPTION_INPUT) {
       trax_files_input(files, NULL, path_of(row, target));
-    else if (row->file == TRAX_OPTION_OUTPUT)
+    } else if (row->file == TRAX_OPTION_OUTPUT && path_of(row, target)) {
+      char name[64];
+      snprintf(name, sizeof name, "--%.60s", row->name);
       trax_files_output(files, name, path_of(row, target));
+    }
   }
 }
 

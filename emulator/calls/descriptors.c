@@ -76,9 +76,10 @@ void trax_descriptors_begin(struct trax_calls *calls) {
 
 void trax_descriptors_forget(struct trax_calls *calls) {
   for (uint32_t i = 0; i < TRAX_MOST_DESCRIPTORS; i++)
-    if (calls->opened[i].references)
+    if (calls->opened[i].references) {
       trax_folder_release(calls, calls->opened[i].folder);
-  memset(calls->opened, 0, sizeof calls->opened);
+      calls->opened[i].references = 0;
+    }
   memset(calls->descriptors, 0, sizeof calls->descriptors);
   calls->machine->calls.print = print;
 }
