@@ -31,7 +31,7 @@ struct trax_epochs {
   enum { RUN, SAVE, RESTORE } work; /* of the pool's items: TMs, or as many parts of the snapshot */
   struct trax_merge merge;
   uint64_t length; /* cycles of the shortest epoch: from a request to its completion */
-  uint64_t end;    /* of the current epoch */
+  uint64_t begin, end; /* of the current epoch */
 
   bool has_snapshot;
   uint64_t snapshot_cycle;
@@ -90,10 +90,18 @@ static void copy_pieces(const struct trax_epochs *epochs, uint32_t part) {
   }
 }
 
+static void run_tm(struct trax_epochs *epochs, struct trax_tm *tm) {
+  if (tm->next_cycle < epochs->begin)
+    tm->next_cycle = epochs->begin;
+  trax_merge_give(&epochs->merge, tm);
+  epochs->chip->variant->run_epoch(tm, epochs->end);
+  trax_merge_take(&epochs->merge, tm);
+}
+
 static void work(void *context, uint32_t item) {
-  const struct trax_epochs *epochs = context;
+  struct trax_epochs *epochs = context;
   if (epochs->work == RUN)
-    epochs->chip->variant->run_epoch(&epochs->chip->tm[item], epochs->end);
+    run_tm(epochs, &epochs->chip->tm[item]);
   else
     copy_pieces(epochs, item);
 }
@@ -124,10 +132,7 @@ void trax_epochs_commit(struct trax_epochs *epochs) {
 
 /* Begins an epoch from cycle t on, whose end is the first cycle in which a request of it may complete. */
 static void begin_epoch(struct trax_epochs *epochs, uint64_t t, uint64_t until) {
-  const struct trax_chip *chip = epochs->chip;
-  for (uint32_t i = 0; i < chip->tms; i++)
-    if (chip->tm[i].next_cycle < t)
-      chip->tm[i].next_cycle = t;
+  epochs->begin = t;
   const uint64_t served = trax_merge_begin(&epochs->merge, t, until - t < MOST_EARLY ? until : t + MOST_EARLY);
   epochs->end = until - t < served - t + epochs->length ? until : served + epochs->length;
 }

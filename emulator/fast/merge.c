@@ -13,23 +13,27 @@ enum { BY_SEVERAL = TRAX_MAX_TMS, BY_CONTROLLER };
 /* Of a writer: the controller incremented the word before the epoch, for a cycle of the epoch. */
 #define EARLY ((uint32_t)1 << 16)
 
+enum { SLOTS = 4096 };
+
 struct trax_merge_undo {
   uint32_t address, word;
+  uint32_t writer;
+  uint32_t next; /* the number of the next one in its slot, + 1; 0: there is none */
 };
 
 bool trax_merge_create(struct trax_merge *merge, struct trax_chip *chip) {
   merge->chip = chip;
   merge->buffers = calloc(chip->tms, sizeof *merge->buffers);
-  return merge->buffers;
+  merge->slots = calloc(SLOTS, sizeof *merge->slots);
+  return merge->buffers && merge->slots;
 }
 
 void trax_merge_destroy(struct trax_merge *merge) {
   for (uint32_t i = 0; merge->buffers && i < merge->chip->tms; i++)
     trax_store_buffer_destroy(&merge->buffers[i]);
   free(merge->buffers);
-  trax_map_free(&merge->writers);
-  free(merge->writes.cycles);
-  free(merge->requests.cycles);
+  free(merge->slots);
+  free(merge->order.cycles);
   free(merge->printed);
   free(merge->undo);
 }
@@ -37,7 +41,7 @@ void trax_merge_destroy(struct trax_merge *merge) {
 void trax_merge_keep(struct trax_merge *merge) {
   if (merge->printed_count)
     trax_host_print(merge->chip->machine, merge->chip->tm->output, merge->printed, merge->printed_count);
-  merge->printed_count = merge->undo_count = 0;
+  merge->printed_count = merge->undo_count = merge->epoch_undo = 0;
   trax_transfer_log_release(&merge->chip->transfers);
 }
 
@@ -48,56 +52,82 @@ void trax_merge_roll_back(struct trax_merge *merge) {
     const struct trax_merge_undo *undo = &merge->undo[--merge->undo_count];
     memcpy(merge->chip->machine->space.bytes + undo->address, &undo->word, sizeof undo->word);
   }
+  merge->epoch_undo = 0;
 }
 
 /* --- order --- */
 
-/* Finds the first cycle from `from` on with entries. */
-static void find_next(struct trax_merge_order *order, uint64_t from) {
-  const uint64_t at = from - order->begin;
-  size_t word = at / 64;
-  uint64_t cycles = word < order->words ? order->cycles[word] >> at % 64 << at % 64 : 0;
-  while (!cycles && ++word < order->words)
-    cycles = order->cycles[word];
-  order->next = cycles ? order->begin + 64 * word + trax_first(cycles) : TRAX_NEVER;
+static void mark(struct trax_merge_order *order, uint64_t cycle, uint32_t tm) {
+  const uint64_t at = cycle - order->begin;
+  order->cycles[at / 64] |= (uint64_t)1 << at % 64;
+  order->tms[at] |= (uint64_t)1 << tm;
 }
 
-/* Orders the writes or the requests of the cycles from `begin` to `end`. False: out of memory. */
-static inline __attribute__((always_inline)) bool
-order_all(struct trax_merge_order *order, bool requests, const struct trax_merge *merge, uint64_t begin, uint64_t end) {
+/* Orders the entries of the cycles from `begin` to `end`. False: out of memory. */
+static bool order_all(struct trax_merge *merge, uint64_t begin, uint64_t end) {
+  struct trax_merge_order *const order = &merge->order;
   order->begin = begin;
   order->words = (end - begin + 63) / 64;
   if (!trax_grow_to((void **)&order->cycles, 65 * order->words, &order->capacity, sizeof *order->cycles))
     return false;
   order->tms = order->cycles + order->words;
   memset(order->cycles, 0, 65 * order->words * sizeof *order->cycles);
-  memset(order->done, 0, sizeof order->done);
   for (uint32_t tm = 0; tm < merge->chip->tms; tm++) {
     const struct trax_store_buffer *buffer = &merge->buffers[tm];
-    for (size_t i = 0; i < (requests ? buffer->request_count : buffer->write_count); i++) {
-      const uint64_t at = (requests ? buffer->requests[i] : buffer->writes[i].cycle) - begin;
-      order->cycles[at / 64] |= (uint64_t)1 << at % 64;
-      order->tms[at] |= (uint64_t)1 << tm;
-    }
+    for (size_t i = 0; i < buffer->write_count; i++)
+      mark(order, buffer->writes[i].cycle, tm);
+    for (size_t i = 0; i < buffer->request_count; i++)
+      mark(order, buffer->requests[i], tm);
   }
-  find_next(order, begin);
   return true;
+}
+
+/* Returns the first cycle with entries that are not done; TRAX_NEVER: there is none. */
+static inline uint64_t next_of(const struct trax_merge_order *order) {
+  for (size_t word = 0; word < order->words; word++)
+    if (order->cycles[word])
+      return order->begin + 64 * word + trax_first(order->cycles[word]);
+  return TRAX_NEVER;
 }
 
 /* --- writes --- */
 
+static inline uint32_t *slot_of(const struct trax_merge *merge, uint32_t address) {
+  return &merge->slots[(address >> 2) * 0x9E3779B1u / (UINT32_MAX / SLOTS + 1)];
+}
+
+/* Returns what is known of a word that was written in this epoch. NULL: it was not. */
+static inline struct trax_merge_undo *find_written(const struct trax_merge *merge, uint32_t address) {
+  struct trax_merge_undo *undo = NULL;
+  for (uint32_t i = *slot_of(merge, address); i; i = undo->next)
+    if ((undo = &merge->undo[i - 1])->address == address)
+      return undo;
+  return NULL;
+}
+
+/* Begins the write set of the next epoch. */
+static void forget_writers(struct trax_merge *merge) {
+  for (; merge->epoch_undo < merge->undo_count; merge->epoch_undo++)
+    *slot_of(merge, merge->undo[merge->epoch_undo].address) = 0;
+}
+
 /* Records that a TM or the controller is about to write the word at `address`. NULL: out of memory. */
-static const struct trax_map_entry *record_writer(struct trax_merge *merge, uint32_t address, uint32_t tm) {
+static const struct trax_merge_undo *record_writer(struct trax_merge *merge, uint32_t address, uint32_t tm) {
+  const uint32_t early = merge->early ? EARLY : 0;
+  struct trax_merge_undo *undo = find_written(merge, address &= ~3u);
+  if (undo) {
+    if ((undo->writer & ~EARLY) != tm)
+      undo->writer = BY_SEVERAL | (undo->writer & EARLY);
+    return undo;
+  }
   if (!trax_grow((void **)&merge->undo, merge->undo_count, &merge->undo_capacity, sizeof *merge->undo))
     return NULL;
-  struct trax_merge_undo *undo = &merge->undo[merge->undo_count++];
-  undo->address = address & ~3u;
-  memcpy(&undo->word, merge->chip->machine->space.bytes + undo->address, sizeof undo->word);
-  struct trax_map_entry *writer =
-      trax_map_put(&merge->writers, sizeof *writer, undo->address, tm | (merge->early ? EARLY : 0));
-  if (writer && (writer->value & ~EARLY) != tm)
-    writer->value = BY_SEVERAL | (writer->value & EARLY);
-  return writer;
+  uint32_t *const slot = slot_of(merge, address);
+  undo = &merge->undo[merge->undo_count++];
+  *undo = (struct trax_merge_undo){.address = address, .writer = tm | early, .next = *slot};
+  memcpy(&undo->word, merge->chip->machine->space.bytes + address, sizeof undo->word);
+  *slot = (uint32_t)merge->undo_count;
+  return undo;
 }
 
 static bool hold_character(struct trax_merge *merge, uint32_t character) {
@@ -120,37 +150,28 @@ static bool perform(struct trax_merge *merge, const struct trax_store_buffer_wri
   trax_fast_set_written(&chip->blocks, write->address, increments ? TRAX_BLOCK_SHARED : TRAX_BLOCK_WRITTEN);
   if (increments)
     return true;
-  const struct trax_map_entry *writer = record_writer(merge, write->address, tm);
-  if (!writer || writer->value & EARLY)
+  const struct trax_merge_undo *written = record_writer(merge, write->address, tm);
+  if (!written || written->writer & EARLY)
     return false;
   memcpy(merge->chip->machine->space.bytes + write->address, &write->value, write->bytes);
   return true;
 }
 
-/* Performs the stores of the cycles up to t. */
-static bool write_up_to(struct trax_merge *merge, uint64_t t) {
-  struct trax_merge_order *const order = &merge->writes;
-  for (; order->next <= t; find_next(order, order->next + 1))
-    for (uint64_t rest = order->tms[order->next - order->begin]; rest; rest &= rest - 1) {
-      const uint32_t tm = trax_first(rest);
-      const struct trax_store_buffer *buffer = &merge->buffers[tm];
-      for (size_t *i = &order->done[tm]; *i < buffer->write_count && buffer->writes[*i].cycle == order->next; ++*i)
-        if (!perform(merge, &buffer->writes[*i], tm))
-          return false;
-    }
+/* Submits the requests of cycle t and performs its stores, up to which all are done. */
+static bool take_cycle(struct trax_merge *merge, uint64_t t) {
+  struct trax_merge_order *const order = &merge->order;
+  const uint64_t at = t - order->begin;
+  order->cycles[at / 64] &= ~((uint64_t)1 << at % 64);
+  for (uint64_t rest = order->tms[at]; rest; rest &= rest - 1) {
+    const uint32_t tm = trax_first(rest);
+    struct trax_store_buffer *buffer = &merge->buffers[tm];
+    for (; buffer->submitted < buffer->request_count && buffer->requests[buffer->submitted] == t; buffer->submitted++)
+      trax_memory_submit(&merge->chip->memory, &merge->chip->tm[tm]);
+    for (; buffer->written < buffer->write_count && buffer->writes[buffer->written].cycle == t; buffer->written++)
+      if (!perform(merge, &buffer->writes[buffer->written], tm))
+        return false;
+  }
   return true;
-}
-
-/* Submits the requests made up to cycle t. */
-static void submit_up_to(struct trax_merge *merge, uint64_t t) {
-  struct trax_merge_order *const order = &merge->requests;
-  for (; order->next <= t; find_next(order, order->next + 1))
-    for (uint64_t rest = order->tms[order->next - order->begin]; rest; rest &= rest - 1) {
-      const uint32_t tm = trax_first(rest);
-      const struct trax_store_buffer *buffer = &merge->buffers[tm];
-      for (size_t *i = &order->done[tm]; *i < buffer->request_count && buffer->requests[*i] == order->next; ++*i)
-        trax_memory_submit(&merge->chip->memory, &merge->chip->tm[tm]);
-    }
 }
 
 /* Called before the controller increments a word. Before an epoch, bursts that have loaded the word roll back, since
@@ -166,26 +187,25 @@ static void record_increment(void *context, uint32_t address) {
 static bool run_controller(struct trax_merge *merge, uint64_t t, uint64_t end) {
   struct trax_chip *chip = merge->chip;
   struct trax_memory *memory = &chip->memory;
-  while (t < end) {
-    submit_up_to(merge, t);
-    if (!write_up_to(merge, t))
+  uint64_t next = trax_memory_has_waiting(memory) ? t : TRAX_NEVER, next_entry;
+  while ((t = next < (next_entry = next_of(&merge->order)) ? next : next_entry) < end) {
+    if (t == next_entry && !take_cycle(merge, t))
       return false;
     trax_memory_cycle(memory, chip->tm, &chip->machine->space, t);
-    const uint64_t next = trax_memory_next_cycle(memory, t), next_request = merge->requests.next;
-    t = next < next_request ? next : next_request;
+    next = trax_memory_next_cycle(memory, t);
   }
-  return write_up_to(merge, end);
+  return true;
 }
 
 /* Whether a TM has read a word that another TM or the controller wrote in this epoch. The blocks of such words are
    SHARED from then on. */
 static bool has_conflict(const struct trax_merge *merge) {
   bool found = false;
-  for (uint32_t i = 0; merge->writers.count && i < merge->chip->tms; i++) {
+  for (uint32_t i = 0; merge->epoch_undo < merge->undo_count && i < merge->chip->tms; i++) {
     const struct trax_store_buffer *buffer = &merge->buffers[i];
     for (size_t j = 0; j < buffer->read_count; j++) {
-      const struct trax_map_entry *writer = trax_map_find(&merge->writers, sizeof *writer, buffer->reads[j]);
-      if (writer && (writer->value & ~EARLY) != i) {
+      const struct trax_merge_undo *written = find_written(merge, buffer->reads[j]);
+      if (written && (written->writer & ~EARLY) != i) {
         trax_fast_set_written(&merge->chip->blocks, buffer->reads[j], TRAX_BLOCK_SHARED);
         found = true;
       }
@@ -198,36 +218,32 @@ static bool has_conflict(const struct trax_merge *merge) {
 
 uint64_t trax_merge_begin(struct trax_merge *merge, uint64_t t, uint64_t until) {
   struct trax_chip *chip = merge->chip;
-  trax_map_empty(&merge->writers, sizeof(struct trax_map_entry));
   merge->failed = false;
   chip->memory.before_increment = record_increment;
   chip->memory.context = merge;
   merge->early = true;
   const uint64_t served = trax_memory_serve_early(&chip->memory, chip->tm, chip->tms, &chip->machine->space, t, until);
   merge->early = false;
-  for (uint32_t i = 0; i < chip->tms; i++) {
-    trax_store_buffer_begin(&merge->buffers[i]);
-    chip->tm[i].buffer = &merge->buffers[i];
-  }
   return served;
 }
 
-/* Whether the TMs have done all that they had to, and only what a store buffer can hold. */
-static bool is_complete(const struct trax_merge *merge) {
-  const struct trax_chip *chip = merge->chip;
-  for (uint32_t i = 0; i < chip->tms; i++)
-    if (merge->buffers[i].stop || chip->tm[i].fault.kind)
-      return false;
-  return trax_chip_running(chip); /* the end of the run must be simulated cycle by cycle */
+void trax_merge_give(struct trax_merge *merge, struct trax_tm *tm) {
+  tm->buffer = &merge->buffers[tm->number];
+  trax_store_buffer_begin(tm->buffer);
+}
+
+void trax_merge_take(struct trax_merge *merge, struct trax_tm *tm) {
+  if (tm->buffer->stop || tm->fault.kind)
+    __atomic_store_n(&merge->failed, true, __ATOMIC_RELAXED);
+  tm->buffer = NULL;
 }
 
 bool trax_merge_end(struct trax_merge *merge, uint64_t t, uint64_t end) {
   struct trax_chip *chip = merge->chip;
-  for (uint32_t i = 0; i < chip->tms; i++)
-    chip->tm[i].buffer = NULL;
-  const bool good = is_complete(merge) && order_all(&merge->writes, false, merge, t, end) &&
-                    order_all(&merge->requests, true, merge, t, end) && run_controller(merge, t, end) &&
+  const bool goes_on = trax_chip_running(chip); /* the end of the run must be simulated cycle by cycle */
+  const bool good = !merge->failed && goes_on && order_all(merge, t, end) && run_controller(merge, t, end) &&
                     !merge->failed && !has_conflict(merge);
+  forget_writers(merge);
   chip->memory.before_increment = trax_fast_increment_outside;
   chip->memory.context = chip;
   return good;

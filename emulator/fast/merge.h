@@ -4,40 +4,46 @@
 #define TRAX_FAST_MERGE_H
 
 #include "machine/config.h"
-#include "trax/map.h"
+
+#include <stdbool.h>
+#include <stddef.h>
 
 struct trax_chip;
+struct trax_tm;
 
 /* Entries of store buffers, in the order of their cycles; those of one cycle in the order of TMs, and of making. */
 struct trax_merge_order {
   uint64_t begin;   /* the epoch's first cycle */
-  uint64_t *cycles; /* [words]: masks of the epoch's cycles with entries */
+  uint64_t *cycles; /* [words]: masks of the epoch's cycles with entries that are not done */
   uint64_t *tms;    /* [64 * words], behind them: for each cycle a mask of the TMs with entries */
   size_t words, capacity;
-  uint64_t next;             /* the first cycle with entries that are not done; TRAX_NEVER: there is none */
-  size_t done[TRAX_MAX_TMS]; /* entries of the TM */
 };
 
 struct trax_merge {
   struct trax_chip *chip;
   struct trax_store_buffer *buffers; /* [tms] */
-  struct trax_map writers;           /* the write set of the epoch: for each word its writer */
   bool early;                        /* the controller now serves requests for cycles of the epoch to come */
-  bool failed;                       /* out of memory */
-  struct trax_merge_order writes, requests;
+  bool failed;                       /* the epoch must be given up */
+  struct trax_merge_order order;
   char *printed; /* [printed_count]: characters printed since the snapshot */
   size_t printed_count, printed_capacity;
-  struct trax_merge_undo *undo; /* [undo_count]: words of global memory before they were written since the snapshot */
-  size_t undo_count, undo_capacity;
+  /* [undo_count]: words of global memory before they were written since the snapshot. Those from epoch_undo on are the
+     write set of the epoch: `slots` are a hash table of them. */
+  struct trax_merge_undo *undo;
+  size_t undo_count, undo_capacity, epoch_undo;
+  uint32_t *slots;
 };
 
 /* False: out of memory. It must be destroyed in either case. */
 bool trax_merge_create(struct trax_merge *merge, struct trax_chip *chip);
 void trax_merge_destroy(struct trax_merge *merge);
 
-/* Starts the transfers of the cycles from t to `until` that do not depend on the requests of the epoch to come, and
-   gives the TMs empty store buffers. Returns the first cycle whose transfers may depend on these requests. */
+/* Starts the transfers of the cycles from t to `until` that do not depend on the requests of the epoch to come. Returns
+ * the first cycle whose transfers may depend on these requests. */
 uint64_t trax_merge_begin(struct trax_merge *merge, uint64_t t, uint64_t until);
+/* Gives a TM an empty store buffer; takes it from the TM after its cycles. To be called by the TM's thread. */
+void trax_merge_give(struct trax_merge *merge, struct trax_tm *tm);
+void trax_merge_take(struct trax_merge *merge, struct trax_tm *tm);
 /* Ends the epoch of the cycles from t to `end`. False: it must be given up. */
 bool trax_merge_end(struct trax_merge *merge, uint64_t t, uint64_t end);
 

@@ -13,7 +13,7 @@ void trax_store_buffer_destroy(struct trax_store_buffer *buffer) {
 }
 
 void trax_store_buffer_begin(struct trax_store_buffer *buffer) {
-  buffer->write_count = buffer->read_count = buffer->request_count = 0;
+  buffer->write_count = buffer->written = buffer->read_count = buffer->request_count = buffer->submitted = 0;
   trax_map_empty(&buffer->words, sizeof(struct trax_store_buffer_word));
   buffer->stop = false;
 }

@@ -12,7 +12,8 @@
 struct trax_store_buffer_write {
   uint64_t cycle;
   uint32_t address, value;
-  uint32_t bytes; /* or TRAX_INCREMENT, which the controller will perform, or TRAX_PRINT: a character of the output */
+  uint32_t bytes; /* or TRAX_INCREMENT, which the controller will perform, in a block that is not SHARED yet; or
+                     TRAX_PRINT: a character of the output */
 };
 enum { TRAX_INCREMENT = 0, TRAX_PRINT = 8 };
 
@@ -24,12 +25,12 @@ struct trax_store_buffer_word {
 
 struct trax_store_buffer {
   struct trax_store_buffer_write *writes; /* [write_count], in the order of issue */
-  size_t write_count, write_capacity;
+  size_t write_count, write_capacity, written; /* written: those that have taken effect */
   uint32_t *reads; /* [read_count]: the words that loads have read from blocks that are written; docs/fast-engine.md,
                       read set */
   size_t read_count, read_capacity;
   uint64_t *requests; /* [request_count]: the cycles in which they were made */
-  size_t request_count, request_capacity;
+  size_t request_count, request_capacity, submitted; /* submitted: those that the controller has */
   struct trax_map words; /* of struct trax_store_buffer_word */
   bool stop;             /* the epoch must be given up: output, or out of memory */
 };

@@ -22,6 +22,11 @@ static inline bool trax_fast_is_loaded(const struct trax_fast_blocks *blocks, ui
          address - blocks->input < blocks->input_bytes;
 }
 
+/* Whether no burst loads the word, whatever happens. */
+static inline bool trax_fast_is_shared(const struct trax_fast_blocks *blocks, uint32_t address) {
+  return __atomic_load_n(&blocks->state[address >> TRAX_BLOCK_SHIFT], __ATOMIC_RELAXED) == TRAX_BLOCK_SHARED;
+}
+
 /* Requires that the block is not LOADED, or that all TPs have rolled back. state: WRITTEN or SHARED. */
 static inline void trax_fast_set_written(struct trax_fast_blocks *blocks, uint32_t address, uint8_t state) {
   uint8_t *const block = &blocks->state[address >> TRAX_BLOCK_SHIFT];

@@ -178,10 +178,7 @@ static void serve_ring(struct trax_memory *memory, struct trax_tm *tms, struct t
 static inline void serve_channel(struct trax_memory *memory, struct trax_tm *tms, struct trax_space *space,
                                  unsigned number, uint64_t t) {
   while (has_waiting(&memory->channel[number]) && is_free(&memory->channel[number], t))
-    if (memory->keeps_order)
-      serve_ring(memory, tms, space, t);
-    else
-      serve(memory, tms, space, number, t);
+    serve(memory, tms, space, number, t);
 }
 
 /* Whether a TM without a waiting request, which the arbiter would prefer to the next TM with one, may make a request by
@@ -210,6 +207,11 @@ uint64_t trax_memory_serve_early(struct trax_memory *memory, struct trax_tm *tms
 }
 
 void trax_memory_cycle(struct trax_memory *memory, struct trax_tm *tms, struct trax_space *space, uint64_t t) {
+  if (memory->keeps_order) {
+    while (memory->waiting && is_free(memory->channel, t))
+      serve_ring(memory, tms, space, t);
+    return;
+  }
   if (memory->l2 && memory->l2->waiting)
     trax_l2_cycle(memory, tms, t);
   for (unsigned i = 0; i < memory->channels && memory->waiting; i++)
