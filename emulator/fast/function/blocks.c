@@ -98,7 +98,7 @@ static void roll_back_readers(struct trax_tm *tm, uint64_t tps, uint32_t begin, 
 /* The same for a word that one of the TPs `but` writes: it has issued its own loads of it. */
 static void roll_back_word_readers(struct trax_tm *tm, uint32_t address, uint64_t but) {
   const unsigned line = trax_fast_line_hash(address);
-  for (uint64_t rest = tm->readers[line]; rest; rest &= rest - 1)
+  for (uint64_t rest = tm->readers[line] & ~but; rest; rest &= rest - 1)
     if (!(tm->watched[trax_first(rest)] >> line % 64 & 1)) /* of an earlier burst */
       tm->readers[line] &= ~(rest & -rest);
   roll_back_readers(tm, tm->readers[line] & ~but, address & ~3u, 4);

@@ -18,12 +18,15 @@ static inline unsigned data_bank(uint32_t banks, uint32_t mask, uint32_t address
   return LIKELY(mask) ? address / 4 & mask : address / 4 % banks;
 }
 
-/* Records `count` instructions from index on as the steps from `at` on. */
+/* Records an instruction, or those of a chunk, from index on as the steps from `at` on. */
 static inline void record(struct trax_burst *burst, unsigned at, const uint16_t *step, uint32_t index,
                           const unsigned count) {
+  typedef uint16_t eight __attribute__((vector_size(16), aligned(2), may_alias));
+  const eight numbers = (eight){0, 1, 2, 3, 4, 5, 6, 7} + (uint16_t)index;
   memcpy(burst->step + at, step, count * sizeof *step);
-  for (unsigned i = 0; i < count; i++)
-    burst->index[at + i] = (uint16_t)(index + i);
+  burst->index[at] = (uint16_t)index;
+  for (unsigned i = 0; i + 8 <= count; i += 8)
+    *(eight *)(burst->index + at + i) = numbers + (uint16_t)i;
 }
 
 /* Whether the burst has a store to the word among its first `loads` accesses. */
