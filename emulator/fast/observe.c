@@ -135,17 +135,20 @@ void trax_fast_tell_single(struct trax_tm *tm, unsigned number, uint32_t pc, con
                                   .result = result_of(tp, inst)});
 }
 
-/* Returns the first step from `at` on, and before `end`, with which a chunk of the burst begins; else `end`. */
-static unsigned next_chunk(const struct trax_burst *burst, unsigned at, unsigned end) {
-  const uint64_t ones = 0x0101010101010101;
+/* Returns the first step from `at` on, and before `end`, that is behind a taken jump; else `end`. `at` is not 0. */
+static unsigned next_piece(const struct trax_burst *burst, unsigned at, unsigned end) {
+  typedef uint16_t eight __attribute__((vector_size(16)));
   for (; at + 8 <= end; at += 8) {
-    uint64_t distances;
-    memcpy(&distances, &burst->distance[at], sizeof distances);
-    const uint64_t zeros = (distances - ones) & ~distances & 0x80 * ones;
-    if (zeros)
-      return at + trax_first(zeros) / 8;
+    eight index, before;
+    memcpy(&index, &burst->index[at], sizeof index);
+    memcpy(&before, &burst->index[at - 1], sizeof before);
+    const halves jumps = (halves)(index - before != 1);
+    if (jumps[0])
+      return at + trax_first(jumps[0]) / 16;
+    if (jumps[1])
+      return at + 4 + trax_first(jumps[1]) / 16;
   }
-  while (at < end && burst->distance[at])
+  while (at < end && (uint16_t)(burst->index[at] - burst->index[at - 1]) == 1)
     at++;
   return at;
 }
@@ -199,11 +202,8 @@ void trax_fast_tell_steps(struct trax_tm *tm, unsigned number, unsigned end, uin
     return;
   for (unsigned at = begin; at < end;) {
     const uint32_t pc = tm->chip->program.timing[trax_fast_index(tp, at)].pc;
-    const unsigned next = next_chunk(&tp->burst, at + 1, end);
-    if (count && pieces[count - 1].pc + 4 * pieces[count - 1].count == pc) /* the next chunk */
-      pieces[count - 1].count += next - at;
-    else
-      pieces[count++] = (struct trax_piece){pc, next - at, 0};
+    const unsigned next = next_piece(&tp->burst, at + 1, end);
+    pieces[count++] = (struct trax_piece){pc, next - at, 0};
     at = next;
   }
   const size_t accessed_count = list_accesses(tm, number, begin, end, accessed);

@@ -58,8 +58,8 @@ FIELDS(trax_l2, TRAX_L2_STATE);
 
 static void visit_tags(const struct visitor *visitor, struct trax_cache_tags *tags) {
   const size_t sets = (size_t)tags->set_mask + 1;
-  VISIT_NUMBERS(uint64_t, tags->lines, sets * tags->ways);
-  VISIT_NUMBERS(uint64_t, tags->next, sets);
+  VISIT_NUMBERS(uint32_t, tags->lines, sets * tags->ways);
+  VISIT_NUMBERS(uint32_t, tags->next, sets);
 }
 
 static void visit_queue(const struct visitor *visitor, struct trax_queue *queue) {

@@ -27,14 +27,20 @@ const uint8_t *trax_emit_record(struct trax_translation *t, size_t begin, size_t
   trax_emit(t, "\x41\x81\xFF", 3); /* cmp r15d, TRAX_BURST - count */
   trax_emit_word(t, (uint32_t)(TRAX_BURST - count));
   emit_near(t, "\x0F\x8F", 2, full);                                         /* jg full */
-  emit_member(t, "\x43\xC7\x84\xBE", 4, offsetof(struct trax_burst, index)); /* mov [r14 + 4 r15 + ...], begin */
-  trax_emit_word(t, (uint32_t)begin);
-  emit_near(t, "\x0F\x10\x05", 3, t->distances);                                    /* movups xmm0, [distances] */
-  emit_member(t, "\x43\x0F\x11\x84\x3E", 5, offsetof(struct trax_burst, distance)); /* movups [r14 + r15 + ...], xmm0 */
+  if (t->count > TRAX_REACH) { /* mov eax, begin + reach; sub eax, [r14 + ...]; cmp eax, 2 reach; ja full */
+    trax_emit_byte(t, 0xB8);
+    trax_emit_word(t, (uint32_t)begin + TRAX_REACH);
+    emit_member(t, "\x41\x2B\x86", 3, offsetof(struct trax_burst, first));
+    emit_member(t, "\x3D", 1, 2 * TRAX_REACH);
+    emit_near(t, "\x0F\x87", 2, full);
+  }
   for (size_t i = 0; i < count; i += 8) {
-    emit_near(t, "\x0F\x10\x05", 3, t->step + begin + i); /* movups xmm0, [step] */
-    emit_member(t, "\x43\x0F\x11\x84\x7E", 5,             /* movups [r14 + 2 r15 + ...], xmm0 */
+    emit_near(t, "\x0F\x10\x05", 3, t->step + begin + i);   /* movups xmm0, [step] */
+    emit_near(t, "\x0F\x10\x0D", 3, t->number + begin + i); /* movups xmm1, [number] */
+    emit_member(t, "\x43\x0F\x11\x84\x7E", 5,               /* movups [r14 + 2 r15 + ...], xmm0 */
                 offsetof(struct trax_burst, step) + i * sizeof *t->step);
+    emit_member(t, "\x43\x0F\x11\x8C\x7E", 5, /* movups [r14 + 2 r15 + ...], xmm1 */
+                offsetof(struct trax_burst, index) + i * sizeof *t->number);
   }
   trax_emit(t, "\x48\xB8", 2); /* mov rax, lines */
   trax_emit(t, &lines, sizeof lines);
@@ -65,7 +71,9 @@ unsigned trax_translation_burst(struct trax_translation *t, size_t index, struct
   state->local = run->local;
   state->deltas = run->deltas;
   state->input_bytes = run->input_bytes;
-  run->burst->load_count = run->burst->jumps = run->burst->undo_count = 0;
+  run->burst->load_count = run->burst->jumps = 0;
+  run->burst->undo_begin = TRAX_BURST + 1;
+  run->burst->first = (uint32_t)index;
   run->burst->lines = 0;
   const uint32_t next = enter(state, t->entry[index], 0, run->burst);
   memcpy(run->reg + 1, state->reg + 1, (TRAX_NUM_REGISTERS - 1) * sizeof *state->reg);

@@ -8,9 +8,10 @@
 #include <stdint.h>
 
 enum {
-  TRAX_BURST = 128, /* limit of a burst's instructions: a TM's bursts should fit in the host's caches */
-  TRAX_CHUNK = 32,  /* instructions of a chunk, which begins at a multiple of it */
-  TRAX_PIECE = 16   /* most instructions of a translated sequence */
+  TRAX_BURST = 128,  /* limit of a burst's instructions: a TM's bursts should fit in the host's caches */
+  TRAX_CHUNK = 32,   /* instructions of a chunk, which begins at a multiple of it */
+  TRAX_PIECE = 16,   /* most instructions of a translated sequence */
+  TRAX_REACH = 32000 /* most instructions between a burst's first one and the beginning of a chunk or sequence */
 };
 
 /* The state of a block of global memory in the run (fast/function/blocks.h). */
@@ -18,29 +19,23 @@ enum { TRAX_BLOCK_SHIFT = 4, TRAX_BLOCK_LOADED = 1, TRAX_BLOCK_WRITTEN, TRAX_BLO
 
 enum { TRAX_STEP_BANK_SHIFT = 4 /* a data bank's place in a step */ };
 
-struct trax_burst_undo {
-  uint32_t address, word; /* a word of local memory, or of global memory if the thread is alone, before a store */
+/* A load of global memory, with the value from a written block; a store to it, with the value that takes effect at its
+   issue; or a word of local memory, or of global memory if the thread is alone, before a store: an undo. */
+struct trax_burst_access {
+  uint32_t address, word;
 };
 
-/* Steps are recorded by segments: neighbouring instructions. The last step may be followed by others that are not part
-   of the burst. */
+/* The last step may be followed by others that are not part of the burst. */
 struct trax_burst {
-  _Alignas(64) uint16_t step[TRAX_BURST + TRAX_CHUNK];
-  uint8_t distance[TRAX_BURST + TRAX_CHUNK]; /* [step]: from the first step of its segment */
-  uint32_t index[TRAX_BURST + TRAX_CHUNK];   /* [first step of a segment]: the index of its instruction */
-  uint32_t loads[TRAX_BURST + 1];            /* the addresses of the loads of global memory, and stores to it */
-  uint32_t load_count;
-  uint32_t jumps; /* taken jumps, that of the last step included */
-  uint64_t lines; /* bit line % 64: a superset of the lines of the steps */
-  uint32_t undo_count;
-  struct trax_burst_undo undo[TRAX_BURST];
+  _Alignas(64) uint64_t lines; /* bit line % 64: a superset of the lines of the steps */
+  uint32_t jumps;              /* taken jumps, that of the last step included */
+  uint32_t first;              /* the index of the first instruction */
+  uint32_t load_count;         /* loads of global memory, and stores to it: from access[0] on */
+  uint32_t undo_begin;         /* the latest undo; the others follow, up to access[TRAX_BURST] */
+  uint16_t step[TRAX_BURST + TRAX_CHUNK];
+  uint16_t index[TRAX_BURST + TRAX_CHUNK]; /* the low bits of the instructions' indices, which are near the first one */
+  struct trax_burst_access access[TRAX_BURST + 1];
 };
-
-/* Returns the place of the value of load `load` from a written block, or of a store: they grow from the end of `undo`
-   towards its entries, and both together are no more than the burst's instructions. */
-static inline uint32_t *trax_burst_value(struct trax_burst *burst, unsigned load) {
-  return (uint32_t *)(burst->undo + TRAX_BURST) - 1 - load;
-}
 
 /* The facts that translated bursts depend on. */
 struct trax_burst_facts {

@@ -77,7 +77,7 @@ struct trax_translation {
   size_t mapping_bytes;
   const uint8_t **entry; /* [count]: the code of the sequence that begins there, or `leave` */
   uint16_t *step;        /* [count + TRAX_PIECE]: a copy of trax_burst_facts.step, near the code */
-  const uint8_t *distances; /* [TRAX_PIECE]: 0, 1 and so on */
+  uint16_t *number;      /* [count + TRAX_PIECE]: 0, 1 and so on */
   const uint8_t *pool;
   uint8_t *code, *at;           /* the next byte */
   const uint8_t *enter, *leave; /* called by C; returns to C */

@@ -77,9 +77,10 @@ static inline uint32_t read_bytes(const uint8_t *from, unsigned bytes) {
 static inline void record_load(uint32_t address) {
   const uint32_t step = (address << (TRAX_STEP_BANK_SHIFT - 2) & CONSTANT(trax_bank_mask)) | CONSTANT(trax_step);
   uint64_t load;
-  __asm__ volatile("mov %c2(%%r14), %k0 # state\n\tmov %1, %c3(%%r14,%0,4) # state\n\tincl %c2(%%r14) # state"
+  __asm__ volatile("mov %c2(%%r14), %k0 # state\n\tmov %1, %c3(%%r14,%0,8) # state\n\tincl %c2(%%r14) # state"
                    : "=&r"(load)
-                   : "r"(address), "i"(offsetof(struct trax_burst, load_count)), "i"(offsetof(struct trax_burst, loads))
+                   : "r"(address), "i"(offsetof(struct trax_burst, load_count)),
+                     "i"(offsetof(struct trax_burst, access))
                    : "memory");
   __asm__ volatile("movw %w0, trax_step_at(%%r14,%%r15,2) # state" : : "r"(step) : "memory");
 }
@@ -94,11 +95,11 @@ static inline void record_undo(uint32_t address, const uint8_t *place) {
   uint64_t undo;
   uint32_t word;
   memcpy(&word, place, sizeof word);
-  __asm__ volatile("mov %c3(%%r14), %k0 # state\n\tmov %1, %c4(%%r14,%0,8) # state\n\t"
-                   "mov %2, %c4+4(%%r14,%0,8) # state\n\tincl %c3(%%r14) # state"
+  __asm__ volatile("mov %c3(%%r14), %k0 # state\n\tdec %k0\n\tmov %1, %c4(%%r14,%0,8) # state\n\t"
+                   "mov %2, %c4+4(%%r14,%0,8) # state\n\tmov %k0, %c3(%%r14) # state"
                    : "=&r"(undo)
-                   : "r"(address), "r"(word), "i"(offsetof(struct trax_burst, undo_count)),
-                     "i"(offsetof(struct trax_burst, undo))
+                   : "r"(address), "r"(word), "i"(offsetof(struct trax_burst, undo_begin)),
+                     "i"(offsetof(struct trax_burst, access))
                    : "memory");
 }
 

@@ -44,9 +44,6 @@ static void begin_code(struct trax_translation *t) {
         break;
     }
   trax_set_places(t, weight);
-  t->distances = t->at;
-  for (unsigned i = 0; t->bursts && i < TRAX_PIECE; i++)
-    trax_emit_byte(t, i);
   trax_emit_frame(t);
   for (size_t i = 0; i < t->count; i++)
     t->entry[i] = t->leave;
@@ -154,7 +151,7 @@ struct trax_translation *trax_translation_create(const struct trax_text *text, c
   t->heat = calloc(t->count, sizeof *t->heat);
   t->hot = calloc(t->count, sizeof *t->hot);
   t->state = calloc(tms, sizeof *t->state);
-  const size_t step_bytes = bursts ? (t->count + TRAX_PIECE) * sizeof *t->step : 0;
+  const size_t step_bytes = bursts ? 2 * (t->count + TRAX_PIECE) * sizeof *t->step : 0;
   const size_t table_bytes = (t->count * sizeof *t->entry + step_bytes + PAGE - 1) / PAGE * PAGE;
   t->mapping_bytes = table_bytes + POOL_BYTES + TRAX_CODE;
   void *const mapping = mmap(NULL, t->mapping_bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -166,8 +163,11 @@ struct trax_translation *trax_translation_create(const struct trax_text *text, c
   }
   t->entry = (const uint8_t **)t->mapping;
   t->step = (uint16_t *)(t->entry + t->count);
-  if (bursts)
-    memcpy(t->step, bursts->step, t->count * sizeof *t->step);
+  t->number = t->step + t->count + TRAX_PIECE;
+  for (size_t i = 0; bursts && i < t->count; i++) {
+    t->step[i] = bursts->step[i];
+    t->number[i] = (uint16_t)i;
+  }
   t->pool = t->mapping + table_bytes;
   memcpy(t->mapping + table_bytes, trax_template_pool, trax_template_pool_bytes);
   t->code = t->at = t->mapping + table_bytes + POOL_BYTES;

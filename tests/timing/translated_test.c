@@ -75,6 +75,64 @@ static void test_large_sequences(void **state) {
   end(&b);
 }
 
+/* A loop in another segment, from end to end of it: a burst's record has 16 bits of an instruction's number. */
+enum { FAR = 0x100000, FAR_WORDS = 66000 };
+
+static void map_far(void *context, struct trax_machine *machine) {
+  const uint32_t begin[] = {I(ADDI, 1, 1, 1), J(0, 4 * (FAR_WORDS - 5))},
+                 end[] = {I(ADDI, 31, 31, -1), B(BEQ, 31, 0, 8), J(0, -4 * (FAR_WORDS - 2)), HALT};
+  uint8_t *text;
+  (void)context;
+  assert_int_equal(trax_machine_map(machine, FAR, 4 * FAR_WORDS, TRAX_PERMIT_READ | TRAX_PERMIT_EXECUTE, &text, NULL),
+                   TRAX_OK);
+  memcpy(text, begin, sizeof begin);
+  memcpy(text + 4 * (FAR_WORDS - 4), end, sizeof end);
+}
+
+static void test_far_jumps(void **state) {
+  const struct trax_config config = bench_near(1, 2);
+  const uint32_t words[] = {I(ADDI, 31, 0, 60), I(ADDI, 2, 0, 1), I(SLLI, 2, 2, 20), R1(JALR, 0, 2)};
+  const trax_run_options reference = {.engine = "reference"};
+  struct run a = run_prepared(&config, words, 4, &reference, map_far, NULL);
+  (void)state;
+  assert_int_equal(a.bench.status, TRAX_OK);
+  for (unsigned i = 0; i < 2; i++) {
+    const trax_run_options fast = {.engine = i ? bursts.translated : bursts.interpreted};
+    struct run b = run_prepared(&config, words, 4, &fast, map_far, NULL);
+    expect_same(&a, &b);
+    end(&b);
+  }
+  end(&a);
+}
+
+/* A load that ends a translated burst is no store, though the burst before, which was interpreted, had one in its
+   place. If it were taken for one, it would execute at issue. */
+static void test_load_in_the_place_of_a_store(void **state) {
+  enum { NOPS = 150, LOOP = 4, STORE = LOOP + 2 + NOPS + 1 };
+  const struct trax_config config = bench_near(1, 2);
+  uint32_t words[STORE + 3] = {U(LUI, 20, 1),      I(ADDI, 21, 0, TEXT / 4), I(SLLI, 21, 21, 2),
+                               I(ADDI, 31, 0, 20), I(ADDI, 31, 31, -1),      B(BEQ, 31, 0, 4 * (STORE - 3))};
+  uint64_t at_issue[2];
+  (void)state;
+  for (unsigned i = 0; i < NOPS; i++)
+    words[LOOP + 2 + i] = NOP;
+  words[STORE - 1] = I(LW, 1, 21, 0); /* the program's own words are never written */
+  words[STORE] = S(SW, 31, 20, 0);
+  words[STORE + 1] = J(0, 4 * (LOOP - STORE - 1));
+  words[STORE + 2] = HALT;
+  for (unsigned i = 0; i < 2; i++) {
+    const trax_run_options options = {.engine = i ? bursts.translated : bursts.interpreted};
+    struct run run = run_with(&config, words, STORE + 3, &options);
+    const struct trax_slow_path *path = run.bench.machine->slow_paths.path;
+    assert_int_equal(run.bench.status, TRAX_OK);
+    while (strcmp(path->name, "executed at issue") != 0)
+      path++;
+    at_issue[i] = path->part;
+    end(&run);
+  }
+  assert_int_equal(at_issue[0], at_issue[1]);
+}
+
 struct trax_template *mutable_templates(unsigned op), *mutable_burst_templates(unsigned op); /* mutable_templates.c */
 
 static bool is_slow(unsigned op) {
@@ -196,9 +254,12 @@ static void test_mutants(void **state) {
 
 int main(void) {
   void *const both[] = {(void *)(uintptr_t)&functional, (void *)(uintptr_t)&bursts};
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test_prestate(test_equal, both[0]), cmocka_unit_test(test_large_sequences),
-      cmocka_unit_test_prestate(test_mutants, both[0]), cmocka_unit_test_prestate(test_equal, both[1]),
-      cmocka_unit_test_prestate(test_mutants, both[1])};
+  const struct CMUnitTest tests[] = {cmocka_unit_test_prestate(test_equal, both[0]),
+                                     cmocka_unit_test(test_large_sequences),
+                                     cmocka_unit_test(test_far_jumps),
+                                     cmocka_unit_test(test_load_in_the_place_of_a_store),
+                                     cmocka_unit_test_prestate(test_mutants, both[0]),
+                                     cmocka_unit_test_prestate(test_equal, both[1]),
+                                     cmocka_unit_test_prestate(test_mutants, both[1])};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -45,8 +45,8 @@ void trax_fast_roll_back_tp(struct trax_tm *tm, unsigned number) {
     return;
   if (tm->observed)
     trax_fast_tell_before(tm, number);
-  while (tp->burst.undo_count) {
-    const struct trax_burst_undo *undo = &tp->burst.undo[--tp->burst.undo_count];
+  for (; tp->burst.undo_begin <= TRAX_BURST; tp->burst.undo_begin++) {
+    const struct trax_burst_access *undo = &tp->burst.access[tp->burst.undo_begin];
     memcpy(undo->address < TRAX_LOCAL_BASE ? chip->machine->space.bytes + undo->address
                                            : tp->local + (undo->address - TRAX_LOCAL_BASE),
            &undo->word, sizeof undo->word);
@@ -84,7 +84,7 @@ void trax_fast_roll_back(void *context) {
 static bool reads(const struct trax_tm *tm, unsigned number, uint32_t begin, uint32_t bytes) {
   const struct trax_tp *tp = &tm->tp[number];
   for (uint32_t i = tm->heads.load[number] - (tm->heads.load[number] > 0); i < tp->burst.load_count; i++)
-    if ((tp->burst.loads[i] & ~3u) - begin < bytes && !trax_tp_stores(tp, i))
+    if ((tp->burst.access[i].address & ~3u) - begin < bytes && !trax_tp_stores(tp, i))
       return true;
   return false;
 }
@@ -99,7 +99,7 @@ static void roll_back_readers(struct trax_tm *tm, uint64_t tps, uint32_t begin, 
 /* The same for a word that one of the TPs `but` writes: it has issued its own loads of it. */
 static void roll_back_word_readers(struct trax_tm *tm, uint32_t address, uint64_t but) {
   const unsigned line = trax_fast_line_hash(address);
-  for (uint64_t rest = tm->readers[line]; rest; rest &= rest - 1)
+  for (uint64_t rest = tm->readers[line] & ~but; rest; rest &= rest - 1)
     if (!(tm->watched[trax_first(rest)] >> line % 64 & 1)) /* of an earlier burst */
       tm->readers[line] &= ~(rest & -rest);
   roll_back_readers(tm, tm->readers[line] & ~but, address & ~3u, 4);
@@ -113,10 +113,10 @@ void trax_fast_record_readers(struct trax_tm *tm) {
   const uint8_t *const state = tm->chip->blocks.state;
   for (unsigned number = 0; number < tm->tps; number++)
     for (uint32_t i = tm->heads.load[number]; tm->watched[number] && i < tm->tp[number].burst.load_count; i++)
-      if (__atomic_load_n(&state[tm->tp[number].burst.loads[i] >> TRAX_BLOCK_SHIFT], __ATOMIC_RELAXED) >=
+      if (__atomic_load_n(&state[tm->tp[number].burst.access[i].address >> TRAX_BLOCK_SHIFT], __ATOMIC_RELAXED) >=
               TRAX_BLOCK_WRITTEN &&
           !trax_tp_stores(&tm->tp[number], i))
-        trax_store_buffer_read(tm->buffer, tm->tp[number].burst.loads[i]);
+        trax_store_buffer_read(tm->buffer, tm->tp[number].burst.access[i].address);
 }
 
 /* After a roll back of all TPs: makes all blocks around an address WRITTEN, so that their first writes need no roll
@@ -142,8 +142,8 @@ void trax_fast_word_written(struct trax_chip *chip, uint32_t address, uint8_t st
 
 bool trax_fast_store(struct trax_tm *tm, unsigned number, unsigned load, unsigned bytes, uint64_t t) {
   struct trax_chip *const chip = tm->chip;
-  struct trax_burst *const burst = &tm->tp[number].burst;
-  const uint32_t address = burst->loads[load], value = *trax_burst_value(burst, load);
+  const struct trax_burst_access *const store = &tm->tp[number].burst.access[load];
+  const uint32_t address = store->address, value = store->word;
   const uint64_t bit = (uint64_t)1 << number;
   if (tm->buffer) {
     roll_back_word_readers(tm, address, bit);

@@ -18,21 +18,22 @@ static inline unsigned data_bank(uint32_t banks, uint32_t mask, uint32_t address
   return LIKELY(mask) ? address / 4 & mask : address / 4 % banks;
 }
 
-/* Records `count` instructions from index on as the steps from `at` on, a segment of the burst. */
-static inline void record_segment(struct trax_burst *burst, unsigned at, const uint16_t *step, uint32_t index,
-                                  const unsigned count) {
-  static const uint8_t distance[TRAX_CHUNK] = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 12, 13, 14, 15,
-                                               16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31};
+/* Records an instruction, or those of a chunk, from index on as the steps from `at` on. */
+static inline void record(struct trax_burst *burst, unsigned at, const uint16_t *step, uint32_t index,
+                          const unsigned count) {
+  typedef uint16_t eight __attribute__((vector_size(16), aligned(2), may_alias));
+  const eight numbers = (eight){0, 1, 2, 3, 4, 5, 6, 7} + (uint16_t)index;
   memcpy(burst->step + at, step, count * sizeof *step);
-  memcpy(burst->distance + at, distance, count);
-  burst->index[at] = index;
+  burst->index[at] = (uint16_t)index;
+  for (unsigned i = 0; i + 8 <= count; i += 8)
+    *(eight *)(burst->index + at + i) = numbers + (uint16_t)i;
 }
 
 /* Whether the burst has a store to the word among its first `loads` accesses. */
 static bool has_stored(const struct trax_tp *tp, uint32_t address, unsigned loads) {
   if (tp->stored & trax_fast_word_bit(address))
     for (unsigned i = 0; i < loads; i++)
-      if (trax_tp_stores(tp, i) && !((tp->burst.loads[i] ^ address) & ~3u))
+      if (trax_tp_stores(tp, i) && !((tp->burst.access[i].address ^ address) & ~3u))
         return true;
   return false;
 }
@@ -43,7 +44,7 @@ static bool has_stored(const struct trax_tp *tp, uint32_t address, unsigned load
 static __attribute__((noinline)) uint64_t load_written(struct trax_tm *tm, unsigned number, unsigned load,
                                                        uint32_t address, unsigned bytes) {
   struct trax_tp *const tp = &tm->tp[number];
-  uint32_t *const value = trax_burst_value(&tp->burst, load);
+  uint32_t *const value = &tp->burst.access[load].word;
   if (!tp->again) {
     if (has_stored(tp, address, load))
       return NOWHERE;
@@ -64,7 +65,7 @@ static __attribute__((noinline)) bool store_later(const struct trax_tm *tm, stru
     return false;
   tp->stores[load / 64] |= (uint64_t)1 << load % 64;
   tp->stored |= trax_fast_word_bit(address);
-  *trax_burst_value(&tp->burst, load) = value;
+  tp->burst.access[load].word = value;
   return true;
 }
 
@@ -74,7 +75,7 @@ static __attribute__((noinline)) bool store_ahead(const struct trax_chip *chip, 
   const struct trax_space *space = &chip->machine->space;
   if (trax_space_check(space, address, bytes, true) || address - chip->blocks.input < chip->blocks.input_bytes)
     return false;
-  struct trax_burst_undo *const undo = &tp->burst.undo[tp->burst.undo_count++];
+  struct trax_burst_access *const undo = &tp->burst.access[--tp->burst.undo_begin];
   undo->address = address & ~3u;
   memcpy(&undo->word, space->bytes + undo->address, sizeof undo->word);
   memcpy(space->bytes + address, &value, bytes);

@@ -33,7 +33,8 @@ static unsigned BURST(struct trax_chip *chip, struct trax_tm *tm, unsigned numbe
   /* A burst that is executed again may have loaded from a block before it was SHARED. Its limit is less. */
   const bool alone = tp->alone;
   const uint8_t last_loadable = limit < TRAX_BURST || alone ? TRAX_BLOCK_SHARED : TRAX_BLOCK_WRITTEN;
-  burst->undo_count = 0;
+  burst->undo_begin = TRAX_BURST + 1;
+  const uint32_t first = burst->first = (uint32_t)(inst - program->inst);
   tm->watched[number] = tp->stores[0] = tp->stores[1] = tp->stored = 0;
   /* The number of inst's step is its distance from `begin`, which changes with each jump. */
   uintptr_t begin = (uintptr_t)inst;
@@ -50,7 +51,7 @@ static unsigned BURST(struct trax_chip *chip, struct trax_tm *tm, unsigned numbe
     address = (ADDRESS);                                                                                               \
     at = AT;                                                                                                           \
     word = 0;                                                                                                          \
-    burst->loads[loads] = address;                                                                                     \
+    burst->access[loads].address = address;                                                                            \
     if (address & (BYTES - 1))                                                                                         \
       goto stop;                                                                                                       \
     if (LIKELY(address - input < input_bytes) || address - TRAX_NULL_END < accessible) {                               \
@@ -86,9 +87,9 @@ static unsigned BURST(struct trax_chip *chip, struct trax_tm *tm, unsigned numbe
     address = (ADDRESS);                                                                                               \
     word = (VALUE);                                                                                                    \
     if (EXACTLY)                                                                                                       \
-      burst->loads[loads] = address; /* for an observer */                                                             \
+      burst->access[loads].address = address; /* for an observer */                                                    \
     if (address >= TRAX_LOCAL_BASE && !(address & (BYTES - 1))) {                                                      \
-      struct trax_burst_undo *const undo = &burst->undo[burst->undo_count++];                                          \
+      struct trax_burst_access *const undo = &burst->access[--burst->undo_begin];                                      \
       uint8_t *const place = local + ((address - TRAX_LOCAL_BASE) & ~3u);                                              \
       undo->address = address & ~3u;                                                                                   \
       memcpy(&undo->word, place, sizeof undo->word);                                                                   \
@@ -96,7 +97,7 @@ static unsigned BURST(struct trax_chip *chip, struct trax_tm *tm, unsigned numbe
     } else if (alone ? store_ahead(chip, tp, address, word, BYTES)                                                     \
                      : store_later(tm, tp, loads, address, word, BYTES)) {                                             \
       at = AT;                                                                                                         \
-      burst->loads[loads++] = address;                                                                                 \
+      burst->access[loads++].address = address;                                                                        \
       burst->step[at] |=                                                                                               \
           (uint16_t)(TRAX_STEP_BANK | TRAX_STEP_SLOW | data_bank(banks, bank_mask, address) << TRAX_STEP_BANK_SHIFT);  \
     } else {                                                                                                           \
@@ -154,14 +155,16 @@ chunk:
   at = AT;
   const uint32_t index = (uint32_t)(inst - program->inst);
   lines |= program->chunk_lines[index];
+  if (index - first + TRAX_REACH > 2 * TRAX_REACH)
+    goto stop;
 #if EXACTLY
   if (at == limit || (program->timing[index].waits & (uint32_t)tp->atomics))
     goto stop;
-  record_segment(burst, at, program->step + index, index, 1);
+  record(burst, at, program->step + index, index, 1);
 #else
   if (at + TRAX_CHUNK - index % TRAX_CHUNK > limit)
     goto stop;
-  record_segment(burst, at, program->step + index, index, TRAX_CHUNK); /* also steps that are not reached */
+  record(burst, at, program->step + index, index, TRAX_CHUNK); /* also steps that are not reached */
 #endif
   __extension__({ goto *places[inst->op]; });
 

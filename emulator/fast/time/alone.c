@@ -50,10 +50,15 @@ static bool store(struct trax_tm *tm, unsigned number, unsigned at, unsigned loa
     return false;
   tp->inst = timing->decoded;
   tp->pc = timing->pc;
-  tp->address = tp->burst.loads[load];
+  tp->address = tp->burst.access[load].address;
   tm->now = t; /* of a request */
   trax_tm_serve(tm, number, t);
   return true;
+}
+
+/* Whether step `at`, which is not the first one, is not the instruction behind the step before. */
+static inline bool is_behind_jump(const struct trax_burst *burst, unsigned at) {
+  return (uint16_t)(burst->index[at] - burst->index[at - 1]) != 1;
 }
 
 /* Whether the operands of step `at` are usable. */
@@ -82,7 +87,7 @@ bool trax_fast_run_alone(struct trax_tm *tm, uint64_t t, uint64_t end) {
   struct used used = {0};
   for (; t < end && at < last && tm->stats->memory_requests == requests; t++, at++) {
     const unsigned step = tp->burst.step[at], kind = step & TRAX_STEP_KIND;
-    const bool enters_line = uncertain && (at == next_line || !tp->burst.distance[at]);
+    const bool enters_line = uncertain && (at == next_line || is_behind_jump(&tp->burst, at));
     if (busy || enters_line) {
       const struct trax_fast_timing *timing = &tm->chip->program.timing[trax_fast_index(tp, at)];
       if (enters_line && !trax_cache_tags_have(&icache->tags, trax_line_of(&icache->tags, timing->pc))) {
@@ -99,7 +104,7 @@ bool trax_fast_run_alone(struct trax_tm *tm, uint64_t t, uint64_t end) {
     }
     if (kind == TRAX_STEP_BANK) {
       if (step & TRAX_STEP_SLOW ? !store(tm, number, at, load, t)
-                                : !trax_cache_tags_have(tags, trax_line_of(tags, tp->burst.loads[load])))
+                                : !trax_cache_tags_have(tags, trax_line_of(tags, tp->burst.access[load].address)))
         break;
       hits += !(step & TRAX_STEP_SLOW);
       load++;

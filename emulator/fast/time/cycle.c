@@ -217,8 +217,9 @@ static ALWAYS_INLINE void simulate(struct trax_tm *tm, const bool wide, uint64_t
   tm->now = t;
   fetch_and_check(tm, wide, wake(tm, t), &refused, t);
   const uint64_t granted = grant(tm, wide, &refused, &slow, &banks, t);
+  const bool refuses = refused.fetch | tm->ready; /* who is still ready was refused something */
   issue(tm, wide, granted, slow, banks, t);
-  if (trax_fast_count(&tm->refusal_counts, &refused))
+  if (refuses && trax_fast_count(&tm->refusal_counts, &refused))
     trax_fast_count_log(&tm->refusal_counts);
   if (__builtin_expect(tm->observer != NULL, false)) {
     if (tm->observed)

@@ -128,7 +128,7 @@ void trax_fast_set_resident(struct trax_tm *tm, unsigned icache, uint64_t line, 
 }
 
 void trax_fast_line_arrived(struct trax_tm *tm, unsigned number, uint32_t line) {
-  const uint64_t evicted = tm->icache[number].evicted; /* its number + 1 */
+  const uint32_t evicted = tm->icache[number].evicted; /* its number + 1 */
   if (evicted)
     trax_fast_set_resident(tm, number, evicted - 1, false);
   trax_fast_set_resident(tm, number, line, true);

@@ -7,8 +7,8 @@
 
 /* Returns the index of a step's instruction in trax_fast_program.inst. */
 static inline uint32_t trax_fast_index(const struct trax_tp *tp, unsigned step) {
-  const unsigned distance = tp->burst.distance[step];
-  return tp->burst.index[step - distance] + distance;
+  const uint32_t first = tp->burst.first;
+  return first + (uint32_t)(int16_t)(tp->burst.index[step] - first);
 }
 
 /* Returns the index of the TP's head. */
@@ -40,17 +40,17 @@ static inline void trax_fast_set_busy(struct trax_tm *tm, unsigned tp, unsigned 
 static inline void trax_fast_find_line(struct trax_tm *tm, unsigned tp) {
   const struct trax_cache_tags *const tags = &tm->dcache.tags;
   const uint32_t line = trax_line_of(tags, tm->heads.address[tp]);
-  const uint64_t *const set = tags->lines + (size_t)(line & tags->set_mask) * tags->ways;
-  bool hits = set[0] == (uint64_t)line + 1;
+  const uint32_t *const set = tags->lines + (size_t)(line & tags->set_mask) * tags->ways;
+  bool hits = set[0] == line + 1;
   for (uint32_t way = 1; way < tags->ways; way++) /* without branches that are hard to predict */
-    hits |= set[way] == (uint64_t)line + 1;
+    hits |= set[way] == line + 1;
   tm->load_hits = (tm->load_hits & ~((uint64_t)1 << tp)) | (uint64_t)hits << tp;
 }
 
 /* `load`: the number of loads of global memory before the head in its burst. */
 static inline void trax_fast_set_load(struct trax_tm *tm, unsigned tp, unsigned load) {
   tm->heads.load[tp] = (uint8_t)load;
-  tm->heads.address[tp] = tm->tp[tp].burst.loads[load];
+  tm->heads.address[tp] = tm->tp[tp].burst.access[load].address;
   trax_fast_find_line(tm, tp);
 }
 
@@ -84,9 +84,9 @@ static inline void trax_fast_execute_at_issue(struct trax_tm *tm, unsigned numbe
   tm->storing &= ~((uint64_t)1 << number);
   tm->watched[number] = 0;
   tp->burst.step[0] = step | TRAX_STEP_SLOW;
-  tp->burst.distance[0] = 0;
-  tp->burst.index[0] = index;
-  tp->burst.loads[0] = address;
+  tp->burst.first = index;
+  tp->burst.index[0] = (uint16_t)index;
+  tp->burst.access[0].address = address;
   tm->heads.last[number] = 0;
   trax_fast_set_load(tm, number, 0);
   trax_fast_set_head(&tm->heads, number, 0);

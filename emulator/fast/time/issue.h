@@ -161,7 +161,6 @@ static void issue_observed(struct trax_tm *tm, uint64_t quick, uint64_t slow, ui
   uint64_t issued = 0; /* quick heads of which the observer has been notified */
   for (uint64_t rest = quick | slow; rest; rest &= rest - 1) { /* whose bursts are in many lines of the host's cache */
     const unsigned number = trax_first(rest), at = tm->heads.at[number];
-    __builtin_prefetch(&tm->tp[number].burst.distance[at]);
     __builtin_prefetch(&tm->tp[number].burst.index[at]);
     __builtin_prefetch(&tm->tp[number].reg);
   }

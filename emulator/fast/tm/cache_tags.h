@@ -14,8 +14,8 @@ struct trax_cache_tags {
   unsigned line_shift;
   enum trax_replacement policy;
   bool by_use;     /* the policy depends on the uses of lines */
-  uint64_t *lines; /* [sets][ways]: line number + 1; 0: empty. LRU: in the order of use, the latest first */
-  uint64_t *next;  /* [sets]: the policy's state. FIFO: the way of the next arriving line */
+  uint32_t *lines; /* [sets][ways]: line number + 1; 0: empty. LRU: in the order of use, the latest first */
+  uint32_t *next;  /* [sets]: the policy's state. FIFO: the way of the next arriving line */
 };
 
 static inline bool trax_cache_tags_create(struct trax_cache_tags *tags, uint32_t bytes, uint32_t line_bytes,
@@ -41,9 +41,9 @@ static inline uint32_t trax_line_of(const struct trax_cache_tags *tags, uint32_t
 }
 
 static inline bool trax_cache_tags_have(const struct trax_cache_tags *tags, uint32_t line) {
-  const uint64_t *set = tags->lines + (size_t)(line & tags->set_mask) * tags->ways;
+  const uint32_t *set = tags->lines + (size_t)(line & tags->set_mask) * tags->ways;
   for (uint32_t way = 0; way < tags->ways; way++)
-    if (set[way] == (uint64_t)line + 1)
+    if (set[way] == line + 1)
       return true;
   return false;
 }
@@ -56,13 +56,13 @@ static inline uint32_t trax_cache_tags_next(const struct trax_cache_tags *tags, 
   case TRAX_REPLACE_LRU:
     return tags->ways - 1;
   }
-  return (uint32_t)tags->next[set] & (tags->ways - 1);
+  return tags->next[set] & (tags->ways - 1);
 }
 
 /* Updates the policy's state: the line in `way` is used, or has arrived there. */
 static inline void trax_cache_tags_note(struct trax_cache_tags *tags, size_t set, uint32_t way, bool arrived) {
-  uint64_t *lines = tags->lines + set * tags->ways;
-  const uint64_t line = lines[way];
+  uint32_t *lines = tags->lines + set * tags->ways;
+  const uint32_t line = lines[way];
   switch (tags->policy) {
   case TRAX_REPLACE_FIFO:
     if (arrived)
@@ -82,7 +82,7 @@ static inline bool trax_cache_tags_use(struct trax_cache_tags *tags, uint32_t li
     return trax_cache_tags_have(tags, line);
   const size_t set = line & tags->set_mask;
   for (uint32_t way = 0; way < tags->ways; way++)
-    if (tags->lines[set * tags->ways + way] == (uint64_t)line + 1) {
+    if (tags->lines[set * tags->ways + way] == line + 1) {
       trax_cache_tags_note(tags, set, way, false);
       return true;
     }
@@ -100,12 +100,12 @@ static inline uint32_t trax_cache_tags_drop(struct trax_cache_tags *tags) {
 }
 
 /* Enters a line. Returns the number of the line that it replaces, + 1; 0: none. */
-static inline uint64_t trax_cache_tags_install(struct trax_cache_tags *tags, uint32_t line) {
+static inline uint32_t trax_cache_tags_install(struct trax_cache_tags *tags, uint32_t line) {
   const size_t set = line & tags->set_mask;
   const uint32_t way = trax_cache_tags_next(tags, set);
-  uint64_t *place = tags->lines + set * tags->ways + way;
-  const uint64_t evicted = *place;
-  *place = (uint64_t)line + 1;
+  uint32_t *place = tags->lines + set * tags->ways + way;
+  const uint32_t evicted = *place;
+  *place = line + 1;
   trax_cache_tags_note(tags, set, way, true);
   return evicted;
 }

@@ -21,7 +21,7 @@ struct trax_icache {
   TRAX_ICACHE_STATE(TRAX_FIELD, )
   struct trax_cache_tags tags;
   struct trax_icache_pending *pending; /* [tps], the first pending_count in use */
-  uint64_t evicted;                    /* the number of the line that the latest arrival replaced, + 1; 0: none */
+  uint32_t evicted;                    /* the number of the line that the latest arrival replaced, + 1; 0: none */
 };
 
 bool trax_icache_create(struct trax_icache *icache, const struct trax_tm *tm);
