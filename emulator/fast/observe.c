@@ -138,6 +138,7 @@ void trax_fast_tell_single(struct trax_tm *tm, unsigned number, uint32_t pc, con
 /* Returns the first step from `at` on, and before `end`, that is behind a taken jump; else `end`. `at` is not 0. */
 static unsigned next_piece(const struct trax_burst *burst, unsigned at, unsigned end) {
   typedef uint16_t eight __attribute__((vector_size(16)));
+  typedef uint64_t halves __attribute__((vector_size(16)));
   for (; at + 8 <= end; at += 8) {
     eight index, before;
     memcpy(&index, &burst->index[at], sizeof index);
@@ -183,7 +184,7 @@ static size_t list_accesses(const struct trax_tm *tm, unsigned number, unsigned 
     for (; rest; rest &= rest - 1, load++) {
       const uint8_t outcome = outcomes[load];
       accessed[count++] =
-          (struct trax_accessed){.address = burst->loads[load],
+          (struct trax_accessed){.address = burst->access[load].address,
                                  .at = (uint8_t)(first - begin + trax_first(rest)),
                                  .outcome = outcome == TRAX_FAST_NO_OUTCOME ? TRAX_OUTCOME_HIT : outcome};
     }
