@@ -379,7 +379,7 @@ MUTANTS = [
     ("fast/time/head.c", "(tm->busy | tm->uncertain) & bit ? 0 : NO_CHECK;",
      "NO_CHECK;"),
     # Which instruction a step is.
-    ("fast/function/burst.c", "numbers + (uint16_t)i;", "numbers + (uint16_t)(i + (at > 90));"),
+    ("fast/function/burst.c", "program->number + index,", "program->number + index + (at > 90),"),
     # Steps are near the first one.
     ("fast/function/burst_steps.h", "if (index - first + TRAX_REACH > 2 * TRAX_REACH)", "if (0 && first)"),
     ("translate/burst.c", "if (t->count > TRAX_REACH)", "if (0)"),

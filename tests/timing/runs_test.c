@@ -2,7 +2,7 @@
 
    With memory next to the chip (bench_near) the fetch of cycle 0 misses, the line arrives in cycle 1, and the first
    instruction is issued in cycle 1. */
-#include "bench.h"
+#include "compare.h"
 
 static void branch_bubbles(void **state) {
   (void)state;
@@ -233,6 +233,36 @@ static void a_machine_runs_once(void **state) {
   trax_machine_destroy(empty);
 }
 
+/* A TP waits for a word while another one runs through its loop, alone. Then the first one jumps to an instruction in
+   the bank that it has used last, and the round robin of this bank is where the loop has left it. */
+static void a_bank_after_one_was_awake(void **state) {
+  (void)state;
+  struct trax_config config = bench_far(1, 2);
+  config.icache.line_bytes = 1024;
+  config.icache.ports_per_bank = 1;
+  config.icache.banks = 4;
+  for (unsigned i = 0; i < 32; i++) {
+    uint32_t words[40] = {U(LUI, 1, 1), U(RDSR, 2, TRAX_SR_THREAD), B(BNE, 2, 0, 4 * 22), I(LW, 5, 1, 0),
+                          B(BEQ, 5, 5, 4 * 16)};
+    size_t count = 5;
+    while (count < 23)
+      words[count++] = NOP;
+    words[count++] = HALT;
+    words[count++] = I(ADDI, 3, 0, 70);
+    for (unsigned pad = 0; pad < i % 8; pad++)
+      words[count++] = NOP;
+    words[count++] = I(ADDI, 3, 3, -1);
+    words[count++] = B(BNE, 3, 0, -4);
+    words[count++] = HALT;
+    config.memory.latency_cycles = 100 + i / 8;
+    struct run reference = run_alone(&config, words, count, "reference", 0, 1),
+               run = run_alone(&config, words, count, getenv("TRAX_ENGINE"), 0, 1);
+    expect_same(&reference, &run);
+    end(&reference);
+    end(&run);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(branch_bubbles),
@@ -242,6 +272,7 @@ int main(void) {
       cmocka_unit_test(a_store_past_the_cache_of_a_load_ahead),
       cmocka_unit_test(own_increment_before_load),
       cmocka_unit_test(every_value_once),
+      cmocka_unit_test(a_bank_after_one_was_awake),
       cmocka_unit_test(exit_statuses),
       cmocka_unit_test(the_limit_covers_the_last_store),
       cmocka_unit_test(watchdog_and_interrupt),

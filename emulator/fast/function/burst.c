@@ -18,15 +18,11 @@ static inline unsigned data_bank(uint32_t banks, uint32_t mask, uint32_t address
   return LIKELY(mask) ? address / 4 & mask : address / 4 % banks;
 }
 
-/* Records an instruction, or those of a chunk, from index on as the steps from `at` on. */
-static inline void record(struct trax_burst *burst, unsigned at, const uint16_t *step, uint32_t index,
-                          const unsigned count) {
-  typedef uint16_t eight __attribute__((vector_size(16), aligned(2), may_alias));
-  const eight numbers = (eight){0, 1, 2, 3, 4, 5, 6, 7} + (uint16_t)index;
-  memcpy(burst->step + at, step, count * sizeof *step);
-  burst->index[at] = (uint16_t)index;
-  for (unsigned i = 0; i + 8 <= count; i += 8)
-    *(eight *)(burst->index + at + i) = numbers + (uint16_t)i;
+/* Records `count` instructions from index on as the steps from `at` on. */
+static inline void record(struct trax_burst *burst, unsigned at, const struct trax_fast_program *program,
+                          uint32_t index, const unsigned count) {
+  memcpy(burst->step + at, program->step + index, count * sizeof *program->step);
+  memcpy(burst->index + at, program->number + index, count * sizeof *program->number);
 }
 
 /* Whether the burst has a store to the word among its first `loads` accesses. */

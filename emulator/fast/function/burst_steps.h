@@ -160,11 +160,11 @@ chunk:
 #if EXACTLY
   if (at == limit || (program->timing[index].waits & (uint32_t)tp->atomics))
     goto stop;
-  record(burst, at, program->step + index, index, 1);
+  record(burst, at, program, index, 1);
 #else
   if (at + TRAX_CHUNK - index % TRAX_CHUNK > limit)
     goto stop;
-  record(burst, at, program->step + index, index, TRAX_CHUNK); /* also steps that are not reached */
+  record(burst, at, program, index, TRAX_CHUNK); /* also steps that are not reached */
 #endif
   __extension__({ goto *places[inst->op]; });
 

@@ -62,6 +62,7 @@ static void predecode(struct trax_fast_program *program, const struct trax_decod
                                                  .rb = decoded->rb,
                                                  .imm = decoded->imm};
   program->timing[index] = (struct trax_fast_timing){.decoded = decoded, .waits = waits_for(decoded), .pc = pc};
+  program->number[index] = (uint16_t)index;
   program->line[index] = (uint16_t)(line < TRAX_FAST_LINES ? line : TRAX_FAST_LINES - 1);
   program->step[index] =
       (uint16_t)(step_of(decoded) | (slow ? TRAX_STEP_SLOW : 0) | decoded->bank << TRAX_STEP_FETCH_SHIFT);
@@ -79,11 +80,12 @@ trax_status trax_fast_program_create(struct trax_fast_program *program, const st
   program->sections = calloc(text->count ? text->count : 1, sizeof *program->sections);
   program->inst = malloc(total * sizeof *program->inst);
   program->step = calloc(total + TRAX_CHUNK, sizeof *program->step);
+  program->number = calloc(total + TRAX_CHUNK, sizeof *program->number);
   program->timing = malloc(total * sizeof *program->timing);
   program->line = malloc(total * sizeof *program->line);
   program->chunk_lines = calloc(total + 1, sizeof *program->chunk_lines);
   if (!program->sections || !program->inst || !program->timing || !program->line || !program->step ||
-      !program->chunk_lines)
+      !program->number || !program->chunk_lines)
     return trax_fail(error, "out of memory for %zu instructions", total);
   uint32_t index = 0, lines = 0;
   for (size_t i = 0; i < text->count; i++) {
@@ -114,6 +116,7 @@ void trax_fast_program_destroy(struct trax_fast_program *program) {
   free(program->sections);
   free(program->inst);
   free(program->step);
+  free(program->number);
   free(program->timing);
   free(program->line);
   free(program->chunk_lines);

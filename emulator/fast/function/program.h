@@ -42,6 +42,7 @@ struct trax_fast_program {
   struct trax_fast_timing *timing; /* [inst_count] */
   uint16_t *line;                  /* [inst_count]: the index of its line in `resident` */
   uint16_t *step;                  /* [inst_count + TRAX_CHUNK]: its step, unless an address decides it */
+  uint16_t *number;                /* [inst_count + TRAX_CHUNK]: the low bits of its index */
   uint64_t *chunk_lines;           /* [inst_count]: bit line % 64 of the lines up to a jump or the chunk's end */
   struct trax_fast_inst *no_text;  /* the last instruction, for every pc that is no text */
 };

@@ -65,7 +65,7 @@ struct trax_tm {
   uint64_t recheck;   /* held an instruction at the import, whose operands must be checked in the first cycle */
 
   /* The number of executions of each instruction since the latest collect(), as differences: that of instruction i is
-     the sum of [0] to [i]. So a segment costs two additions. */
+     the sum of [0] to [i]. So neighbours cost two additions. */
   int64_t *count_deltas; /* [inst_count + 1] */
   struct trax_fast_heads heads;
   bool wide; /* more than 32 TPs */
