@@ -97,7 +97,7 @@ static void begin_run(void *context, unsigned host_threads) {
 
 static void end_run(void *context) {
   struct trax_explain *explain = context;
-  trax_passages_keep(explain->passages, false);
+  trax_passages_finish(explain->passages);
   for (uint64_t i = 0; i < explain->machine->stats.threads && !explain->by_issue; i++)
     memcpy(explain->open_threads[i].cycles, explain->machine->tp_stats[i].cycles,
            sizeof explain->open_threads[i].cycles);
@@ -338,7 +338,7 @@ trax_status trax_explain_end(struct trax_explain *explain, trax_error *error) {
   trax_status status = TRAX_OK;
   trax_error reason;
   notify_arrivals(explain, UINT64_MAX, 0);
-  trax_passages_keep(explain->passages, false);
+  trax_passages_finish(explain->passages);
   for (uint32_t thread = 0; thread < machine->stats.threads; thread++) {
     if (explain->has_spans)
       notify_span(explain, thread / tps, thread % tps, NULL);

@@ -1,5 +1,6 @@
 #include "explain/passages.h"
 #include "explain/places.h"
+#include "explain/stories.h"
 #include "trax/grow.h"
 #include "trax/pool.h"
 
@@ -24,8 +25,11 @@ enum {
 /* What a TM has added. */
 struct log {
   _Alignas(64) uint8_t *bytes;
-  size_t used, capacity;
-  uint32_t instructions, stretches;
+  size_t capacity;
+  struct extent {
+    size_t used;
+    uint32_t instructions, stretches;
+  } now, kept; /* kept: that the engine does not go back behind */
   struct passage {
     struct trax_passage passage;
     uint64_t cycle;
@@ -36,7 +40,8 @@ struct log {
 struct trax_passages {
   struct trax_explain *explain;
   uint32_t tms;
-  struct log *logs;            /* [tms] */
+  struct log *sets[TRAX_PASSAGES_ROUNDS]; /* each [tms]; without stories the first one alone is used */
+  struct log *logs;                       /* the present one of these */
   struct trax_passage **order; /* of all logs */
   size_t count, order_capacity;
   uint32_t most; /* instructions in the logs */
@@ -58,9 +63,9 @@ static size_t cycles_bytes(bool has_cycles) {
 }
 
 static bool reserve(struct log *log, size_t bytes) {
-  if (log->used + bytes + PADDING <= log->capacity)
+  if (log->now.used + bytes + PADDING <= log->capacity)
     return true;
-  const size_t capacity = 2 * (log->used + bytes + PADDING);
+  const size_t capacity = 2 * (log->now.used + bytes + PADDING);
   uint8_t *larger = realloc(log->bytes, capacity);
   if (!larger)
     return false;
@@ -71,8 +76,8 @@ static bool reserve(struct log *log, size_t bytes) {
 
 static void append(struct log *log, const void *array, size_t bytes) {
   if (bytes)
-    memcpy(log->bytes + log->used, array, bytes);
-  log->used += bytes;
+    memcpy(log->bytes + log->now.used, array, bytes);
+  log->now.used += bytes;
 }
 
 /* Takes what belongs to a stretch out of the thread's log. */
@@ -83,6 +88,12 @@ static void shorten(struct trax_thread_log *log, size_t charged, uint32_t count)
     log->charged[i].at -= count;
   }
 }
+
+static uint32_t size_of(const struct log *log) {
+  return log->now.instructions + 64 * log->now.stretches;
+}
+
+static void read_logs(struct trax_passages *passages);
 
 void trax_passages_add(struct trax_passages *passages, const struct trax_stretch *stretch,
                        struct trax_thread_log *thread) {
@@ -110,23 +121,23 @@ void trax_passages_add(struct trax_passages *passages, const struct trax_stretch
     append(log, stretch->piece, stretch->pieces * sizeof *stretch->piece);
     append(log, thread->charged, charged * sizeof *thread->charged);
     append(log, stretch->accessed, stretch->accessed_count * sizeof *stretch->accessed);
-    log->used += gap;
+    log->now.used += gap;
     append(log, stretch->refused, 2 * (size_t)(refused ? stretch->count : 0));
-    log->used = (log->used + 7) / 8 * 8;
+    log->now.used = (log->now.used + 7) / 8 * 8;
     append(log, stretch->cycles, cycles);
-    log->stretches++;
+    log->now.stretches++;
   } else {
     __atomic_store_n(&passages->explain->observer.lost, true, __ATOMIC_RELAXED);
   }
   if (thread->charged_count)
     shorten(thread, charged, stretch->count);
-  log->instructions += stretch->count;
-  if (log->instructions * passages->tms < passages->most)
+  log->now.instructions += stretch->count;
+  if (size_of(log) * passages->tms < passages->most)
     return;
   if (passages->holds)
     __atomic_store_n(&passages->explain->observer.full, true, __ATOMIC_RELAXED);
   else
-    trax_passages_keep(passages, false);
+    read_logs(passages);
 }
 
 /* --- placing --- */
@@ -164,12 +175,12 @@ static void place_log(void *context, uint32_t tm) {
   struct trax_passages *passages = context;
   struct log *log = &passages->logs[tm];
   size_t count = 0;
-  if (!trax_grow_to((void **)&log->passages, log->stretches, &log->passages_capacity, sizeof *log->passages)) {
+  if (!trax_grow_to((void **)&log->passages, log->now.stretches, &log->passages_capacity, sizeof *log->passages)) {
     __atomic_store_n(&passages->explain->observer.lost, true, __ATOMIC_RELAXED);
-    log->stretches = 0;
+    log->now.stretches = 0;
     return;
   }
-  for (uint8_t *at = log->bytes, *const end = at + log->used; at < end;) {
+  for (uint8_t *at = log->bytes, *const end = at + log->now.used; at < end;) {
     const struct stored *stored = (const void *)at;
     struct trax_piece *piece = (void *)(at + sizeof *stored);
     struct trax_charged *charged = (void *)(piece + stored->pieces);
@@ -204,7 +215,7 @@ static void place_log(void *context, uint32_t tm) {
 static bool order(struct trax_passages *passages) {
   size_t next[TRAX_MAX_TMS] = {0}, count = 0;
   for (uint32_t tm = 0; tm < passages->tms; tm++)
-    count += passages->logs[tm].stretches;
+    count += passages->logs[tm].now.stretches;
   if (!trax_grow_to((void **)&passages->order, count, &passages->order_capacity, sizeof *passages->order))
     return false;
   for (passages->count = 0; passages->count < count; passages->count++) {
@@ -212,7 +223,7 @@ static bool order(struct trax_passages *passages) {
     uint64_t cycle = UINT64_MAX;
     for (uint32_t tm = 0; tm < passages->tms; tm++) {
       const struct log *log = &passages->logs[tm];
-      if (next[tm] < log->stretches && log->passages[next[tm]].cycle < cycle) {
+      if (next[tm] < log->now.stretches && log->passages[next[tm]].cycle < cycle) {
         first = tm;
         cycle = log->passages[next[tm]].cycle;
       }
@@ -237,15 +248,14 @@ static void read_all(void *context, uint32_t reader) {
 
 static void empty_logs(struct trax_passages *passages) {
   for (uint32_t tm = 0; tm < passages->tms; tm++) {
-    struct log *log = &passages->logs[tm];
-    log->used = log->instructions = log->stretches = 0;
+    passages->logs[tm].now = passages->logs[tm].kept = (struct extent){0};
   }
 }
 
 static void read_logs(struct trax_passages *passages) {
   uint32_t instructions = 0;
   for (uint32_t tm = 0; tm < passages->tms; tm++)
-    instructions += passages->logs[tm].instructions;
+    instructions += passages->logs[tm].now.instructions;
   if (!instructions)
     return;
   if (passages->placers)
@@ -262,6 +272,10 @@ static void read_logs(struct trax_passages *passages) {
       for (unsigned i = 0; i < passages->explain->reader_count; i++)
         read_part(passages, i, begin, begin + BATCH);
   passages->most = passages->explain->found < MUCH ? TRAX_PASSAGES_MANY : TRAX_PASSAGES_FEW;
+  if (passages->explain->stories) {
+    passages->logs = passages->sets[++passages->explain->round % TRAX_PASSAGES_ROUNDS];
+    trax_stories_forget(passages->explain->stories);
+  }
   empty_logs(passages);
 }
 
@@ -287,16 +301,27 @@ static void save_charges(struct trax_passages *passages) {
 }
 
 void trax_passages_keep(struct trax_passages *passages, bool holds) {
-  read_logs(passages);
+  uint32_t size = 0;
+  for (uint32_t tm = 0; tm < passages->tms; tm++)
+    size += size_of(&passages->logs[tm]);
+  if (passages->explain->observer.full || size >= passages->most / 2)
+    read_logs(passages);
+  for (uint32_t tm = 0; tm < passages->tms; tm++)
+    passages->logs[tm].kept = passages->logs[tm].now;
   passages->explain->observer.full = false;
   passages->holds = holds;
   if (holds)
     save_charges(passages);
 }
 
+void trax_passages_finish(struct trax_passages *passages) {
+  read_logs(passages);
+}
+
 void trax_passages_go_back(struct trax_passages *passages) {
   const struct trax_charged *from = passages->charged;
-  empty_logs(passages);
+  for (uint32_t tm = 0; tm < passages->tms; tm++)
+    passages->logs[tm].now = passages->logs[tm].kept;
   for (uint64_t i = 0; i < passages->explain->machine->stats.threads; i++) {
     struct trax_thread_log *log = &passages->explain->observer.logs[i];
     log->charged_count = passages->charged_count[i]; /* a log does not become smaller */
@@ -316,11 +341,16 @@ struct trax_passages *trax_passages_create(struct trax_explain *explain) {
   passages->explain = explain;
   passages->tms = explain->machine->config.chip.tms;
   passages->most = TRAX_PASSAGES_FEW;
-  passages->logs = aligned_alloc(_Alignof(struct log), passages->tms * sizeof *passages->logs);
+  bool complete = true;
+  for (unsigned i = 0; i < TRAX_PASSAGES_ROUNDS; i++) {
+    passages->sets[i] = aligned_alloc(_Alignof(struct log), passages->tms * sizeof *passages->logs);
+    complete &= passages->sets[i] != NULL;
+    if (passages->sets[i])
+      memset(passages->sets[i], 0, passages->tms * sizeof *passages->logs);
+  }
+  passages->logs = passages->sets[0];
   passages->charged_count = calloc(explain->machine->stats.threads, sizeof *passages->charged_count);
-  if (passages->logs)
-    memset(passages->logs, 0, passages->tms * sizeof *passages->logs);
-  if (passages->logs && passages->charged_count)
+  if (complete && passages->charged_count)
     return passages;
   trax_passages_destroy(passages);
   return NULL;
@@ -344,11 +374,13 @@ void trax_passages_destroy(struct trax_passages *passages) {
     return;
   trax_pool_destroy(passages->placers);
   trax_pool_destroy(passages->readers);
-  for (uint32_t tm = 0; passages->logs && tm < passages->tms; tm++) {
-    free(passages->logs[tm].bytes);
-    free(passages->logs[tm].passages);
+  for (unsigned i = 0; i < TRAX_PASSAGES_ROUNDS; i++) {
+    for (uint32_t tm = 0; passages->sets[i] && tm < passages->tms; tm++) {
+      free(passages->sets[i][tm].bytes);
+      free(passages->sets[i][tm].passages);
+    }
+    free(passages->sets[i]);
   }
-  free(passages->logs);
   free(passages->order);
   free(passages->charged);
   free(passages->charged_count);

@@ -7,18 +7,23 @@
 
 #include "explain/span.h"
 
-/* The instructions in the logs with which they are full: few while a reader finds much that is new
-   (trax_explain.found), since it finds a limit (trax_observer.single) with this delay. */
-enum { TRAX_PASSAGES_FEW = 1 << 16, TRAX_PASSAGES_MANY = 1 << 19 };
+/* The instructions in the logs with which they are full, where each stretch counts as 64 more: few while a reader finds
+   much that is new (trax_explain.found), since it finds a limit (trax_observer.single) with this delay. */
+enum { TRAX_PASSAGES_FEW = 1 << 16, TRAX_PASSAGES_MANY = 3 << 18 };
+/* With stories, passages stay where they are for so many rounds of reading, trax_explain.round being the present one.
+ */
+enum { TRAX_PASSAGES_ROUNDS = 8 };
 
 /* NULL: out of memory. */
 struct trax_passages *trax_passages_create(struct trax_explain *explain);
 /* Reads with so many threads of the host from now on. */
 void trax_passages_start(struct trax_passages *passages, unsigned threads);
 void trax_passages_add(struct trax_passages *passages, const struct trax_stretch *stretch, struct trax_thread_log *log);
-/* Reads what has been added. holds: what will be added from now on is not read before the next call, and goes away with
-   trax_passages_go_back. */
+/* What has been added stays; it may be read at once. holds: what will be added from now on is not read before the next
+   call, and goes away with trax_passages_go_back. */
 void trax_passages_keep(struct trax_passages *passages, bool holds);
+/* Reads all that has been added; it is not held. */
+void trax_passages_finish(struct trax_passages *passages);
 void trax_passages_go_back(struct trax_passages *passages);
 void trax_passages_destroy(struct trax_passages *passages); /* which may be NULL */
 

@@ -201,7 +201,7 @@ static const struct trax_profile_sums *sums_of(struct trax_profile *profile, uin
       return NULL;
     sums->others = sums->fetch + places;
     sums->loads = sums->others + places;
-    sums->hits = sums->loads + places;
+    sums->missed = sums->loads + places;
   }
   return sums;
 }
@@ -218,8 +218,8 @@ static void take_sums(struct trax_profile *profile) {
       counts->cycles[TRAX_CAUSE_ICACHE_BANK] += sums->fetch[i];
       counts->cycles[refusals[i]] += sums->others[i];
       counts->loads += sums->loads[i];
-      counts->hits += sums->hits[i];
-      sums->fetch[i] = sums->others[i] = sums->loads[i] = sums->hits[i] = 0;
+      counts->hits += sums->loads[i] - sums->missed[i];
+      sums->fetch[i] = sums->others[i] = sums->loads[i] = sums->missed[i] = 0;
     }
   }
   profile->summed = 0;
@@ -266,7 +266,8 @@ static void add_accesses(struct trax_profile *profile, uint32_t context, const s
       continue;
     if (sums) {
       sums->loads[accessed->index]++;
-      sums->hits[accessed->index] += accessed->outcome & TRAX_OUTCOME_HIT;
+      if (!(accessed->outcome & TRAX_OUTCOME_HIT)) /* few */
+        sums->missed[accessed->index]++;
       continue;
     }
     struct trax_profile_counts *counts = counts_of(profile, context, accessed->index);

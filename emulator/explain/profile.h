@@ -47,7 +47,7 @@ struct trax_profile {
   /* [TRAX_PROFILE_SUMS]: of the first contexts, sums by instruction that are not in the records yet. */
   struct trax_profile_sums {
     uint32_t *fetch, *others; /* refusals (trax_stretch.refused); [places + 8]; NULL: none yet */
-    uint32_t *loads, *hits;
+    uint32_t *loads, *missed; /* missed: those that did not hit */
   } sums[TRAX_PROFILE_SUMS];
   uint32_t summed;           /* passages in them */
   struct trax_map record_of; /* (context, index) */

@@ -122,15 +122,19 @@ static void add_passage(void *self, const struct trax_passage *passage) {
   }
   if (passage->count) /* from one piece to the next, and behind the last */
     to->taken_branches += passage->pieces - 1 + (passage->next_pc != pc);
+  uint64_t hits = 0;
   for (size_t i = 0; i < passage->accessed_count; i++) {
     const struct trax_accessed *accessed = &passage->accessed[i];
     const uint8_t access = accesses[accessed->index];
-    if (access == TRAX_ACCESS_PAST_CACHE)
+    if (access == TRAX_ACCESS_LOAD && accessed->outcome == TRAX_OUTCOME_HIT) /* most are so */
+      hits++;
+    else if (access == TRAX_ACCESS_PAST_CACHE)
       count_past_cache(to, &rays->reader.explain->machine->config, accessed,
                        trax_op_table[trax_places_inst(places, accessed->index)->op].flags);
     else
       outcomes[access == TRAX_ACCESS_STORE][accessed->outcome & 15]++;
   }
+  outcomes[0][TRAX_OUTCOME_HIT] += hits;
   if (ends_item) {
     rays->kinds[TRAX_NO_RAY].items += passage->result;
     thread->working = TRAX_NO_RAY;

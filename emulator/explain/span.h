@@ -141,6 +141,7 @@ struct trax_explain {
   bool has_spans, has_passages;      /* readers take them */
   struct trax_open_thread *open_threads; /* [threads] */
   bool begun, by_issue;                  /* the run has begun; the engine tells of each issue and charge */
+  uint64_t round;                        /* number of rounds in which passages were read (explain/passages.h) */
   uint32_t found;                        /* what is new in the passages that are read (explain/passages.h) */
   struct trax_passages *passages;
   struct trax_places *places;

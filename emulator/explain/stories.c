@@ -1,6 +1,7 @@
-/* A thread logs its passages. At the end of an item the log is dropped, unless the item's story is kept: then it is
-   added up. So is the log of a long item each time it is full. */
+/* A thread lists its passages. At the end of an item the list is dropped, unless the item's story is kept: then it is
+   added up. So is the list of a long item before its passages go away (explain/passages.h). */
 #include "explain/stories.h"
+#include "explain/passages.h"
 #include "explain/places.h"
 #include "explain/ray_kinds.h"
 #include "trax/grow.h"
@@ -8,17 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LOG_BYTES = 1 << 25, LEAST_LOG = 1 << 14, MOST_LOG = 1 << 17 }; /* of all threads; of one */
-
-/* The begin of a passage in the log. Its pieces, charges and refusals follow. */
-struct logged {
-  uint32_t charged;
-  uint16_t pieces, refused; /* refused: 0, or the passage's instructions */
-  uint32_t latest; /* the instruction before the passage */
-  uint32_t kind;   /* of the ray that begins with the passage; TRAX_NO_RAY: none */
-};
-
-/* The sums of a log. */
+/* The sums of passages. */
 struct draft {
   uint32_t (*code)[TRAX_CAUSE_COUNT]; /* [places] */
   uint32_t *touched;                  /* [places]: indices of code that is not 0 */
@@ -31,18 +22,19 @@ struct draft {
 };
 
 struct story_thread {
-  uint8_t *log;
-  size_t logged;       /* bytes */
+  const struct trax_passage **passages; /* [count] */
+  size_t count, capacity;
+  uint64_t round;      /* of the first of them */
+  uint32_t before;     /* the instruction before the first of them */
   uint32_t latest;     /* the instruction that it issued last */
-  struct draft *draft; /* of what no longer is in the log; NULL: nothing */
+  struct draft *draft; /* of what is no longer in the list; NULL: nothing */
 };
 
 struct trax_stories {
   struct trax_explain *explain;
   struct story_thread *threads;
   uint64_t thread_count;
-  size_t log_size;
-  struct draft *draft; /* for items that fit in a log */
+  struct draft *draft; /* for items whose passages are all in a list */
   struct trax_story *stories;
   size_t count, capacity, costliest;
 };
@@ -141,13 +133,15 @@ static void add_before(struct draft *draft, uint32_t index, unsigned cause, uint
   add_cycles(draft, cause, cycles);
 }
 
-/* False: out of memory. */
-static bool add_passage(const struct trax_stories *stories, struct draft *draft, const struct logged *logged,
-                        const struct trax_piece *piece, const struct trax_charged *charged, const uint16_t *refused) {
+/* latest: the instruction before the passage. False: out of memory. */
+static bool add_passage(const struct trax_stories *stories, struct draft *draft, const struct trax_passage *passage,
+                        uint32_t latest) {
   const uint8_t *const refusals = trax_places_refusals(stories->explain->places);
-  const struct trax_charged *const end = charged + logged->charged;
-  uint32_t at = 0, latest = logged->latest; /* at: the number of the instruction in the passage */
-  for (const struct trax_piece *const pieces_end = piece + logged->pieces; piece < pieces_end; piece++) {
+  const struct trax_charged *charged = passage->charged, *const end = charged + passage->charged_count;
+  const uint16_t *const refused = passage->refused;
+  const unsigned kind = trax_counted_kind(passage); /* of the ray that begins with the passage */
+  uint32_t at = 0;                                  /* the number of the instruction in the passage */
+  for (const struct trax_piece *piece = passage->piece; piece < passage->piece + passage->pieces; piece++) {
     uint32_t issued = 0;
     for (uint32_t index = piece->index; index < piece->index + piece->count; latest = index++, at++, issued++) {
       for (; charged < end && charged->at == at; charged++) {
@@ -158,75 +152,55 @@ static bool add_passage(const struct trax_stories *stories, struct draft *draft,
         add_code(draft, charged->cause == TRAX_CAUSE_BRANCH ? latest : index, charged->cause, charged->cycles);
         add_cycles(draft, charged->cause, charged->cycles);
       }
-      if (logged->refused && refused[at] & 0xFF)
+      if (refused && refused[at] & 0xFF)
         add_before(draft, index, TRAX_CAUSE_ICACHE_BANK, refused[at] & 0xFF, &issued);
-      if (logged->refused && refused[at] >> 8)
+      if (refused && refused[at] >> 8)
         add_before(draft, index, refusals[index], refused[at] >> 8, &issued);
     }
-    if (logged->kind != TRAX_NO_RAY && !begin_ray(draft, logged->kind)) /* a trap, which is a passage of its own */
+    if (kind != TRAX_NO_RAY && !begin_ray(draft, kind)) /* a trap, which is a passage of its own */
       return false;
     add_issued(draft, piece->index + piece->count - issued, issued);
   }
   return true;
 }
 
-/* The bytes of a passage's refusals in the log. */
-static size_t refused_bytes(const struct logged *logged) {
-  return (2 * (size_t)logged->refused + 3) / 4 * 4;
-}
-
-static void add_log(struct trax_stories *stories, struct story_thread *thread, struct draft *draft) {
-  for (const uint8_t *at = thread->log, *const end = at + thread->logged; at < end;) {
-    const struct logged *logged = (const void *)at;
-    const struct trax_piece *piece = (const void *)(logged + 1);
-    const struct trax_charged *charged = (const void *)(piece + logged->pieces);
-    const uint16_t *refused = (const void *)(charged + logged->charged);
-    if (!add_passage(stories, draft, logged, piece, charged, refused))
+static void add_list(struct trax_stories *stories, struct story_thread *thread, struct draft *draft) {
+  uint32_t latest = thread->before;
+  for (size_t i = 0; i < thread->count; latest = thread->passages[i++]->last)
+    if (!add_passage(stories, draft, thread->passages[i], latest))
       stories->explain->out_of_memory = true;
-    at = (const uint8_t *)refused + refused_bytes(logged);
-  }
-  thread->logged = 0;
+  thread->count = 0;
 }
 
-/* --- the log --- */
+/* --- the list --- */
 
-static __attribute__((noinline)) void empty_log(struct trax_stories *stories, struct story_thread *thread) {
-  if (!thread->draft)
-    thread->draft = new_draft(stories);
-  if (thread->draft)
-    add_log(stories, thread, thread->draft);
-  thread->logged = 0;
+void trax_stories_forget(struct trax_stories *stories) {
+  for (uint64_t i = 0; i < stories->thread_count; i++) {
+    struct story_thread *thread = &stories->threads[i];
+    if (!thread->count || stories->explain->round - thread->round < TRAX_PASSAGES_ROUNDS)
+      continue;
+    if (!thread->draft)
+      thread->draft = new_draft(stories);
+    if (thread->draft)
+      add_list(stories, thread, thread->draft);
+    thread->count = 0;
+  }
 }
 
 void trax_stories_add(struct trax_stories *stories, const struct trax_passage *passage) {
   struct story_thread *thread = &stories->threads[passage->thread];
-  const struct logged logged = {.pieces = (uint16_t)passage->pieces,
-                                .refused = passage->refused ? (uint16_t)passage->count : 0,
-                                .charged = (uint32_t)passage->charged_count,
-                                .latest = thread->latest,
-                                .kind = trax_counted_kind(passage)};
-  const size_t pieces = passage->pieces * sizeof *passage->piece,
-               charged = passage->charged_count * sizeof *passage->charged, refused = refused_bytes(&logged),
-               needed = sizeof logged + pieces + charged + refused;
   if (!passage->count)
     return;
-  thread->latest = passage->last;
-  if (thread->logged + needed > stories->log_size)
-    empty_log(stories, thread);
-  if (needed > stories->log_size) {
-    if (thread->draft &&
-        !add_passage(stories, thread->draft, &logged, passage->piece, passage->charged, passage->refused))
-      stories->explain->out_of_memory = true;
+  if (!trax_grow((void **)&thread->passages, thread->count, &thread->capacity, sizeof *thread->passages)) {
+    stories->explain->out_of_memory = true;
     return;
   }
-  uint8_t *const to = thread->log + thread->logged;
-  memcpy(to, &logged, sizeof logged);
-  memcpy(to + sizeof logged, passage->piece, pieces);
-  if (charged)
-    memcpy(to + sizeof logged + pieces, passage->charged, charged);
-  if (refused)
-    memcpy(to + sizeof logged + pieces + charged, passage->refused, refused);
-  thread->logged += needed;
+  if (!thread->count) {
+    thread->round = stories->explain->round;
+    thread->before = thread->latest;
+  }
+  thread->passages[thread->count++] = passage;
+  thread->latest = passage->last;
 }
 
 /* --- stories --- */
@@ -310,12 +284,12 @@ void trax_stories_end(struct trax_stories *stories, const struct trax_item_cost 
   const bool wanted = !last && cost->place != TRAX_NO_PLACE &&
                       (story.chosen || stories->costliest < TRAX_STORY_COSTLIEST || story.cycles > least->cycles);
   if (wanted && draft) {
-    add_log(stories, thread, draft);
+    add_list(stories, thread, draft);
     keep(stories, story, draft);
   }
   if (draft && (wanted || thread->draft) && !clear(draft))
     stories->explain->out_of_memory = true;
-  thread->logged = 0;
+  thread->count = 0;
 }
 
 static int by_cost(const void *a, const void *b) {
@@ -347,14 +321,8 @@ struct trax_stories *trax_stories_create(struct trax_explain *explain) {
     return NULL;
   stories->explain = explain;
   stories->thread_count = explain->machine->stats.threads;
-  stories->log_size = LOG_BYTES / stories->thread_count;
-  stories->log_size = stories->log_size < LEAST_LOG ? LEAST_LOG : stories->log_size;
-  stories->log_size = stories->log_size > MOST_LOG ? MOST_LOG : stories->log_size;
   stories->threads = calloc(stories->thread_count, sizeof *stories->threads);
-  bool complete = stories->threads && (stories->draft = new_draft(stories));
-  for (uint64_t i = 0; complete && i < stories->thread_count; i++)
-    complete = (stories->threads[i].log = malloc(stories->log_size));
-  if (complete)
+  if (stories->threads && (stories->draft = new_draft(stories)))
     return stories;
   trax_stories_destroy(stories);
   return NULL;
@@ -364,7 +332,7 @@ void trax_stories_destroy(struct trax_stories *stories) {
   if (!stories)
     return;
   for (uint64_t i = 0; stories->threads && i < stories->thread_count; i++) {
-    free(stories->threads[i].log);
+    free(stories->threads[i].passages);
     drop_draft(stories->threads[i].draft);
   }
   for (size_t i = 0; i < stories->count; i++)

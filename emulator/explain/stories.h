@@ -39,6 +39,8 @@ struct trax_stories;
 
 struct trax_stories *trax_stories_create(struct trax_explain *explain); /* NULL: out of memory */
 void trax_stories_destroy(struct trax_stories *stories);                /* which may be NULL */
+/* Forgets the passages whose places the coming round will use. */
+void trax_stories_forget(struct trax_stories *stories);
 void trax_stories_add(struct trax_stories *stories, const struct trax_passage *passage);
 void trax_stories_end(struct trax_stories *stories, const struct trax_item_cost *cost, bool last);
 /* The stories, the chosen ones first, then by cost. Valid until one more is added. */

@@ -92,15 +92,21 @@ static void add_bank(struct waits *waits, uint32_t index) {
   bank->cycles = 0;
 }
 
+static __attribute__((noinline)) void change_bank(struct waits *waits, uint32_t index,
+                                                  const struct trax_accessed *accessed) {
+  struct bank *bank = &waits->banks[index];
+  add_bank(waits, index);
+  const struct trax_region *region = accessed ? trax_objects_region(&waits->objects, accessed->address) : NULL;
+  *bank = region ? (struct bank){region->begin, region->last, (uint32_t)region->number + 1, 0} : (struct bank){0};
+}
+
 /* An access waits for its bank. An access that has not been issued has no address. */
-static void wait_for_bank(struct waits *waits, uint32_t index, const struct trax_accessed *accessed, uint32_t cycles) {
+static inline void wait_for_bank(struct waits *waits, uint32_t index, const struct trax_accessed *accessed,
+                                 uint32_t cycles) {
   struct bank *bank = &waits->banks[index];
   if (bank->cycles > UINT32_MAX / 2 ||
-      (accessed ? accessed->address - bank->begin > bank->last - bank->begin || !bank->object : bank->object != 0)) {
-    add_bank(waits, index);
-    const struct trax_region *region = accessed ? trax_objects_region(&waits->objects, accessed->address) : NULL;
-    *bank = region ? (struct bank){region->begin, region->last, (uint32_t)region->number + 1, 0} : (struct bank){0};
-  }
+      (accessed ? accessed->address - bank->begin > bank->last - bank->begin || !bank->object : bank->object != 0))
+    change_bank(waits, index, accessed);
   bank->cycles += cycles;
 }
 
@@ -168,6 +174,15 @@ static void add_passage(void *self, const struct trax_passage *passage) {
       write_up_to(waits, writers, &written, charged->at);
     add(waits, charged->rd ? &writers[charged->rd] : &itself, charged->index, charged->cause - TRAX_CAUSE_DATA_LOCAL,
         charged->cycles);
+  }
+  if (written.loads_alone && passage->refused) { /* both at once */
+    for (own = passage->accessed; own < end; own++) {
+      if (own >= written.accessed)
+        writers[waits->slow[own->index] % TRAX_NUM_REGISTERS] = (struct writer){own->index, own->address, true};
+      if (passage->refused[own->at] >> 8)
+        wait_for_bank(waits, own->index, own, passage->refused[own->at] >> 8);
+    }
+    return;
   }
   write_up_to(waits, writers, &written, passage->count);
   for (own = passage->accessed; passage->refused && own < end; own++)

@@ -11,6 +11,7 @@
 
 enum {
   LEAST_EPOCH = 16,             /* cycles; shorter epochs do not pay */
+  LEAST_SPAN = 512,             /* cycles up to a stop, for which a snapshot pays in observed runs, which stop often */
   MOST_EARLY = 1024,            /* limit of the cycles whose transfers are started before an epoch */
   FIRST_SNAPSHOT_INTERVAL = 64, /* in shortest epochs; doubles with each snapshot until a roll back */
   LONGEST_SNAPSHOT_INTERVAL = 1024,
@@ -143,7 +144,8 @@ bool trax_epochs_advance(struct trax_epochs *epochs, uint64_t *t, uint64_t until
   if (*t < epochs->cautious_from && epochs->cautious_from < until)
     until = epochs->cautious_from;
   const bool cautious = *t >= epochs->cautious_from && *t < epochs->cautious_until;
-  if (cautious || until - *t < LEAST_EPOCH) {
+  const bool stops = chip->machine->observer && !epochs->has_snapshot && until - *t < LEAST_SPAN;
+  if (cautious || stops || until - *t < LEAST_EPOCH) {
     chip->short_epochs += !cautious;
     trax_epochs_commit(epochs); /* writes outside epochs are not recorded, and so cannot be undone */
     return false;
