@@ -18,12 +18,12 @@ program is missing: the test fails.
 import os
 import sys
 
-import lit.formats
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import lit_programs  # noqa: E402
 
 SUITES = ["mc", "tools", "codegen", "clang", "ld", "c"]
 
 config.name = "trax"
-config.test_format = lit.formats.ShTest(execute_external=False)
 config.suffixes = [".s", ".S", ".ll", ".c", ".cpp", ".test", ".yaml"]
 config.test_source_root = os.path.dirname(__file__)
 config.test_exec_root = os.path.join(config.trax_build_root, "tests")
@@ -43,6 +43,9 @@ def program(name, *arguments, folder=config.trax_bin):
     return " ".join([os.path.join(folder, name), *arguments])
 
 
+run_c = ["--clang", program("clang"), "--sim", program("trax-sim"),
+         "--expected", os.path.join(config.trax_build_root, "tests", "c")]
+config.test_format = lit_programs.Format(run_c)
 config.substitutions += [
     ("%clangxx", program("clang++", "--target=trax")),
     ("%clang", program("clang", "--target=trax")),
@@ -63,8 +66,7 @@ config.substitutions += [
     ("%cmake", config.cmake),
     ("%run_c", " ".join([
         sys.executable, "-S", "-E",  # without site packages it starts in half the time
-        os.path.join(config.test_source_root, "run_c.py"), "--clang", program("clang"),
-        "--sim", program("trax-sim"), "--expected", os.path.join(config.trax_build_root, "tests", "c")])),
+        os.path.join(config.test_source_root, "run_c.py"), *run_c])),
 ]
 
 try:

@@ -26,12 +26,14 @@ import zlib
 
 ALL_LEVELS = ["-O0", "-O1", "-O2", "-O3", "-Os", "-Oz"]
 SECONDS = 120  # per step; a program that hangs is a failure, not a wait
+PROCESS = {}  # lit_programs.py: folder and environment of the steps
 
 
 def run(command):
     """Run a command; return (status, stdout, stderr). A command that hangs gives the status None."""
     try:
-        done = subprocess.run(command, capture_output=True, timeout=SECONDS, stdin=subprocess.DEVNULL, check=False)
+        done = subprocess.run(command, capture_output=True, timeout=SECONDS, stdin=subprocess.DEVNULL, check=False,
+                              **PROCESS)
     except subprocess.TimeoutExpired as expired:
         return None, expired.stdout or b"", expired.stderr or b""
     return done.returncode, done.stdout, done.stderr
@@ -92,7 +94,7 @@ def levels_of(options):
     return ["-O0", "-O2"] if not options.slow and zlib.crc32(name.encode()) % 3 == 0 else ["-O2"]
 
 
-def main():
+def main(arguments):
     parser = argparse.ArgumentParser(description="Compile, run and compare a C program at several optimization levels.")
     parser.add_argument("source")
     parser.add_argument("binary", help="where the programs go; the level is appended")
@@ -110,7 +112,6 @@ def main():
     parser.add_argument("--clang-only", action="store_true")
     parser.add_argument("--slow", action="store_true", help="by default at -O2 alone, not verified")
     # Values such as -O2 or --config begin with a dash: join them to their option first.
-    arguments = sys.argv[1:]
     takes_value = {"--levels", "--turns", "--also", "--cflags", "--simflags", "--fault"}
     joined = []
     while arguments:
@@ -139,4 +140,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(sys.argv[1:]))

@@ -344,9 +344,25 @@ class Stories(Scratch):
         self.assertNotIn("cycles", data["picture"]["rays"]["fields"])
 
 
+SEEN = """(() => {
+    const all = (selector, what) => Array.from(document.querySelectorAll(selector), what);
+    return {
+        figures: all("[data-figure]", e => [e.dataset.figure, Number(e.dataset.value), e.textContent]),
+        sections: all("main > section", e => [e.id, e.getBoundingClientRect().height]),
+        polygons: all("#time svg polygon", e => e).length,
+        brief: document.getElementById("brief").textContent,
+        memory: document.getElementById("memory-table").textContent,
+        cut: all(".scroll", e => e).filter(e => e.scrollWidth > e.clientWidth + 1).map(e => e.firstChild.id),
+        causes: all("#causes-table tbody th",
+            e => [e.textContent, getComputedStyle(e.querySelector(".swatch")).backgroundColor]),
+        rays: all("#rays-table tr", row => Array.from(row.cells, cell => cell.textContent)),
+    }; })()"""
+
+
 class Page(PageTests, Scratch):
     KEEP, CLOSELY = KEEP, "whole"
     MARGIN, PAPER, WIDE = 22, (3, 15), "table, canvas, svg"
+    read = {}  # by page
 
     @classmethod
     def setUpClass(cls):
@@ -367,6 +383,14 @@ class Page(PageTests, Scratch):
         cls.pages = {name: cls.folder / f"{file}.html" for name, file in files.items()}
         cls.browser = Browser(program)
         cls.addClassCleanup(cls.browser.close)
+
+    def seen(self, name):
+        """What stands in a page as it was loaded. Loading one takes as long as all looks at it."""
+        if name not in self.read:
+            self.load(name)
+            self.read[name] = self.browser.run(SEEN)
+            self.is_quiet()
+        return self.read[name]
 
     def load(self, name):
         self.browser.open(self.pages.get(name, self.folder / f"{name}.html"))
@@ -392,12 +416,8 @@ class Page(PageTests, Scratch):
     def test_figures(self):
         """Every figure of --stats stands on the page, with its value."""
         for name, page in self.pages.items():
-            self.load(name)
-            stats = json.loads(self.text(f"{page.stem}.json"))
-            shown = self.browser.run(
-                "Array.from(document.querySelectorAll('[data-figure]'), e => [e.dataset.figure, "
-                "Number(e.dataset.value), e.textContent])"
-            )
+            stats, seen = json.loads(self.text(f"{page.stem}.json")), self.seen(name)
+            shown = seen["figures"]
 
             def flat(level, prefix=""):
                 for key, value in level.items():
@@ -417,40 +437,28 @@ class Page(PageTests, Scratch):
             for key, value, text in shown:
                 if isinstance(value, int) and key.startswith("causes."):
                     self.assertEqual(text, f"{value:,}")
-            sections = self.browser.run(
-                "Array.from(document.querySelectorAll('main > section'), e => [e.id, e.getBoundingClientRect().height])"
-            )
             self.assertEqual(
-                [one for one, height in sections if height > 60],
+                [one for one, height in seen["sections"] if height > 60],
                 ["causes", "time", "picture", "source", "calls", "hardware", "objects", "waits", "rays", "statistics"],
                 name)
-            self.assertEqual(self.browser.run("document.querySelectorAll('#time svg polygon').length"),
-                             sum(1 for cycles in stats["causes"].values() if cycles))
-            self.assertEqual(stats["partial"], "did not finish"
-                             in self.browser.run("document.getElementById('brief').textContent"))
-            self.is_quiet()
-        self.assertIn("DRAM", self.browser.run("document.getElementById('memory-table').textContent"))
+            self.assertEqual(seen["polygons"], sum(1 for cycles in stats["causes"].values() if cycles))
+            self.assertEqual(stats["partial"], "did not finish" in seen["brief"])
+        self.assertIn("DRAM", self.seen("dram")["memory"])
 
     def test_tables_fit(self):
         """In a window of 1400 pixels no table is cut."""
         for name in self.pages:
-            self.load(name)
-            cut = self.browser.run(
-                """Array.from(document.querySelectorAll(".scroll")).filter(e => e.scrollWidth > e.clientWidth + 1)
-                .map(e => e.firstChild.id)""")
-            self.assertEqual(cut, [], name)
+            self.assertEqual(self.seen(name)["cut"], [], name)
 
     def test_colours_of_causes(self):
         """A cause has one colour, whatever other causes a run has, and no other has it. A bar's labels can be read on
         all."""
         known, every = {}, list(json.loads(self.text("p.json"))["causes"])
         for name in self.pages:
-            self.load(name)
-            shown = self.browser.run("""Array.from(document.querySelectorAll("#causes-table tbody th"),
-                e => [e.textContent, getComputedStyle(e.querySelector(".swatch")).backgroundColor])""")
-            for cause, colour in shown:
+            for cause, colour in self.seen(name)["causes"]:
                 known.setdefault(cause, set()).add(colour)
         self.assertGreater(len(known), 10)
+        self.load("whole")
         self.assertEqual({cause: colours for cause, colours in known.items() if len(colours) > 1}, {})
         both = [
             self.browser.run(f"causesOf({{causes: {json.dumps(causes)}}}, []).map(one => [one.name, one.colour])")
@@ -492,9 +500,7 @@ class Page(PageTests, Scratch):
     def test_rays_that_are_not_marked(self):
         """Without --mark-rays nothing is known of a kind of ray but how many there are."""
         for name, heads in (("whole", 9), ("dram", 2)):
-            self.load(name)
-            table = self.browser.run("""Array.from(document.querySelectorAll("#rays-table tr"),
-                row => Array.from(row.cells, cell => cell.textContent))""")
+            table = self.seen(name)["rays"]
             self.assertEqual({len(row) for row in table}, {heads}, name)
         stats = json.loads(self.text("general.json"))
         self.assertEqual(table[1:], [
