@@ -401,7 +401,7 @@ MUTANTS = [
      "  for (uint32_t i = 0; i < 1; i++)\n    trax_fast_roll_back_readers"),
     ("fast/time/cycle.c", "  trax_fast_record_readers(tm);\n", ""),
     # Stores of bursts: their words are not loaded again; at their issue they take effect, in order; others roll back.
-    ("fast/function/burst.c", "if (has_stored(tp, address, load))", "if (0)"),
+    ("fast/function/burst.c", "if (has_stored(tp, address, load))", "if (has_stored(tp, address, load) && 0)"),
     ("fast/function/burst.c", "!((tp->burst.access[i].address ^ address) & ~3u)",
      "tp->burst.access[i].address == address"),
     ("fast/function/burst.c", "  if (!tp->again) {", "  if (true) {"),
