@@ -233,6 +233,26 @@ static void a_machine_runs_once(void **state) {
   trax_machine_destroy(empty);
 }
 
+static void expect_as_reference(const struct trax_config *config, const uint32_t *words, size_t count) {
+  struct run reference = run_alone(config, words, count, "reference", 0, 1),
+             run = run_alone(config, words, count, getenv("TRAX_ENGINE"), 0, 1);
+  expect_same(&reference, &run);
+  end(&reference);
+  end(&run);
+}
+
+/* Nobody observes the only TP. */
+static void latencies_of_one_tp(void **state) {
+  (void)state;
+  struct trax_config config = bench_near(1, 1);
+  for (uint32_t latency = 1; latency < 8; latency++) {
+    const uint32_t program[] = {
+        R(FADD, 1, 1, 2), NOP, R(FMUL, 3, 1, 1), NOP, NOP, R(FADD, 1, 3, 1), R(ADD, 4, 1, 3), NOP, NOP, NOP, HALT};
+    config.fpu.add_latency_cycles = config.fpu.mul_latency_cycles = latency;
+    expect_as_reference(&config, program, sizeof program / 4);
+  }
+}
+
 /* A TP waits for a word while another one runs through its loop, alone. Then the first one jumps to an instruction in
    the bank that it has used last, and the round robin of this bank is where the loop has left it. */
 static void a_bank_after_one_was_awake(void **state) {
@@ -255,11 +275,7 @@ static void a_bank_after_one_was_awake(void **state) {
     words[count++] = B(BNE, 3, 0, -4);
     words[count++] = HALT;
     config.memory.latency_cycles = 100 + i / 8;
-    struct run reference = run_alone(&config, words, count, "reference", 0, 1),
-               run = run_alone(&config, words, count, getenv("TRAX_ENGINE"), 0, 1);
-    expect_same(&reference, &run);
-    end(&reference);
-    end(&run);
+    expect_as_reference(&config, words, count);
   }
 }
 
@@ -272,6 +288,7 @@ int main(void) {
       cmocka_unit_test(a_store_past_the_cache_of_a_load_ahead),
       cmocka_unit_test(own_increment_before_load),
       cmocka_unit_test(every_value_once),
+      cmocka_unit_test(latencies_of_one_tp),
       cmocka_unit_test(a_bank_after_one_was_awake),
       cmocka_unit_test(exit_statuses),
       cmocka_unit_test(the_limit_covers_the_last_store),
