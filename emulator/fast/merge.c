@@ -57,16 +57,11 @@ void trax_merge_roll_back(struct trax_merge *merge) {
 
 /* --- order --- */
 
-static void mark(struct trax_merge_order *order, uint64_t cycle, uint32_t tm) {
-  const uint64_t at = cycle - order->begin;
-  order->cycles[at / 64] |= (uint64_t)1 << at % 64;
-  order->tms[at] |= (uint64_t)1 << tm;
-}
-
 /* Orders the entries of the cycles from `begin` to `end`. False: out of memory. */
 static bool order_all(struct trax_merge *merge, uint64_t begin, uint64_t end) {
   struct trax_merge_order *const order = &merge->order;
   order->begin = begin;
+  order->word = 0;
   order->words = (end - begin + 63) / 64;
   if (!trax_grow_to((void **)&order->cycles, 65 * order->words, &order->capacity, sizeof *order->cycles))
     return false;
@@ -74,19 +69,20 @@ static bool order_all(struct trax_merge *merge, uint64_t begin, uint64_t end) {
   memset(order->cycles, 0, 65 * order->words * sizeof *order->cycles);
   for (uint32_t tm = 0; tm < merge->chip->tms; tm++) {
     const struct trax_store_buffer *buffer = &merge->buffers[tm];
-    for (size_t i = 0; i < buffer->write_count; i++)
-      mark(order, buffer->writes[i].cycle, tm);
-    for (size_t i = 0; i < buffer->request_count; i++)
-      mark(order, buffer->requests[i], tm);
+    for (size_t i = 0; i < buffer->count; i++) {
+      const uint64_t at = buffer->entries[i].cycle - begin;
+      order->cycles[at / 64] |= (uint64_t)1 << at % 64;
+      order->tms[at] |= (uint64_t)1 << tm;
+    }
   }
   return true;
 }
 
 /* Returns the first cycle with entries that are not done; TRAX_NEVER: there is none. */
-static inline uint64_t next_of(const struct trax_merge_order *order) {
-  for (size_t word = 0; word < order->words; word++)
-    if (order->cycles[word])
-      return order->begin + 64 * word + trax_first(order->cycles[word]);
+static inline uint64_t next_of(struct trax_merge_order *order) {
+  for (; order->word < order->words; order->word++)
+    if (order->cycles[order->word])
+      return order->begin + 64 * order->word + trax_first(order->cycles[order->word]);
   return TRAX_NEVER;
 }
 
@@ -140,7 +136,7 @@ static bool hold_character(struct trax_merge *merge, uint32_t character) {
 /* Performs a store of a TM or holds its output, or prepares the block of an atomic increment. False: the epoch must be
    given up, since a burst has loaded from the block, or the controller has incremented the word too early, or memory
    ran out. */
-static bool perform(struct trax_merge *merge, const struct trax_store_buffer_write *write, uint32_t tm) {
+static bool perform(struct trax_merge *merge, const struct trax_store_buffer_entry *write, uint32_t tm) {
   struct trax_chip *chip = merge->chip;
   if (write->bytes == TRAX_PRINT)
     return hold_character(merge, write->value);
@@ -160,16 +156,19 @@ static bool perform(struct trax_merge *merge, const struct trax_store_buffer_wri
 /* Submits the requests of cycle t and performs its stores, up to which all are done. */
 static bool take_cycle(struct trax_merge *merge, uint64_t t) {
   struct trax_merge_order *const order = &merge->order;
-  const uint64_t at = t - order->begin;
-  order->cycles[at / 64] &= ~((uint64_t)1 << at % 64);
-  for (uint64_t rest = order->tms[at]; rest; rest &= rest - 1) {
+  order->cycles[order->word] &= order->cycles[order->word] - 1;
+  for (uint64_t rest = order->tms[t - order->begin]; rest; rest &= rest - 1) {
     const uint32_t tm = trax_first(rest);
     struct trax_store_buffer *buffer = &merge->buffers[tm];
-    for (; buffer->submitted < buffer->request_count && buffer->requests[buffer->submitted] == t; buffer->submitted++)
-      trax_memory_submit(&merge->chip->memory, &merge->chip->tm[tm]);
-    for (; buffer->written < buffer->write_count && buffer->writes[buffer->written].cycle == t; buffer->written++)
-      if (!perform(merge, &buffer->writes[buffer->written], tm))
+    const struct trax_store_buffer_entry *entry = &buffer->entries[buffer->done],
+                                         *end = buffer->entries + buffer->count;
+    do
+      if (entry->bytes == TRAX_REQUEST)
+        trax_memory_submit(&merge->chip->memory, &merge->chip->tm[tm]);
+      else if (!perform(merge, entry, tm))
         return false;
+    while (++entry < end && entry->cycle == t);
+    buffer->done = (size_t)(entry - buffer->entries);
   }
   return true;
 }

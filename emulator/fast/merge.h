@@ -13,10 +13,10 @@ struct trax_tm;
 
 /* Entries of store buffers, in the order of their cycles; those of one cycle in the order of TMs, and of making. */
 struct trax_merge_order {
-  uint64_t begin;   /* the epoch's first cycle */
-  uint64_t *cycles; /* [words]: masks of the epoch's cycles with entries that are not done */
-  uint64_t *tms;    /* [64 * words], behind them: for each cycle a mask of the TMs with entries */
-  size_t words, capacity;
+  uint64_t begin;               /* the epoch's first cycle */
+  uint64_t *cycles;             /* [words]: masks of the epoch's cycles with entries that are not done */
+  uint64_t *tms;                /* [64 * words], behind them: for each cycle a mask of the TMs with entries */
+  size_t words, word, capacity; /* word: the first one that may have one */
 };
 
 struct trax_merge {

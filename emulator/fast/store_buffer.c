@@ -6,14 +6,13 @@
 #include <string.h>
 
 void trax_store_buffer_destroy(struct trax_store_buffer *buffer) {
-  free(buffer->writes);
+  free(buffer->entries);
   free(buffer->reads);
-  free(buffer->requests);
   trax_map_free(&buffer->words);
 }
 
 void trax_store_buffer_begin(struct trax_store_buffer *buffer) {
-  buffer->write_count = buffer->written = buffer->read_count = buffer->request_count = buffer->submitted = 0;
+  buffer->count = buffer->done = buffer->read_count = 0;
   trax_map_empty(&buffer->words, sizeof(struct trax_store_buffer_word));
   buffer->stop = false;
 }
@@ -25,9 +24,9 @@ static bool grow(struct trax_store_buffer *buffer, void **array, size_t count, s
   return enough;
 }
 
-void trax_store_buffer_record(struct trax_store_buffer *buffer, struct trax_store_buffer_write write) {
-  if (grow(buffer, (void **)&buffer->writes, buffer->write_count, &buffer->write_capacity, sizeof *buffer->writes))
-    buffer->writes[buffer->write_count++] = write;
+void trax_store_buffer_record(struct trax_store_buffer *buffer, struct trax_store_buffer_entry entry) {
+  if (grow(buffer, (void **)&buffer->entries, buffer->count, &buffer->capacity, sizeof *buffer->entries))
+    buffer->entries[buffer->count++] = entry;
 }
 
 void trax_store_buffer_read(struct trax_store_buffer *buffer, uint32_t address) {
@@ -51,7 +50,7 @@ uint32_t trax_store_buffer_load(struct trax_store_buffer *buffer, const struct t
 
 void trax_store_buffer_store(struct trax_store_buffer *buffer, uint64_t t, uint32_t address, uint32_t value,
                              unsigned bytes) {
-  trax_store_buffer_record(buffer, (struct trax_store_buffer_write){t, address, value, bytes});
+  trax_store_buffer_record(buffer, (struct trax_store_buffer_entry){t, address, value, bytes});
   struct trax_store_buffer_word *own =
       (struct trax_store_buffer_word *)trax_map_put(&buffer->words, sizeof *own, address & ~3u, 0);
   if (!own) {
@@ -62,10 +61,4 @@ void trax_store_buffer_store(struct trax_store_buffer *buffer, uint64_t t, uint3
   const uint32_t mask = (bytes < 4 ? (1u << 8 * bytes) - 1 : ~0u) << shift;
   own->entry.value = (own->entry.value & ~mask) | (value << shift & mask);
   own->mask |= mask;
-}
-
-void trax_store_buffer_request(struct trax_store_buffer *buffer, uint64_t t) {
-  if (grow(buffer, (void **)&buffer->requests, buffer->request_count, &buffer->request_capacity,
-           sizeof *buffer->requests))
-    buffer->requests[buffer->request_count++] = t;
 }

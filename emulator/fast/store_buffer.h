@@ -9,13 +9,16 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-struct trax_store_buffer_write {
+struct trax_store_buffer_entry {
   uint64_t cycle;
   uint32_t address, value;
-  uint32_t bytes; /* or TRAX_INCREMENT, which the controller will perform, in a block that is not SHARED yet; or
-                     TRAX_PRINT: a character of the output */
+  uint32_t bytes; /* of a store; or one of these */
 };
-enum { TRAX_INCREMENT = 0, TRAX_PRINT = 8 };
+enum {
+  TRAX_INCREMENT = 0, /* by the controller, in a block that is not SHARED yet */
+  TRAX_PRINT = 8,     /* a character of the output */
+  TRAX_REQUEST = 16   /* the next one in the memory queue */
+};
 
 /* A word of global memory as the TM's own stores have changed it: `mask` has the bits that they wrote. */
 struct trax_store_buffer_word {
@@ -24,13 +27,11 @@ struct trax_store_buffer_word {
 };
 
 struct trax_store_buffer {
-  struct trax_store_buffer_write *writes; /* [write_count], in the order of issue */
-  size_t write_count, write_capacity, written; /* written: those that have taken effect */
+  struct trax_store_buffer_entry *entries; /* [count], in the order of issue */
+  size_t count, capacity, done;            /* done: those that have taken effect */
   uint32_t *reads; /* [read_count]: the words that loads have read from blocks that are written; docs/fast-engine.md,
                       read set */
   size_t read_count, read_capacity;
-  uint64_t *requests; /* [request_count]: the cycles in which they were made */
-  size_t request_count, request_capacity, submitted; /* submitted: those that the controller has */
   struct trax_map words; /* of struct trax_store_buffer_word */
   bool stop;             /* the epoch must be given up: output, or out of memory */
 };
@@ -46,9 +47,8 @@ uint32_t trax_store_buffer_load(struct trax_store_buffer *buffer, const struct t
                                 unsigned bytes);
 void trax_store_buffer_store(struct trax_store_buffer *buffer, uint64_t t, uint32_t address, uint32_t value,
                              unsigned bytes);
-/* Records the issue of an atomic increment, or a character that the program prints. */
-void trax_store_buffer_record(struct trax_store_buffer *buffer, struct trax_store_buffer_write write);
-/* Records a request, which has taken a place in the memory queue. */
-void trax_store_buffer_request(struct trax_store_buffer *buffer, uint64_t t);
+/* Records the issue of an atomic increment, a character that the program prints, or a request, which has taken a place
+   in the memory queue. */
+void trax_store_buffer_record(struct trax_store_buffer *buffer, struct trax_store_buffer_entry entry);
 
 #endif

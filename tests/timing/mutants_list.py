@@ -183,8 +183,8 @@ MUTANTS = [
     ("fast/time/grant.h", "trax_fast_head_timing(tm, trax_first(winner))->decoded->op",
      "trax_fast_head_timing(tm, trax_first(all))->decoded->op"),
     ("fast/time/grant.h", "if (free_from[i] <= t)", "if (free_from[i] <= t + 1)"),
-    ("fast/memory/memory.c", "channel->free_from.cycle >= t ? channel->free_from : (struct trax_instant){t, 0}",
-     "(struct trax_instant){t, 0}"),
+    ("fast/memory/memory.c", "const bool busy = channel->free_from.cycle >= t;",
+     "const bool busy = false;"),
     ("fast/memory/memory.c", "return channel->free_from.cycle <= t;",
      "return channel->free_from.cycle < t + !channel->free_from.units;"),
     ("fast/tm/icache.c", "icache->pending[i].waiting |= bit;", "icache->pending[i].waiting = bit;"),
@@ -259,8 +259,8 @@ MUTANTS = [
     ("fast/memory/memory.c", "  trax_arbiter_to_back(&waiting->arbiter, number);\n",
      ""),
     # A transfer takes bytes / B cycles.
-    ("fast/memory/memory.c", "begin.units + request->bytes * memory->units_per_byte",
-     "begin.units + (request->bytes + 3) / 4 * 4 * memory->units_per_byte"),
+    ("fast/memory/memory.c", ": 0) + request->bytes * memory->units_per_byte",
+     ": 0) + (request->bytes + 3) / 4 * 4 * memory->units_per_byte"),
     # The latency is added to every transfer.
     ("fast/memory/memory.c", "+ memory->latency;",
      "+ memory->latency + (request->kind == TRAX_REQUEST_WRITE);"),
@@ -449,22 +449,19 @@ MUTANTS = [
     ("fast/function/program.c", "decoded->imm == TRAX_SR_CYCLE || decoded->imm == TRAX_SR_CYCLEH",
      "decoded->imm == TRAX_SR_CYCLEH"),
     # A TM that has read too early goes back.
-    ("fast/merge.c", "if (writer && (writer->value & ~EARLY) != i) {",
-     "if (writer && (writer->value & ~EARLY) != i && (writer->value & ~EARLY) < 64) {"),
+    ("fast/merge.c", "if (written && (written->writer & ~EARLY) != i) {",
+     "if (written && (written->writer & ~EARLY) != i && (written->writer & ~EARLY) < 64) {"),
     # A word that several wrote conflicts.
-    ("fast/merge.c", "writer->value = BY_SEVERAL |",
-     "writer->value = tm |"),
+    ("fast/merge.c", "undo->writer = BY_SEVERAL |",
+     "undo->writer = tm |"),
     # What was loaded ahead and is written is loaded again.
     ("fast/merge.c", "  if (trax_fast_is_loaded(&chip->blocks, write->address))\n    return false;",
      "  if (trax_fast_is_loaded(&chip->blocks, write->address) && write->bytes)\n    return false;"),
     # Stores of a cycle in the TMs' order.
-    ("fast/merge.c", "const uint32_t tm = trax_first(rest);\n"
-     "      const struct trax_store_buffer *buffer = &merge->buffers[tm];\n"
-     "      for (size_t *i = &order->done[tm]; *i < buffer->write_count",
+    ("fast/merge.c", "const uint32_t tm = trax_first(rest);\n    struct trax_store_buffer *buffer",
      "const uint32_t first = trax_first(rest);\n"
-     "      const uint32_t tm = first ^ (order->tms[order->next - order->begin] >> (first ^ 1) & 1);\n"
-     "      const struct trax_store_buffer *buffer = &merge->buffers[tm];\n"
-     "      for (size_t *i = &order->done[tm]; *i < buffer->write_count"),
+     "    const uint32_t tm = first ^ (order->tms[t - order->begin] >> (first ^ 1) & 1);\n"
+     "    struct trax_store_buffer *buffer"),
     # Memory is restored.
     ("fast/merge.c", "memcpy(merge->chip->machine->space.bytes + undo->address, &undo->word, sizeof undo->word);",
      "memcpy(merge->chip->machine->space.bytes + undo->address, &undo->word, 1);"),
@@ -476,9 +473,13 @@ MUTANTS = [
     ("fast/merge.c", "merge->failed |= !record_writer(merge, address, BY_CONTROLLER);",
      "(void)address; (void)merge;"),
     # Requests are shown in their cycle.
-    ("fast/merge.c", "    submit_up_to(merge, t);", "    submit_up_to(merge, t + 1);"),
-    # Stores are performed before the increments of later cycles.
-    ("fast/merge.c", "    if (!write_up_to(merge, t))", "    if (t == 0 && !write_up_to(merge, t))"),
+    ("fast/merge.c", "&chip->machine->space, t);\n    next =", "&chip->machine->space, t + 1);\n    next ="),
+    # An epoch in which a TM stops is given up.
+    ("fast/merge.c", "if (tm->buffer->stop || tm->fault.kind)", "if (tm->fault.kind)"),
+    # Bursts do not load what others may increment.
+    ("fast/function/blocks.h", "__ATOMIC_RELAXED) == TRAX_BLOCK_SHARED", "__ATOMIC_RELAXED) >= TRAX_BLOCK_WRITTEN"),
+    # The write set is that of one epoch.
+    ("fast/merge.c", "    *slot_of(merge, merge->undo[merge->epoch_undo].address) = 0;", "    ;"),
     # Every part of the snapshot is copied.
     ("fast/epochs.c", "piece_count * (part + 1) / parts;",
      "piece_count * (part + 1) / parts - part;"),

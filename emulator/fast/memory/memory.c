@@ -61,15 +61,16 @@ void trax_memory_pass(struct trax_memory *memory, struct trax_tm *tms, trax_requ
 
 void trax_memory_submit(struct trax_memory *memory, struct trax_tm *tm) {
   struct trax_queue *queue = &tm->queue;
-  struct trax_waiting *waiting = memory->channel[0].waiting;
   if (memory->keeps_order) {
     queue->submitted++;
-  } else {
-    const uint32_t place = queue->first_unsubmitted, address = queue->requests[place].address;
-    waiting = memory->l2 ? trax_l2_bank(memory->l2, address) : channel_of(memory, address)->waiting;
-    queue->first_unsubmitted = queue->requests[place].next;
-    trax_memory_append(memory, tm - tm->number, &waiting->list[tm->number], tm->number << TRAX_REQUEST_BITS | place);
+    memory->channel[0].waiting->tms |= (uint64_t)1 << tm->number;
+    memory->waiting++;
+    return;
   }
+  const uint32_t place = queue->first_unsubmitted, address = queue->requests[place].address;
+  struct trax_waiting *waiting = memory->l2 ? trax_l2_bank(memory->l2, address) : channel_of(memory, address)->waiting;
+  queue->first_unsubmitted = queue->requests[place].next;
+  trax_memory_append(memory, tm - tm->number, &waiting->list[tm->number], tm->number << TRAX_REQUEST_BITS | place);
   waiting->tms |= (uint64_t)1 << tm->number;
   *(memory->l2 ? &memory->l2->waiting : &memory->waiting) += 1;
 }
@@ -107,13 +108,13 @@ void trax_memory_count(const struct trax_memory *memory, unsigned number, uint32
 }
 
 /* Begins the transfer of the request's bytes. Returns ceil(f) + memory.latency_cycles. */
-static uint64_t transfer(struct trax_memory *memory, unsigned number, struct trax_request *request,
-                         struct trax_space *space, uint64_t t) {
+static inline uint64_t transfer(struct trax_memory *memory, unsigned number, struct trax_request *request,
+                                struct trax_space *space, uint64_t t) {
   struct trax_channel *channel = &memory->channel[number];
-  const struct trax_instant begin = channel->free_from.cycle >= t ? channel->free_from : (struct trax_instant){t, 0};
-  const uint64_t units = begin.units + request->bytes * memory->units_per_byte;
-  channel->free_from =
-      (struct trax_instant){begin.cycle + units / memory->units_per_cycle, units % memory->units_per_cycle};
+  const bool busy = channel->free_from.cycle >= t;
+  const uint64_t units = (busy ? channel->free_from.units : 0) + request->bytes * memory->units_per_byte;
+  channel->free_from.cycle = (busy ? channel->free_from.cycle : t) + units / memory->units_per_cycle;
+  channel->free_from.units = units % memory->units_per_cycle;
   trax_memory_count(memory, number, request->bytes);
   uint64_t over = ceiling(channel->free_from);
   if (request->kind == TRAX_REQUEST_ATOMIC)
@@ -163,7 +164,7 @@ static void serve(struct trax_memory *memory, struct trax_tm *tms, struct trax_s
 }
 
 /* The same if the TMs' queues are rings. */
-static void serve_ring(struct trax_memory *memory, struct trax_tm *tms, struct trax_space *space, uint64_t t) {
+static inline void serve_ring(struct trax_memory *memory, struct trax_tm *tms, struct trax_space *space, uint64_t t) {
   struct trax_waiting *waiting = memory->channel[0].waiting;
   struct trax_tm *tm = &tms[trax_waiting_arbitrate(waiting)];
   struct trax_request *request = trax_queue_first_waiting(&tm->queue);
@@ -173,6 +174,12 @@ static void serve_ring(struct trax_memory *memory, struct trax_tm *tms, struct t
   request->completion = transfer(memory, 0, request, space, t);
   if (request->completion < tm->next_cycle)
     tm->next_cycle = request->completion;
+}
+
+/* The same as long as requests wait and the bus is free. */
+static void serve_rings(struct trax_memory *memory, struct trax_tm *tms, struct trax_space *space, uint64_t t) {
+  while (memory->waiting && is_free(&memory->channel[0], t))
+    serve_ring(memory, tms, space, t);
 }
 
 static inline void serve_channel(struct trax_memory *memory, struct trax_tm *tms, struct trax_space *space,
@@ -208,8 +215,7 @@ uint64_t trax_memory_serve_early(struct trax_memory *memory, struct trax_tm *tms
 
 void trax_memory_cycle(struct trax_memory *memory, struct trax_tm *tms, struct trax_space *space, uint64_t t) {
   if (memory->keeps_order) {
-    while (memory->waiting && is_free(memory->channel, t))
-      serve_ring(memory, tms, space, t);
+    serve_rings(memory, tms, space, t);
     return;
   }
   if (memory->l2 && memory->l2->waiting)

@@ -17,7 +17,7 @@ static bool execute(struct trax_tm *tm, unsigned number, uint64_t t) {
       trax_fast_roll_back_readers(tm, tp->address);
   }
   if (inst->is_atomic && tm->buffer && !trax_fast_is_shared(&tm->chip->blocks, tp->address))
-    trax_store_buffer_record(tm->buffer, (struct trax_store_buffer_write){t, tp->address, 0, TRAX_INCREMENT});
+    trax_store_buffer_record(tm->buffer, (struct trax_store_buffer_entry){t, tp->address, 0, TRAX_INCREMENT});
   if (inst->is_atomic)
     tp->atomics |= (uint64_t)1 << inst->rd;
   if (!trax_tp_execute(tm, number, t))

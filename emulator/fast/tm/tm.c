@@ -116,7 +116,7 @@ void trax_tm_request(struct trax_tm *tm, struct trax_request request) {
   stats->memory_requests++;
   trax_queue_push(&tm->queue, request);
   if (tm->buffer)
-    trax_store_buffer_request(tm->buffer, tm->now);
+    trax_store_buffer_record(tm->buffer, (struct trax_store_buffer_entry){tm->now, 0, 0, TRAX_REQUEST});
   else
     trax_memory_submit(&tm->chip->memory, tm);
 }

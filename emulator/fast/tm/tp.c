@@ -75,7 +75,7 @@ static bool trap(struct trax_tm *tm, unsigned number, uint32_t value, int32_t co
     return true;
   }
   if (tm->buffer && code == TRAX_TRAP_PUTC) {
-    trax_store_buffer_record(tm->buffer, (struct trax_store_buffer_write){t, 0, value, TRAX_PRINT});
+    trax_store_buffer_record(tm->buffer, (struct trax_store_buffer_entry){t, 0, value, TRAX_PRINT});
     return true;
   }
   if (tm->buffer && (code == TRAX_TRAP_PUTS || code == TRAX_TRAP_HOST)) {
