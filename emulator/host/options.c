@@ -141,7 +141,6 @@ static const trax_command command = {
                 "trax-sim hello --set dcache.bytes=32768 --stats b.json\n"
                 "trax-sim compare a.json b.json                    # what differs between two runs\n"
                 "trax-sim hello --gdb 1234                         # waits for gdb-multiarch",
-    .see_also = "trax-clang(1), trax-render(1), trax-eval(1), gdb-multiarch(1); docs/trax-sim.md, docs/explaining.md",
     .part = "compare",
     .part_of = "trax-eval",
     .column = 27};
