@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "program/image_internal.h"
+#include "trax/abi.h"
 #include "trax/grow.h"
 
 enum { MAX_DEPTH = 64, MAX_FRAME = 1 << 30 }; /* of nested entries; of bytes */
@@ -88,6 +89,7 @@ static bool is_c(Dwarf_Die *function) {
 }
 
 size_t trax_image_variables(trax_image *image, uint32_t pc, struct trax_frame_variable **items, unsigned *base) {
+  static const uint8_t registers[TRAX_NUM_REGISTERS] = TRAX_DWARF_REGISTERS;
   struct variables variables = {0};
   Dwarf_Die function;
   Dwarf_Attribute attribute;
@@ -98,7 +100,7 @@ size_t trax_image_variables(trax_image *image, uint32_t pc, struct trax_frame_va
       !dwarf_attr(&function, DW_AT_frame_base, &attribute) || dwarf_getlocation(&attribute, &ops, &count) != 0 ||
       count != 1 || ops[0].atom < DW_OP_reg0 || ops[0].atom > DW_OP_reg31)
     return 0;
-  *base = ops[0].atom - DW_OP_reg0;
+  *base = registers[ops[0].atom - DW_OP_reg0];
   add_variables(&variables, &function, 0);
   *items = variables.items;
   return variables.count;

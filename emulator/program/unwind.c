@@ -13,12 +13,17 @@ static uint32_t leb(trax_dwarf_reader *reader, bool is_signed) {
   return (uint32_t)trax_dwarf_leb(reader, is_signed);
 }
 
-static unsigned register_number(trax_dwarf_reader *reader) {
-  const uint64_t number = trax_dwarf_leb(reader, false);
+/* Returns the register with this number in debug information. */
+static unsigned register_of(uint64_t number, trax_dwarf_reader *reader) {
+  static const uint8_t registers[TRAX_NUM_REGISTERS] = TRAX_DWARF_REGISTERS;
   if (number < TRAX_NUM_REGISTERS)
-    return (unsigned)number;
+    return registers[number];
   reader->bad = true;
   return 0;
+}
+
+static unsigned register_number(trax_dwarf_reader *reader) {
+  return register_of(trax_dwarf_leb(reader, false), reader);
 }
 
 struct rule {
@@ -214,19 +219,18 @@ static void interpret_long(struct interpreter *it, uint8_t opcode, trax_dwarf_re
 static bool interpret(struct interpreter *it, trax_dwarf_reader reader) {
   while (reader.at < reader.end && !reader.bad) {
     const uint8_t opcode = (uint8_t)trax_dwarf_fixed(&reader, 1), low = opcode & 0x3F;
+    unsigned number;
     switch (opcode & 0xC0) {
     case DW_CFA_advance_loc:
       advance(it, low);
       break;
     case DW_CFA_offset:
-      if (low >= TRAX_NUM_REGISTERS)
-        return false;
-      set_rule(it, low, RULE_AT, leb(&reader, false) * it->entry->data_factor);
+      number = register_of(low, &reader);
+      set_rule(it, number, RULE_AT, leb(&reader, false) * it->entry->data_factor);
       break;
     case DW_CFA_restore:
-      if (low >= TRAX_NUM_REGISTERS)
-        return false;
-      it->row.rules[low] = it->initial.rules[low];
+      number = register_of(low, &reader);
+      it->row.rules[number] = it->initial.rules[number];
       break;
     default:
       interpret_long(it, opcode, &reader);
