@@ -3,7 +3,6 @@
 #include <dwarf.h>
 #include <string.h>
 
-#include "program/dwarf_reader.h"
 #include "program/image_internal.h"
 
 enum { RA = 1, SP = 2, SAVED_STATES = 8 };
@@ -45,7 +44,7 @@ struct frame_entry {
 
 /* --- finding --- */
 
-static bool section_named(const trax_image *image, const char *wanted, trax_dwarf_reader *reader) {
+bool trax_image_section(const trax_image *image, const char *wanted, trax_dwarf_reader *reader) {
   size_t names;
   if (elf_getshdrstrndx(image->elf, &names) != 0)
     return false;
@@ -90,7 +89,7 @@ static bool read_common(trax_dwarf_reader section, uint32_t offset, struct frame
 
 static bool find_entry(const trax_image *image, uint32_t pc, struct frame_entry *entry) {
   trax_dwarf_reader section, whole;
-  if (!section_named(image, ".debug_frame", &section))
+  if (!trax_image_section(image, ".debug_frame", &section))
     return false;
   whole = section;
   while (section.at < section.end) {
