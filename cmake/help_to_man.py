@@ -1,7 +1,5 @@
 #!/usr/bin/env python3
-"""A page for man(1) of what a program says with --help: help_to_man.py PROGRAM NAME SUMMARY VERSION
-
-For the programs that do not have emulator/base's table of options: trax-ld, the tools over LLVM, trax-eval."""
+"""A page for man(1) of what a program says with --help: help_to_man.py PROGRAM NAME SUMMARY VERSION [SEE_ALSO]"""
 
 import re
 import subprocess
@@ -14,11 +12,11 @@ def roff(text):
 
 
 def main():
-    program, name, summary, version = sys.argv[1:5]
+    program, name, summary, version, *see_also = sys.argv[1:]
     text = subprocess.run([program, "--help"], capture_output=True, text=True, check=True).stdout
     out = [f'.TH {roff(name.upper())} 1 "" "trax {version}"', ".SH NAME", f"{roff(name)} \\- {roff(summary)}",
            ".SH SYNOPSIS"]
-    described = listed = in_usage = False
+    described = listed = in_usage = in_examples = False
     for line in text.splitlines():
         usage = re.match(r"(?:usage|USAGE): *(.*)", line)
         words = line.split()
@@ -34,6 +32,13 @@ def main():
             continue
         if not words:
             out.append(".PP")
+            in_examples = False
+        elif line == "Examples:":
+            out.append(".SH EXAMPLES")
+            in_examples = listed = True
+        elif in_examples:
+            command, _, meaning = line.partition("#")
+            out += [".TP", f"\\fB{roff(command.strip())}\\fR", roff(meaning.strip())]
         elif re.fullmatch(r"\S[^:]*:", line):
             out += [] if listed else [".SH OPTIONS"]
             listed = True
@@ -49,6 +54,7 @@ def main():
             out += [] if described or listed else [".SH DESCRIPTION"]
             described = True
             out.append(roff(" ".join(words)))
+    out += [".SH SEE ALSO", roff(see_also[0])] if see_also else []
     page = [
         line for number, line in enumerate(out)
         if line and not (line == ".PP" and

@@ -1,18 +1,25 @@
 //===- TraxRegisters.td - the 32 registers of a TP -----------------------===//
 
-class TraxReg<bits<16> number, string name, list<string> alt>
-    : Register<name, alt>, DwarfRegNum<[number]> {
+// The number of a register in debug information is the one that its role has on RISC-V: stock GDB knows no machine that is
+// nearer (docs/debugging.md).
+class TraxReg<int number, string other, int dwarf>
+    : Register<"r"#number, [other]>, DwarfRegNum<[dwarf]> {
+  int Number = number;
   let HWEncoding = number;
   let Namespace = "Trax";
 }
 
-def R0 : TraxReg<0, "r0", ["zero"]> { let isConstant = true; }
-def R1 : TraxReg<1, "r1", ["ra"]>;
-def R2 : TraxReg<2, "r2", ["sp"]>;
-def R3 : TraxReg<3, "r3", ["fp"]>;
-foreach i = 0-7 in def R#!add(i, 4) : TraxReg<!add(i, 4), "r"#!add(i, 4), ["a"#i]>;
-foreach i = 0-7 in def R#!add(i, 12) : TraxReg<!add(i, 12), "r"#!add(i, 12), ["t"#i]>;
-foreach i = 0-11 in def R#!add(i, 20) : TraxReg<!add(i, 20), "r"#!add(i, 20), ["s"#i]>;
+def R0 : TraxReg<0, "zero", 0> { let isConstant = true; }
+def R1 : TraxReg<1, "ra", 1>;
+def R2 : TraxReg<2, "sp", 2>;
+def R3 : TraxReg<3, "fp", 8>;
+foreach i = 0-7 in def R#!add(i, 4) : TraxReg<!add(i, 4), "a"#i, !add(i, 10)>;
+foreach i = 0-2 in def R#!add(i, 12) : TraxReg<!add(i, 12), "t"#i, !add(i, 5)>;
+foreach i = 3-6 in def R#!add(i, 12) : TraxReg<!add(i, 12), "t"#i, !add(i, 25)>;
+def R19 : TraxReg<19, "t7", 3>; // RISC-V's gp
+def R20 : TraxReg<20, "s0", 9>; // s1: its s0 is fp
+foreach i = 1-10 in def R#!add(i, 20) : TraxReg<!add(i, 20), "s"#i, !add(i, 17)>;
+def R31 : TraxReg<31, "s11", 4>; // tp
 
 // One class holds integers and floats: the TP has one register file (paper, section 3.1). Temporaries first, then
 // arguments from the last one, then saved registers: the order in which the allocator takes them.

@@ -210,9 +210,7 @@ static void show_given(const struct parser *parser, FILE *out) {
 
 /* The options that every command has. They are not in the tables, since only packagers and programs use them. */
 static bool show_page(const struct parser *parser, const char *name) {
-  if (strcmp(name, "help-man") == 0)
-    trax_command_man(parser->command, stdout);
-  else if (strcmp(name, "help-completion") == 0)
+  if (strcmp(name, "help-completion") == 0)
     trax_command_completion(parser->command, stdout);
   else if (strcmp(name, "help-given") == 0)
     show_given(parser, stdout);

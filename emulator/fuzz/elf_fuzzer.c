@@ -1,8 +1,7 @@
 /* Fuzzes the loader: the first file of a case is the executable. It is opened, its symbols and source lines are looked
-   up, it is copied for a debugger, loaded and run for some cycles, and at the end every thread is unwound. The word
+   up, it is loaded and run for some cycles, and at the end every thread is unwound. The word
    `functional` in the line of options selects that engine. */
 #include "fuzz_case.h"
-#include "gdb/gdb.h"
 #include "report/backtrace.h"
 #include "program/program.h"
 #include "machine/machine.h"
@@ -95,8 +94,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
   trax_machine *machine = trax_machine_create(config, &error);
   if (machine && current && trax_machine_load_elf(machine, "program.elf", &error) == TRAX_OK) {
     sum += look_up_symbols(trax_loaded_of(machine)->image);
-    if (trax_gdb_write_symbols(machine, "/dev/null", &error) == TRAX_ERROR && !error.message[0])
-      abort();
     if (strstr(fuzz_case.options, "main-on-0") && trax_machine_main_on_thread_0(machine, &error) == TRAX_ERROR &&
         !error.message[0])
       abort();

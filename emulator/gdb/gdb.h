@@ -37,10 +37,4 @@ trax_status trax_gdb_accept(struct trax_gdb_port *port, const volatile int *inte
 struct trax_gdb_link trax_gdb_port_link(struct trax_gdb_port *port);
 void trax_gdb_port_close(struct trax_gdb_port *port);
 
-/* --- symbols.c --- */
-
-/* Writes a copy of the machine's program for a RISC-V debugger, with the machine type of RISC-V and the debugger's
-   register numbers in the debug information (registers.h). */
-trax_status trax_gdb_write_symbols(const trax_machine *machine, const char *path, trax_error *error);
-
 #endif

@@ -7,10 +7,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define ROLE(NUMBER, NAME) NUMBER,
-static const uint8_t roles[TRAX_NUM_REGISTERS] = {TRAX_GDB_ROLES(ROLE)};
-#define ROLE_NAME(NUMBER, NAME) NAME,
-static const char *const role_names[TRAX_NUM_REGISTERS] = {TRAX_GDB_ROLES(ROLE_NAME)};
+/* Our registers in the places of x0 to x31, and RISC-V's names of these. */
+static const uint8_t roles[TRAX_NUM_REGISTERS] = TRAX_DWARF_REGISTERS;
+static const char *const role_names[TRAX_NUM_REGISTERS] = {
+    "zero", "ra", "sp", "gp", "tp", "t0", "t1", "t2", "fp", "s1", "a0",  "a1",  "a2", "a3", "a4", "a5",
+    "a6",   "a7", "s2", "s3", "s4", "s5", "s6", "s7", "s8", "s9", "s10", "s11", "t3", "t4", "t5", "t6"};
 
 /* --- threads --- */
 

@@ -263,12 +263,6 @@ static int simulate(const trax_config *config, const struct trax_options *option
     return complain(&error);
   struct trax_explain *explain = NULL;
   trax_status status = load(machine, options, &error);
-  if (status == TRAX_OK && options->gdb_symbols)
-    status = trax_gdb_write_symbols(machine, options->gdb_symbols, &error);
-  if (status == TRAX_OK && options->gdb_symbols && !options->gdb) {
-    trax_machine_destroy(machine);
-    return EXIT_SUCCESS;
-  }
   struct trax_explain_options wanted = options->explain;
   wanted.note = options->quiet ? NULL : note;
   struct trax_page_picture picture = {0};

@@ -95,8 +95,6 @@ static const trax_option rows[] = {
     TRAX_OPTION_GROUP("Debugger"),
     {"gdb", .argument = "PORT", .parse = trax_parse_gdb,
      .meaning = "wait for GDB on a port of the loopback interface; 0 is any free one"},
-    {"gdb-symbols", .argument = "FILE", OUTPUT(gdb_symbols),
-     .meaning = "write a copy of PROGRAM that GDB can read, and end, unless --gdb is given"},
     TRAX_OPTION_GROUP("Checkpoints"),
     {"checkpoint", .argument = "FILE", OUTPUT(checkpoint.write),
      .meaning = "write the run's state when it is stopped, and as the next two options say"},
@@ -115,6 +113,7 @@ static const trax_option rows[] = {
     {"lockstep-rays",
      .instead = "--set simt.width=32 simulates a SIMD machine: simt.efficiency is its lanes in use"},
     {"check-order", .instead = "--check-races reports these loads, and other races"},
+    {"gdb-symbols", .instead = "gdb-multiarch reads the program itself"},
     {"konata", .instead = "--perfetto FILE shows the cycles of the window, --trace FILE each of its instructions"},
     {"memory-trace-format", .instead = "--memory-trace FILE.csv is CSV, another FILE binary; for DRAMsim3 and Ramulator 2 "
                                        "convert it by memory_trace_for.py (docs/traces.md)"},
@@ -141,7 +140,6 @@ static const trax_command command = {
                 "trax-sim hello --set dcache.bytes=32768 --stats b.json\n"
                 "trax-sim compare a.json b.json                    # what differs between two runs\n"
                 "trax-sim hello --gdb 1234                         # waits for gdb-multiarch",
-    .see_also = "trax-clang(1), trax-render(1), trax-eval(1), gdb-multiarch(1); docs/trax-sim.md, docs/explaining.md",
     .part = "compare",
     .part_of = "trax-eval",
     .column = 27};

@@ -24,8 +24,7 @@ struct trax_assignment {
 
 struct trax_options {
   trax_manifest *manifest; /* that was named instead of a program; NULL: none */
-  const char *program, *config, *stats, *ray_cycles, *report, *post_mortem, *gdb_symbols,
-      *signature;                      /* NULL: not given */
+  const char *program, *config, *stats, *ray_cycles, *report, *post_mortem, *signature; /* NULL: not given */
   struct trax_assignment *assignments; /* in the order of the command line */
   size_t assignment_count;
   char **arguments; /* of the program, its name being the first; NULL: none are given */

@@ -1,10 +1,9 @@
 /* Frames of functions: their sizes, and the automatic variables in them. */
 #include <dwarf.h>
-#include <gelf.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "program/image_internal.h"
+#include "trax/abi.h"
 #include "trax/grow.h"
 
 enum { MAX_DEPTH = 64, MAX_FRAME = 1 << 30 }; /* of nested entries; of bytes */
@@ -13,28 +12,14 @@ enum { MAX_DEPTH = 64, MAX_FRAME = 1 << 30 }; /* of nested entries; of bytes */
 
 void trax_image_frames(const trax_image *image, void (*visit)(void *context, uint32_t function, uint32_t bytes),
                        void *context) {
-  size_t names;
-  Elf_Scn *section = NULL;
-  if (elf_getshdrstrndx(image->elf, &names) != 0)
+  trax_dwarf_reader reader;
+  if (!trax_image_section(image, ".stack_sizes", &reader))
     return;
-  while ((section = elf_nextscn(image->elf, section))) {
-    GElf_Shdr header;
-    const char *name = gelf_getshdr(section, &header) ? elf_strptr(image->elf, names, header.sh_name) : NULL;
-    const Elf_Data *data = name && strcmp(name, ".stack_sizes") == 0 ? elf_rawdata(section, NULL) : NULL;
-    for (size_t at = 0; data && data->d_buf && at + 4 < data->d_size;) {
-      const uint8_t *bytes = data->d_buf;
-      uint32_t function;
-      uint64_t size = 0;
-      memcpy(&function, bytes + at, sizeof function);
-      at += sizeof function;
-      for (unsigned shift = 0; at < data->d_size; shift += 7) {
-        if (shift < 32)
-          size |= (uint64_t)(bytes[at] & 0x7F) << shift;
-        if (!(bytes[at++] & 0x80))
-          break;
-      }
+  while (reader.at < reader.end) {
+    const uint32_t function = trax_dwarf_fixed(&reader, 4);
+    const uint64_t size = trax_dwarf_leb(&reader, false);
+    if (!reader.bad)
       visit(context, function, size > INT32_MAX ? INT32_MAX : (uint32_t)size);
-    }
   }
 }
 
@@ -88,6 +73,7 @@ static bool is_c(Dwarf_Die *function) {
 }
 
 size_t trax_image_variables(trax_image *image, uint32_t pc, struct trax_frame_variable **items, unsigned *base) {
+  static const uint8_t registers[TRAX_NUM_REGISTERS] = TRAX_DWARF_REGISTERS;
   struct variables variables = {0};
   Dwarf_Die function;
   Dwarf_Attribute attribute;
@@ -98,7 +84,7 @@ size_t trax_image_variables(trax_image *image, uint32_t pc, struct trax_frame_va
       !dwarf_attr(&function, DW_AT_frame_base, &attribute) || dwarf_getlocation(&attribute, &ops, &count) != 0 ||
       count != 1 || ops[0].atom < DW_OP_reg0 || ops[0].atom > DW_OP_reg31)
     return 0;
-  *base = ops[0].atom - DW_OP_reg0;
+  *base = registers[ops[0].atom - DW_OP_reg0];
   add_variables(&variables, &function, 0);
   *items = variables.items;
   return variables.count;

@@ -5,6 +5,7 @@
 #include <elfutils/libdw.h>
 #include <libelf.h>
 
+#include "program/dwarf_reader.h"
 #include "program/image.h"
 
 struct trax_image {
@@ -31,5 +32,7 @@ Dwarf *trax_image_dwarf(trax_image *image);
 /* Finds the entry of the function, not inlined, that contains pc. */
 bool trax_image_function(trax_image *image, uint32_t pc, Dwarf_Die *function);
 void trax_image_forget_lines(trax_image *image);
+/* Returns in *reader the bytes of the section with this name. False: there is none. */
+bool trax_image_section(const trax_image *image, const char *wanted, trax_dwarf_reader *reader);
 
 #endif

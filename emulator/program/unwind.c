@@ -3,7 +3,6 @@
 #include <dwarf.h>
 #include <string.h>
 
-#include "program/dwarf_reader.h"
 #include "program/image_internal.h"
 
 enum { RA = 1, SP = 2, SAVED_STATES = 8 };
@@ -13,12 +12,17 @@ static uint32_t leb(trax_dwarf_reader *reader, bool is_signed) {
   return (uint32_t)trax_dwarf_leb(reader, is_signed);
 }
 
-static unsigned register_number(trax_dwarf_reader *reader) {
-  const uint64_t number = trax_dwarf_leb(reader, false);
+/* Returns the register with this number in debug information. */
+static unsigned register_of(uint64_t number, trax_dwarf_reader *reader) {
+  static const uint8_t registers[TRAX_NUM_REGISTERS] = TRAX_DWARF_REGISTERS;
   if (number < TRAX_NUM_REGISTERS)
-    return (unsigned)number;
+    return registers[number];
   reader->bad = true;
   return 0;
+}
+
+static unsigned register_number(trax_dwarf_reader *reader) {
+  return register_of(trax_dwarf_leb(reader, false), reader);
 }
 
 struct rule {
@@ -40,7 +44,7 @@ struct frame_entry {
 
 /* --- finding --- */
 
-static bool section_named(const trax_image *image, const char *wanted, trax_dwarf_reader *reader) {
+bool trax_image_section(const trax_image *image, const char *wanted, trax_dwarf_reader *reader) {
   size_t names;
   if (elf_getshdrstrndx(image->elf, &names) != 0)
     return false;
@@ -85,7 +89,7 @@ static bool read_common(trax_dwarf_reader section, uint32_t offset, struct frame
 
 static bool find_entry(const trax_image *image, uint32_t pc, struct frame_entry *entry) {
   trax_dwarf_reader section, whole;
-  if (!section_named(image, ".debug_frame", &section))
+  if (!trax_image_section(image, ".debug_frame", &section))
     return false;
   whole = section;
   while (section.at < section.end) {
@@ -214,19 +218,18 @@ static void interpret_long(struct interpreter *it, uint8_t opcode, trax_dwarf_re
 static bool interpret(struct interpreter *it, trax_dwarf_reader reader) {
   while (reader.at < reader.end && !reader.bad) {
     const uint8_t opcode = (uint8_t)trax_dwarf_fixed(&reader, 1), low = opcode & 0x3F;
+    unsigned number;
     switch (opcode & 0xC0) {
     case DW_CFA_advance_loc:
       advance(it, low);
       break;
     case DW_CFA_offset:
-      if (low >= TRAX_NUM_REGISTERS)
-        return false;
-      set_rule(it, low, RULE_AT, leb(&reader, false) * it->entry->data_factor);
+      number = register_of(low, &reader);
+      set_rule(it, number, RULE_AT, leb(&reader, false) * it->entry->data_factor);
       break;
     case DW_CFA_restore:
-      if (low >= TRAX_NUM_REGISTERS)
-        return false;
-      it->row.rules[low] = it->initial.rules[low];
+      number = register_of(low, &reader);
+      it->row.rules[number] = it->initial.rules[number];
       break;
     default:
       interpret_long(it, opcode, &reader);

@@ -182,9 +182,9 @@ static void readFormats(RecordKeeper &Records, Isa &Isa) {
 
 static void readRegisters(RecordKeeper &Records, Isa &Isa) {
   for (const Record *R : Records.getAllDerivedDefinitions("TraxReg"))
-    Isa.Registers.push_back({unsigned(R->getValueAsListOfInts("DwarfNumbers").front()),
-                             R->getValueAsString("AsmName").str(),
-                             R->getValueAsListOfStrings("AltNames").front().str()});
+    Isa.Registers.push_back(
+        {unsigned(R->getValueAsInt("Number")), unsigned(R->getValueAsListOfInts("DwarfNumbers").front()),
+         R->getValueAsString("AsmName").str(), R->getValueAsListOfStrings("AltNames").front().str()});
   std::sort(Isa.Registers.begin(), Isa.Registers.end(),
             [](const Register &A, const Register &B) { return A.Number < B.Number; });
 }

@@ -41,7 +41,7 @@ struct Format {
 };
 
 struct Register {
-  unsigned Number;
+  unsigned Number, DwarfNumber;
   std::string Name, OtherName;
 };
 

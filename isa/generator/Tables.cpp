@@ -74,7 +74,15 @@ void emitNumbers(raw_ostream &OS, const Isa &Isa) {
   OS << "\n/* X(name, other name, number) */\n#define TRAX_REGISTERS(X)";
   for (const Register &R : Isa.Registers)
     OS << " \\\n  X(\"" << R.Name << "\", \"" << R.OtherName << "\", " << R.Number << ")";
-  OS << "\n#define TRAX_NUM_REGISTERS " << Isa.Registers.size() << "\n\n#endif\n";
+  OS << "\n#define TRAX_NUM_REGISTERS " << Isa.Registers.size()
+     << "\n\n/* The register of each number in debug information, as an initialiser. */\n"
+        "#define TRAX_DWARF_REGISTERS {";
+  std::vector<unsigned> Of(Isa.Registers.size());
+  for (const Register &R : Isa.Registers)
+    Of.at(R.DwarfNumber) = R.Number;
+  for (size_t I = 0; I < Of.size(); ++I)
+    OS << (I ? ", " : "") << Of[I];
+  OS << "}\n\n#endif\n";
 }
 
 void emitSemantics(raw_ostream &OS, const Isa &Isa) {

@@ -1,6 +1,7 @@
 /* Relocations: the table of docs/abi.md. S is the symbol's address, A the addend, P the place's own address. */
 #include "ld.h"
 
+#include <dwarf.h>
 #include <string.h>
 
 static const char *const reloc_names[] = {
@@ -105,11 +106,23 @@ static void store_distance(const place *place, uint32_t distance, unsigned bits)
     store_field(place->bytes, (uint32_t)(value / 4), bits);
 }
 
+/* The location of a thread-local variable is an address and a look-up of a thread's copy. All copies have one address,
+   in the threads' local memories: no debugger has to look anything up. */
+static void drop_lookup(const place *place) {
+  const ld_section *section = place->section;
+  uint8_t *next = place->bytes + 4;
+  if (place->reloc->symbol->type == STT_TLS && section->size - place->reloc->offset > 4 &&
+      strcmp(section->name, ".debug_info") == 0 &&
+      (*next == DW_OP_GNU_push_tls_address || *next == DW_OP_form_tls_address))
+    *next = DW_OP_nop;
+}
+
 static void apply(const place *place, uint32_t target, uint32_t address) {
   int32_t value = (int32_t)target;
   switch (place->reloc->type) {
   case R_TRAX_32:
     store(place->bytes, target, 4);
+    drop_lookup(place);
     break;
   case R_TRAX_16:
     if (check_range(place, value, INT16_MIN, UINT16_MAX))

@@ -54,7 +54,6 @@ static const trax_command command = {.name = "trax-compare",
                                      .rows = rows,
                                      .examples = "trax-compare before.png after.png   # the same in every bit?\n"
                                                  "trax-compare ours.png embree.png --within 2 --at-least 99.9",
-                                     .see_also = "trax-render(1), trax-sim(1)",
                                      .column = 22};
 
 static int fail(const char *message) {

@@ -242,7 +242,6 @@ const trax_command render_command = {
                 "trax-render generate:forest --view forest --size 320x180 -o forest.png --explore run.html\n"
                 "trax-render room.glb --paths 4 --samples 16 --engine native -o room.exr   # computed by this host\n"
                 "trax-render bunny.obj --config 8x64 --set memory.bandwidth_gbps=16 --stats b.json",
-    .see_also = "trax-sim(1), trax-scene(1), trax-compare(1), trax-eval(1); docs/raytracer.md",
     .column = 26};
 
 trax_parsed options_parse(struct options *options, int argc, char **argv, trax_error *error) {

@@ -122,7 +122,6 @@ const trax_command scene_command = {
     .examples = "trax-scene room.glb -o room.trax                  # a scene file for trax-render\n"
                 "trax-scene bunny.ply.xz --smooth --stats -o bunny.trax\n"
                 "trax-scene --check room.trax --stats              # is the file whole?",
-    .see_also = "trax-render(1); docs/scene-file.md",
     .column = 31};
 
 trax_parsed arguments_parse(struct arguments *arguments, int argc, char **argv, trax_error *error) {

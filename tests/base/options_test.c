@@ -199,21 +199,10 @@ static void test_help(void **state) {
                             "The end.\n");
 }
 
-static void test_pages(void **state) {
+static void test_completion(void **state) {
   (void)state;
-  static const trax_option quoted_rows[] = {
-      {"a-b", 'a', .argument = "X", .meaning = ".dot first,\n'quote, back\\slash"}, {0}};
-  static const trax_command quoted = {
-      .name = "a-tool", .synopsis = "[options]", .description = "Does this: and that.", .rows = quoted_rows};
   char text[4096] = {0};
   FILE *out = fmemopen(text, sizeof text, "w");
-  trax_command_man(&quoted, out);
-  fclose(out);
-  assert_non_null(strstr(text, "a\\-tool \\- Does this\n"));
-  assert_non_null(strstr(text, ".TP\n\\fB\\-a\\fR, \\fB\\-\\-a\\-b\\fR \\fIX\\fR\n"
-                               "\\&.dot first,\n\\&'quote, back\\eslash\n"));
-  memset(text, 0, sizeof text);
-  out = fmemopen(text, sizeof text, "w");
   trax_command_completion(&command, out);
   fclose(out);
   assert_non_null(
@@ -249,8 +238,8 @@ static void test_files(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_values),   cmocka_unit_test(test_names),
-                                     cmocka_unit_test(test_refusals), cmocka_unit_test(test_help),
-                                     cmocka_unit_test(test_pages),    cmocka_unit_test(test_files)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_values),     cmocka_unit_test(test_names),
+                                     cmocka_unit_test(test_refusals),   cmocka_unit_test(test_help),
+                                     cmocka_unit_test(test_completion), cmocka_unit_test(test_files)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -79,7 +79,7 @@ def simulator():
                option("heat"), option("heat-lines"), option("waits"), option("items"),
                option("ray-kinds"), option("ray-cycles"),
                option("series"), option("trace"),
-               option("perfetto", *windowed), option("post-mortem"), option("checkpoint"), option("gdb-symbols"),
+               option("perfetto", *windowed), option("post-mortem"), option("checkpoint"),
                lambda path: ["--dump", f"output={path}"]]
     outputs_onto(["copy.elf", "chip.cfg", "in.bin"], outputs, "trax-sim", *words)
     pairs_of([

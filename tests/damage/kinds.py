@@ -34,7 +34,6 @@ KINDS = {
             ["--profile", "{o}", "{x}"],
             ["--explore", "{o}.html", "{x}"],
             ["--heat", "{o}", "{x}"],
-            ["--gdb-symbols", "{o}", "{x}"],
             ["--post-mortem", "{o}", "--trace", "{o}2", "--window", "0:300", "{x}"],
             ["--profile-sample", "{o}", "{x}"],
         ),

@@ -1,6 +1,7 @@
 #!/bin/sh
-# cli_test.sh TRAX_SIM EMULATOR_PROGRAMS: the command line of trax-sim, its exit statuses, its outputs and what it says when
-# something is wrong.
+# cli_test.sh TRAX_SIM EMULATOR_PROGRAMS: programs, buffers, statistics, checkpoints and configurations of trax-sim, and what
+# it says when something is wrong. options_test.py has the values of each option, endings_test.py interrupts and progress,
+# tests/commands outputs.
 set -u
 export LC_ALL=C
 sim=$1
@@ -196,12 +197,9 @@ refuse "checkpoint.bin: a checkpoint of another program, machine, or buffer" --c
 refuse "checkpoint.bin: a checkpoint of another program, machine, or buffer" --config 2x32 --resume checkpoint.bin spin.elf
 refuse "checkpoint.bin: a checkpoint of another program, machine, or buffer" --config 2x32 --set memory.latency_cycles=99 --resume checkpoint.bin mix.elf
 refuse "hello.elf: not a checkpoint" --resume hello.elf hello.elf
-refuse "none.bin: cannot be read: No such file" --resume none.bin hello.elf
 head -c 2000 checkpoint.bin >cut.bin
 refuse "cut.bin: truncated or damaged" --config 2x32 --resume cut.bin mix.elf
-refuse "none/c.bin: cannot be written" --checkpoint none/c.bin hello.elf
 refuse "need --checkpoint" --checkpoint-at 5 hello.elf
-refuse "need --checkpoint" --checkpoint-every 5 hello.elf
 refuse "are for the engine fast, not functional" --checkpoint c.bin --engine functional hello.elf
 
 # --- watchdog: the same from both engines
@@ -217,69 +215,31 @@ run 124 --max-cycles 30000 --watchdog 10000 spin.elf # which counts items
 says "has not ended after 30000 cycles"
 run 3 --watchdog 10000 exit3.elf
 refuse "--watchdog needs the engine fast, reference or simt, not functional" --watchdog 5 --engine functional hello.elf
-refuse "--watchdog: '0' is not" --watchdog 0 hello.elf
 
-# --- outputs that cannot be written: said before the run, and nothing is left
-mkdir closed
-refuse "none/x.json: cannot be written: No such file or directory" --stats none/x.json spin.elf
-refuse "closed: cannot be written: Is a directory" --report closed spin.elf
-refuse "none/o.bin: cannot be written" --alloc input=0 --alloc output=4 --dump output=none/o.bin copy.elf
-refuse "/dev/full: cannot be written: No space left on device" --stats /dev/full exit3.elf
-refuse "/dev/full: cannot be written: No space left on device" --report /dev/full exit3.elf
-if [ "$(id -u)" -ne 0 ]; then
-  chmod a-w closed
-  refuse "closed/x.json: cannot be written: Permission denied" --stats closed/x.json spin.elf
-fi
+# --- standard output
 "$sim" hello.elf >/dev/full 2>err
 [ $? -eq 1 ] || fail "a full standard output is no error"
 command="hello.elf >/dev/full"
 says "standard output cannot be written: No space left on device"
 "$sim" --help-config >/dev/full 2>err && fail "a full standard output is no error for --help-config"
-# An output replaces a file at once or not at all, keeps its mode, and goes through links.
-echo before >kept.json
-chmod 640 kept.json
-ln -s kept.json link
-run 3 --stats link exit3.elf
-[ -L link ] && grep -q '"exit_status": 3' kept.json || fail "the link is replaced, not its file"
-[ "$(stat -c %a kept.json)" = 640 ] || fail "the mode of kept.json is changed"
-run 0 --stats /dev/null hello.elf
-silent
 
 # --- options
 refuse "no program is given"
 refuse "unknown option --sats; did you mean --stats?" --sats x.json hello.elf
-refuse "unknown option --entirely-different" --entirely-different hello.elf
 refuse "unknown option -v" -v hello.elf
 refuse "'exit3.elf' follows hello.elf, whose main has no parameters: it takes no arguments" hello.elf exit3.elf
 refuse "missing.elf: cannot be read: No such file or directory" missing.elf word
-refuse "--stats needs FILE" hello.elf --stats
-refuse "--stats: the value is empty" hello.elf --stats=
-refuse "--stats is given twice" --stats a.json --stats b.json hello.elf
 refuse "--engine: 'slow' is not fast, reference, functional or simt" --engine slow hello.elf
 refuse 'is not fast, reference, functional or simt' --engine sampled hello.elf
 refuse '--sample has been removed; for estimates use trax-render --sampled' --sample window=100 hello.elf
 refuse '--bench-modes has been removed; run with --engine fast and --engine functional' --bench-modes hello.elf
-refuse "--quiet takes no value" --quiet=yes hello.elf
-refuse "--set: 'memory.size_mib' is not of the form KEY=VALUE" --set memory.size_mib hello.elf
-refuse "--bind: '=x' is not of the form SYMBOL=FILE" --bind =x hello.elf
 refuse "--dump: 'output=q.jpg:160x90' has no writer for such pictures" --alloc input=4 --alloc output=57600 --dump output=q.jpg:160x90 copy.elf
 refuse "has no writer for such pictures" --alloc input=4 --alloc output=57600 --dump output=q:160x90 copy.elf
-refuse "--alloc: '4x' is not a whole number from 0 to 4294967295" --alloc input=4x copy.elf
-refuse "--alloc: '-1' is not a whole number" --alloc input=-1 copy.elf
-refuse "--alloc: '4294967296' is not a whole number" --alloc input=4294967296 copy.elf
-refuse "--max-cycles: '0' is not a whole number from 1" --max-cycles 0 hello.elf
-refuse "--max-cycles: '99999999999999999999'" --max-cycles 99999999999999999999 hello.elf
-refuse "--progress-total: 'many'" --progress-total many hello.elf
-refuse "missing.elf: cannot be read: No such file or directory" missing.elf
 refuse "input.bin: not an ELF file" input.bin
 head -c 300 hello.elf >cut.elf
 refuse "cut.elf: truncated or corrupt" cut.elf
-refuse "memory.size_mib is 0; allowed are 1 to 4095 MiB" --set memory.size_mib=0 hello.elf
-refuse "did you mean chip.tms?" --set chip.tsm=4 hello.elf
-refuse "dcache.bytes is 64; it must hold" --set dcache.bytes=64 --set dcache.ways=4 hello.elf
 refuse "no file and no preset \"4x31\" (did you mean" --config 4x31 hello.elf
 refuse "./none.cfg: cannot be read" --config ./none.cfg hello.elf
-refuse "--config is given twice" --config 4x32 --config 1x32 hello.elf
 
 # --- configuration: printed, and read back as it was, for every preset
 presets=$("$sim" --help-config | sed -n 's/^Presets.*: //p')
@@ -315,73 +275,5 @@ printf 'preset = "2x32";\nmemory: {\n  latency = 5;\n};\n' >bad.cfg
 refuse "bad.cfg:3: unknown key \"memory.latency\"" --config bad.cfg hello.elf
 run 0 --set chip.tms=2 --config 4x32 --print-config # --set is applied last, wherever it stands
 prints "tms = 2;"
-
-# --- what is told
-for option in help help-config help-stats version; do
-  run 0 --$option
-  silent
-  [ -s out ] || fail "--$option prints nothing"
-done
-
-# --- interruption: partial statistics, no dumps; the statistics of before are replaced
-rm -f stats.json output.bin out
-env --default-signal=INT "$sim" --stats stats.json print.elf >out 2>err &
-tries=0
-until [ -s out ] || [ $tries -ge 600 ]; do
-  sleep 0.1
-  tries=$((tries + 1))
-done
-kill -INT $!
-wait $!
-status=$?
-command="print.elf, interrupted"
-[ $status -eq 130 ] || fail "status $status, not 130"
-says "interrupted in cycle"
-: >out # it is long
-grep -q '"partial": true' stats.json || fail "stats.json of an interrupted program"
-grep -q '"status": "interrupted"' stats.json || fail "stats.json: status"
-grep -q '"holds": true' stats.json || fail "stats.json: identity of an interrupted program"
-no_litter
-
-# Every engine stops; what the fast one leaves goes on.
-for engine in fast functional; do
-  checkpoint=
-  [ $engine != fast ] || checkpoint="--checkpoint stopped.bin"
-  rm -f stats.json
-  env --default-signal=INT "$sim" --engine $engine $checkpoint --stats stats.json spin.elf >out 2>err &
-  for _ in $(seq 600); do # until it handles SIGINT
-    [ /proc/$!/exe -ef "$sim" ] && grep -q '^SigCgt:.*[2367abef]$' /proc/$!/status && break
-    sleep 0.1
-  done
-  sleep 0.5
-  kill -INT $!
-  wait $!
-  status=$?
-  command="spin.elf, interrupted, --engine $engine"
-  [ $status -eq 130 ] || fail "status $status, not 130"
-  grep -q '"status": "interrupted"' stats.json || fail "stats.json of an interrupted program"
-  grep -q '"holds": true' stats.json || fail "stats.json: identity of an interrupted program"
-done
-run 124 --resume stopped.bin --watchdog 1000000000 --max-cycles 1 spin.elf # it is beyond that already
-
-# --- progress: on a terminal only, and gone at the end
-terminal() { script -qec "$*" /dev/null </dev/null >out 2>err; }
-run 124 --max-cycles 3000000 --progress-total 100000000 spin.elf
-[ "$(wc -l <err)" -eq 1 ] || fail "progress is shown to what is no terminal"
-for cycles in 3000000 30000000 300000000 3000000000; do # until it takes long enough on this host
-  terminal "$sim" --max-cycles $cycles --progress-total 100000000000 spin.elf
-  if grep -q ' left' out; then break; fi
-done
-prints "million cycles, "
-prints " of 100000000000 items, "
-prints " left"
-[ "$(tr '\r' '\n' <out | grep -c 'million instructions/s')" -ge 1 ] || fail "no progress line"
-terminal "$sim" --max-cycles $((cycles * 10)) --engine functional --progress-total 100000000000 spin.elf
-prints " of 100000000000 items, "
-prints "million instructions/s"
-terminal "$sim" --quiet --max-cycles 3000000 spin.elf
-if grep -q 'million cycles' out; then fail "--quiet shows progress"; fi
-terminal "$sim" hello.elf
-prints hello
 
 [ $failures -eq 0 ] || { printf '%d failures\n' $failures; exit 1; }

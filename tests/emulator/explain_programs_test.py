@@ -311,7 +311,6 @@ class Lines(Programs):
         )
         said, _ = self.run_sim("ended", status=1)
         self.assertRegex(said, r"called by +main\+0x\w+ at .*ended\.c")
-        self.run_sim("--gdb-symbols", "copy", "ended")
 
 
 class Sources(Programs):
@@ -499,33 +498,6 @@ class Odd(Programs):
             rows = list(csv.DictReader((self.folder / name).read_text().splitlines()))
             self.assertEqual([row["object"] for row in rows if row["stores"] == "9"], ['a"b,c""'], name)
             self.assertEqual({None in row for row in rows}, {False})
-
-    def test_debug_information_for_gdb(self):
-        """What cannot be renumbered in place is refused."""
-        text = "int main(void) { volatile int x = 3; return x - 3; }"
-        self.compile("packed", text)
-        elf = Elf((self.folder / "packed").read_bytes())
-        elf.put(elf.section(".debug_frame") + 8, 1 << 11)  # SHF_COMPRESSED
-        (self.folder / "packed").write_bytes(elf.bytes)
-        self.assertIn(".debug_frame is compressed", self.run_sim("--gdb-symbols", "s", "packed", status=1)[0])
-        self.assertFalse((self.folder / "s").exists())
-        # Units that cannot be read are no units that are not there.
-        self.compile("damaged", text)
-        elf = Elf((self.folder / "damaged").read_bytes())
-        elf.put(elf.number(elf.section(".debug_info") + 16) + 4, 77)  # a version
-        (self.folder / "damaged").write_bytes(elf.bytes)
-        self.assertIn(
-            "damaged: .debug_info: its registers cannot be renumbered",
-            self.run_sim("--gdb-symbols", "s", "damaged", status=1)[0],
-        )
-        # A pipe is read once: what was checked is what is copied.
-        self.compile("piped", text)
-        os.mkfifo(self.folder / "pipe")
-        writer = subprocess.Popen(["dd", "if=piped", "of=pipe", "status=none"], cwd=self.folder)
-        self.run_sim("--gdb-symbols", "s", "pipe", seconds=20)
-        writer.wait(timeout=20)
-        self.run_sim("--gdb-symbols", "t", "piped")
-        self.assertEqual((self.folder / "s").read_bytes(), (self.folder / "t").read_bytes())
 
 
 if __name__ == "__main__":

@@ -155,8 +155,6 @@ CASES = {
         twice="b"), "post-mortem": Case(["out.txt"], file_holds("out.txt", "^1 thread, 1 ended\n$"), bad=FILES,
                                         twice="b"), "gdb": Case(["65536"], says("not a whole number from 0 to 65535"),
                                                                 status=1, bad=NUMBERS),  # runs are tests/emulator/gdb's
-    "gdb-symbols": Case(["symbols"], exists("symbols"), bad=FILES,
-                        twice="b"),
     "check-memory": Case([], None),  # more in memory_test.py
     "check-races": Case([], None),  # more in races_test.py
     "quiet": Case([], None), "print-config": Case([], prints("latency_cycles")), "help-config": Case(

@@ -28,7 +28,7 @@ def waits(program, scratch, pipe):
     picture = ["-o", "p.png"]
     return {"trax-render": ([mesh, "--view", pipe, *picture], [mesh, "--config", pipe, *picture], [pipe, *picture]),
             "trax-scene": ([pipe, "-o", "s.trax"], ["--check", pipe]),
-            "trax-sim": ([pipe], ["--config", pipe, "none"], ["--gdb-symbols", "s.elf", pipe]),
+            "trax-sim": ([pipe], ["--config", pipe, "none"]),
             "trax-compare": ([pipe, pipe],), "trax-eval": ([pipe], ["report", pipe])}[program]
 
 
@@ -141,7 +141,6 @@ def test_limits(programs, scratch):
     mesh = str(scratch / "triangle.obj")
     for words, limit in ((["trax-sim", "/dev/zero"], 64),
                          (["trax-sim", "--config", "/dev/zero", "none"], 64),
-                         (["trax-sim", "--gdb-symbols", "s.elf", "/dev/zero"], 64),
                          (["trax-render", mesh, "--view", "/dev/zero", "-o", "p.png"], 512),
                          (["trax-render", mesh, "--config", "/dev/zero", "-o", "p.png"], 512),
                          (["trax-scene", "/dev/zero", "--unpack-limit", "8M", "-o", "s.trax"], 256),

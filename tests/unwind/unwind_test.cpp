@@ -9,6 +9,7 @@
 //
 //===----------------------------------------------------------------------===//
 #include "steps.h"
+#include "trax/abi.h"
 #include "trax/isa.h"
 #include "llvm/ADT/ArrayRef.h"
 #include "llvm/DebugInfo/DWARF/DWARFContext.h"
@@ -102,10 +103,12 @@ bool Checker::unwind(const unwind_state &State, uint32_t Address, Registers &R, 
     complain(State, "the CFA is not a register and an offset");
     return false;
   }
-  uint32_t CFA = R[CFAValue.getRegister()] + uint32_t(CFAValue.getOffset());
+  static const uint8_t Numbers[] = TRAX_DWARF_REGISTERS;
+  uint32_t CFA = R[Numbers[CFAValue.getRegister()]] + uint32_t(CFAValue.getOffset());
   Registers Caller = R;
-  for (unsigned Number = 1; Number != 32; ++Number) {
-    std::optional<dwarf::UnwindLocation> Rule = Row->getRegisterLocations().getRegisterLocation(Number);
+  for (unsigned DwarfNumber = 1; DwarfNumber != 32; ++DwarfNumber) {
+    const unsigned Number = Numbers[DwarfNumber];
+    std::optional<dwarf::UnwindLocation> Rule = Row->getRegisterLocations().getRegisterLocation(DwarfNumber);
     if (!Rule || Rule->getLocation() == dwarf::UnwindLocation::Same)
       continue;
     bool IsInFrame = *Rule == dwarf::UnwindLocation::createAtCFAPlusOffset(Rule->getOffset());

@@ -599,20 +599,6 @@ class Protocol(unittest.TestCase):
         self.assertIn("--gdb: '65536' is not a whole number", self.refused("--gdb", "65536", path("calls")))
         self.assertIn("--gdb needs the engine fast, reference or simt, not functional",
                       self.refused("--gdb", "0", "--engine", "functional", path("calls")))
-        self.assertIn("none/x: cannot be written", self.refused("--gdb-symbols", "none/x", path("calls")))
-        self.assertIn("not an ELF file", self.refused("--gdb-symbols", os.path.join(work.name, "x"), __file__))
-        self.assertFalse(os.path.exists(os.path.join(work.name, "x")))
-
-    def test_symbols(self):
-        """The copy differs in its machine, and else only in debug information."""
-        copy = os.path.join(work.name, "copy")
-        run = subprocess.run([SIM, "--gdb-symbols", copy, path("threads")], capture_output=True)
-        self.assertEqual((run.returncode, run.stdout, run.stderr), (0, b"", b""))
-        with open(copy, "rb") as file, open(path("threads"), "rb") as original:
-            after, before = file.read(), original.read()
-        self.assertEqual(len(after), len(before))
-        self.assertEqual(int.from_bytes(after[18:20], "little"), 243)
-        self.assertEqual(read_symbols(copy), symbols["threads"])
 
 
 if __name__ == "__main__":

@@ -63,14 +63,16 @@ struct trax_option {
       unsigned: TRAX_OPTION_UNSIGNED,                                                                                  \
       uint64_t: TRAX_OPTION_UNSIGNED64)
 
-/* Begins a group of options in --help, the man page and nowhere else. */
+/* Begins a group of options in --help. */
 #define TRAX_OPTION_GROUP(title)                                                                                       \
   { .name = "", .meaning = title, .kind = TRAX_OPTION_HEADING }
 
 #define TRAX_OPTION_HELP(key)                                                                                          \
   { .name = "help", .letter = key, .meaning = "print this, and end", .kind = TRAX_OPTION_SHOW_HELP }
 #define TRAX_OPTION_VERSION                                                                                            \
-  { .name = "version", .meaning = "print the version, and end", .kind = TRAX_OPTION_SHOW_VERSION }
+  {.name = "version", .meaning = "print the version, and end", .kind = TRAX_OPTION_SHOW_VERSION}, {                    \
+    .name = "help-man", .instead = "the pages are in share/man, and man NAME shows one"                                \
+  }
 
 typedef struct trax_command {
   const char *name;
@@ -79,7 +81,6 @@ typedef struct trax_command {
   const trax_option *rows; /* ended by a row without a name */
   const char *notes;       /* lines at the end; may be NULL */
   const char *examples;    /* "COMMAND  # MEANING", a line each; may be NULL */
-  const char *see_also;    /* of the man page: other pages; may be NULL */
   const char *part, *part_of; /* a first word, such as compare, that the program part_of takes and completes */
   unsigned column;         /* the column of the meanings in --help */
 } trax_command;
@@ -99,10 +100,9 @@ trax_parsed trax_command_parse(const trax_command *command, void *target, int *c
 trax_parsed trax_command_parse_to_operand(const trax_command *command, void *target, int *count, char **arguments,
                                           trax_error *error);
 void trax_command_help(const trax_command *command, FILE *out);
-/* Every command has the options --help-man and --help-completion, too, which print these: its page for man(1), and a
-   script that completes its options in bash; and --help-given, which prints the options before it, one a line, by their
-   whole names, with " reads" or " writes" if the value is a file. */
-void trax_command_man(const trax_command *command, FILE *out);
+/* Every command has the options --help-completion, too, which prints a script that completes its options in bash, and
+   --help-given, which prints the options before it, one a line, by their whole names, with " reads" or " writes" if the
+   value is a file. */
 void trax_command_completion(const trax_command *command, FILE *out);
 
 /* Adds the files that the options name to the list. */

@@ -6,12 +6,12 @@
 extern "C" {
 #endif
 
-/* The number of processors in the affinity mask, reduced to the CPU quota of the process's control groups (version 1 or
-   2), rounded down, at least 1. */
+/* The number of processors in the affinity mask, reduced to the CPU quota of the process's control groups (version 2),
+ * rounded down, at least 1. */
 unsigned trax_host_processors(void);
 
 /* The number of processors that the quotas allow, UINT_MAX without a quota. `root` is put before the paths of the files
-   read (/proc/self/cgroup, /proc/self/mountinfo, and the groups' own); it is "" except in tests. */
+   read (/proc/self/cgroup and those below /sys/fs/cgroup); it is "" except in tests. */
 unsigned trax_quota_processors(const char *root);
 
 #ifdef __cplusplus
