@@ -1,5 +1,8 @@
 #include "bench.h"
 
+#include "machine/timing.h"
+
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -76,11 +79,27 @@ static bool is_single(trax_inst inst) {
          (inst.rd == TRAX_STACK_POINTER && trax_op_table[inst.op].flags & TRAX_WRITES_RD);
 }
 
+/* Records the refusals before an instruction. */
+static void record_refused(struct bench *bench, const struct trax_stretch *stretch, unsigned at, trax_op op) {
+  const struct trax_config *config = &bench->machine->config;
+  const trax_shared unit = trax_op_table[op].access_bytes ? TRAX_SHARED_NONE : trax_timing_of(op, config).unit;
+  const uint64_t *until = &told(bench, stretch->tm, stretch->tp)->until;
+  if (stretch->refused[at] & 0xFF)
+    record_charge(bench, stretch->tm, stretch->tp, TRAX_CAUSE_ICACHE_BANK, 0, *until, stretch->refused[at] & 0xFF);
+  if (stretch->refused[at] >> 8)
+    record_charge(bench, stretch->tm, stretch->tp,
+                  unit == TRAX_SHARED_NONE ? TRAX_CAUSE_DCACHE_BANK : trax_shared_kind(unit, config).refused, 0, *until,
+                  stretch->refused[at] >> 8);
+}
+
+static pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER; /* threads of the host record at the same time */
+
 static void record_stretch(void *context, const struct trax_stretch *stretch) {
   struct bench *bench = context;
   struct trax_thread_log *log = log_of(bench, stretch->tm, stretch->tp);
   size_t charged = 0, accessed = 0;
   unsigned at = 0;
+  pthread_mutex_lock(&mutex);
   for (size_t i = 0; i < stretch->pieces; i++)
     for (uint32_t k = 0; k < stretch->piece[i].count; k++, at++) {
       struct trax_issue issue = {.tm = stretch->tm, .tp = stretch->tp, .pc = stretch->piece[i].pc + 4 * k};
@@ -88,27 +107,69 @@ static void record_stretch(void *context, const struct trax_stretch *stretch) {
       const trax_inst inst = trax_decode(issue.word);
       assert_true(stretch->count == 1 || !is_single(inst));
       charged = record_logged(bench, stretch->tm, stretch->tp, log, charged, at);
+      if (stretch->refused)
+        record_refused(bench, stretch, at, inst.op);
       issue.cycle = told(bench, stretch->tm, stretch->tp)->until;
       issue.next_pc = at + 1 == stretch->count           ? stretch->next_pc
                       : k + 1 == stretch->piece[i].count ? stretch->piece[i + 1].pc
                                                          : issue.pc + 4;
       issue.result = at + 1 == stretch->count ? stretch->result : 0;
       issue.address = trax_op_table[inst.op].access_bytes ? TRAX_LOCAL_BASE : 0;
-      if (accessed < log->accessed_count && log->accessed[accessed].at == at) {
-        issue.address = log->accessed[accessed].address;
-        issue.outcome = log->accessed[accessed++].outcome;
+      if (accessed < stretch->accessed_count && stretch->accessed[accessed].at == at) {
+        issue.address = stretch->accessed[accessed].address;
+        issue.outcome = stretch->accessed[accessed++].outcome;
       }
       record_issue(bench, &issue);
+      assert_true(!is_single(inst) || issue.cycle == stretch->cycle);
+      assert_int_equal(stretch->cycles != NULL, inst.op == TRAX_OP_TRAP);
+      if (stretch->cycles)
+        assert_memory_equal(stretch->cycles, told(bench, stretch->tm, stretch->tp)->cycles,
+                            TRAX_CAUSE_COUNT * sizeof *stretch->cycles);
     }
   assert_int_equal(at, stretch->count);
+  assert_int_equal(accessed, stretch->accessed_count);
   for (size_t i = charged; i < log->charged_count; i++)
     log->charged[i].at -= (uint8_t)at;
-  for (size_t i = accessed; i < log->accessed_count; i++)
-    log->accessed[i].at -= (uint8_t)at;
   log->charged_count -= charged;
   if (log->charged_count)
     memmove(log->charged, log->charged + charged, log->charged_count * sizeof *log->charged);
-  memmove(log->accessed, log->accessed + accessed, (log->accessed_count -= accessed) * sizeof *log->accessed);
+  pthread_mutex_unlock(&mutex);
+}
+
+/* What was recorded when the engine held, for it to go back to. */
+static struct kept {
+  size_t issues;
+  struct bench_told *told;      /* [threads] */
+  struct trax_thread_log *logs; /* [threads] */
+} kept;
+
+static void copy_log(struct trax_thread_log *to, const struct trax_thread_log *from) {
+  to->charged_count = from->charged_count;
+  if (from->charged_count > to->charged_capacity) {
+    to->charged = realloc(to->charged, from->charged_count * sizeof *to->charged);
+    assert_non_null(to->charged);
+    to->charged_capacity = from->charged_count;
+  }
+  if (from->charged_count)
+    memcpy(to->charged, from->charged, from->charged_count * sizeof *to->charged);
+}
+
+static void keep(void *context, bool holds) {
+  const struct bench *bench = context;
+  kept.issues = bench->issues.count;
+  for (uint64_t i = 0; holds && i < bench->machine->stats.threads; i++) {
+    kept.told[i] = bench->told[i];
+    copy_log(&kept.logs[i], &bench->machine->observer->logs[i]);
+  }
+}
+
+static void go_back(void *context) {
+  struct bench *bench = context;
+  bench->issues.count = kept.issues;
+  for (uint64_t i = 0; i < bench->machine->stats.threads; i++) {
+    bench->told[i] = kept.told[i];
+    copy_log(&bench->machine->observer->logs[i], &kept.logs[i]);
+  }
 }
 
 static int by_time(const void *a, const void *b) {
@@ -135,18 +196,22 @@ void bench_run_observed(struct bench *bench, const trax_run_options *options) {
                                    .issue = record_issue,
                                    .charge = record_charge,
                                    .stretch = bench_stretches ? record_stretch : NULL,
+                                   .keep = bench_stretches ? keep : NULL,
+                                   .go_back = bench_stretches ? go_back : NULL,
                                    .logs = calloc(machine->stats.threads, sizeof *observer.logs)};
-  struct trax_accessed(*accessed)[TRAX_MOST_STRETCH] = calloc(machine->stats.threads, sizeof *accessed);
-  assert_true(observer.logs && accessed);
-  for (uint64_t i = 0; i < machine->stats.threads; i++)
-    observer.logs[i].accessed = accessed[i];
+  kept.told = calloc(machine->stats.threads, sizeof *kept.told);
+  kept.logs = calloc(machine->stats.threads, sizeof *kept.logs);
+  assert_true(observer.logs && kept.told && kept.logs);
   machine->observer = &observer;
   bench->status = trax_machine_run(machine, options, &bench->error);
   if (bench_stretches)
     end_stretches(bench);
   machine->observer = NULL;
   free(observer.logs);
-  free(accessed);
+  free(kept.told);
+  for (uint64_t i = 0; i < machine->stats.threads; i++)
+    free(kept.logs[i].charged);
+  free(kept.logs);
   for (uint64_t i = 0; i < machine->stats.threads; i++) {
     assert_int_equal(bench->told[i].until, machine->stats.cycles);
     assert_memory_equal(bench->told[i].cycles, machine->tp_stats[i].cycles, sizeof bench->told[i].cycles);
