@@ -31,6 +31,15 @@ static inline void scene_box_add_box(struct scene_box *box, const struct scene_b
   scene_box_add_point(box, other->max);
 }
 
+static inline struct scene_box join_boxes(const struct scene_box *a, const struct scene_box *b) {
+  struct scene_box both;
+  for (int axis = 0; axis < 3; axis++) {
+    both.min[axis] = a->min[axis] < b->min[axis] ? a->min[axis] : b->min[axis];
+    both.max[axis] = a->max[axis] > b->max[axis] ? a->max[axis] : b->max[axis];
+  }
+  return both;
+}
+
 /* What both boxes have in common. */
 static inline struct scene_box scene_box_within(const struct scene_box *a, const struct scene_box *b) {
   struct scene_box box;

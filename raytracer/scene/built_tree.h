@@ -10,6 +10,7 @@ struct built_node {
   uint32_t triangle_count; /* 0: an inner node */
   uint32_t below;          /* triangles of the subtree */
   uint32_t height;         /* most inner nodes from here to a leaf */
+  uint32_t nodes;          /* of the subtree, with this one */
   struct built_node *child[2];
   struct scene_box box; /* of a leaf */
   uint32_t triangles[];
@@ -44,7 +45,7 @@ struct scene_numbering {
 
 /* The least height of a tree over `triangles` triangles. */
 unsigned scene_least_height(uint32_t triangles, unsigned max_leaf);
-/* Computes `below` and `height` of all nodes. False if the builder left triangles out. */
+/* Computes `below`, `height` and `nodes` of all nodes. False if the builder left triangles out. */
 bool scene_measure_built(const struct scene_numbering *numbering, struct built_node *node);
 /* Adds the nodes to the tree, depth first, and rebuilds each subtree that is too deep. False when out of memory. */
 bool scene_number_built(struct scene_numbering *numbering, const struct built_node *root);

@@ -39,32 +39,78 @@ static struct scene_box bounds_of(const struct sah_prim *primitives, uint32_t co
 
 /* --- improving what was built --- */
 
-/* Adds the links of the subtree. Returns the index of its root. */
-static uint32_t link_built(struct scene_links *links, struct built_node **of, struct built_node *built,
-                           uint32_t parent) {
-  const uint32_t index = links->count++;
-  struct scene_link *link = &links->nodes[index];
-  of[index] = built;
-  *link = (struct scene_link){built->box, built->below, parent, {SCENE_NO_LINK, SCENE_NO_LINK}, built->height, 0};
+/* A subtree to be linked. */
+struct linking {
+  struct scene_links *links;
+  struct built_node **of; /* of each link */
+  struct scene_crew *crew;
+  struct built_node *built;
+  uint32_t index, parent; /* of its root */
+};
+
+enum { LEAST_OF_LINKING = 4096 }; /* nodes that are left to another thread */
+
+static void link_task(struct scene_worker *worker, void *pointer);
+
+/* Links are in the order of the tree, depth first. The boxes of large subtrees come afterwards: other threads may be in
+   them. */
+static void link_built(const struct linking *linking) {
+  const struct built_node *built = linking->built;
+  struct scene_link *nodes = linking->links->nodes, *link = &nodes[linking->index];
+  linking->of[linking->index] = linking->built;
+  *link =
+      (struct scene_link){built->box, built->below, linking->parent, {SCENE_NO_LINK, SCENE_NO_LINK}, built->height, 0};
   if (built->triangle_count)
-    return index;
-  link->box = scene_empty_box();
+    return;
+  link->child[0] = linking->index + 1;
+  link->child[1] = link->child[0] + built->child[0]->nodes;
   for (int i = 0; i < 2; i++) {
-    link->child[i] = link_built(links, of, built->child[i], index);
-    scene_box_add_box(&link->box, &links->nodes[link->child[i]].box);
+    struct linking below = *linking, *task = NULL;
+    below.built = built->child[i], below.index = link->child[i], below.parent = linking->index;
+    if (i == 0 && below.built->nodes >= LEAST_OF_LINKING && (task = malloc(sizeof *task))) {
+      *task = below;
+      if (scene_crew_add(linking->crew, link_task, task))
+        continue;
+      free(task);
+    }
+    link_built(&below);
   }
-  return index;
+  if (built->nodes < LEAST_OF_LINKING)
+    link->box = join_boxes(&nodes[link->child[0]].box, &nodes[link->child[1]].box);
+}
+
+static void link_task(struct scene_worker *worker, void *pointer) {
+  (void)worker;
+  link_built(pointer);
+  free(pointer);
+}
+
+static void link_first(struct scene_worker *worker, void *pointer) {
+  (void)worker;
+  link_built(pointer);
+}
+
+static void bound_large(const struct linking *linking, uint32_t index) {
+  struct scene_link *nodes = linking->links->nodes, *link = &nodes[index];
+  if (linking->of[index]->nodes < LEAST_OF_LINKING)
+    return;
+  for (int i = 0; i < 2; i++)
+    bound_large(linking, link->child[i]);
+  link->box = join_boxes(&nodes[link->child[0]].box, &nodes[link->child[1]].box);
 }
 
 /* Improves the tree and numbers its nodes. */
 static trax_status improve(struct scene_numbering *numbering, struct built_node *root, struct scene_crew *crew,
                            const struct trax_build_options *options, trax_error *error) {
-  const size_t most = 2 * (size_t)root->below; /* a binary tree over n leaves has 2n - 1 nodes */
-  struct scene_links links = {.nodes = scene_allocate(most * sizeof *links.nodes), .max_depth = numbering->max_depth};
-  struct built_node **of = malloc(most * sizeof(struct built_node *));
+  struct scene_links links = {.nodes = scene_allocate(root->nodes * sizeof *links.nodes),
+                              .count = root->nodes,
+                              .max_depth = numbering->max_depth};
+  struct built_node **of = malloc(root->nodes * sizeof(struct built_node *));
   trax_status result = links.nodes && of ? TRAX_OK : scene_out_of_memory(error, "BVH");
   if (result == TRAX_OK) {
-    links.root = link_built(&links, of, root, SCENE_NO_LINK);
+    struct linking all = {&links, of, crew, root, 0, SCENE_NO_LINK};
+    scene_crew_run(crew, link_first, &all);
+    bound_large(&all, 0);
     result = scene_reinsert(&links, options->passes, crew, options, error);
   }
   if (result == TRAX_OK && !scene_number_links(numbering, &links, of))

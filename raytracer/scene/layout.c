@@ -1,11 +1,14 @@
 /* From a mesh and its tree to the bytes of a scene file. */
 #include "layout.h"
+#include "crew.h"
 #include "placing.h"
 #include "trax/output.h"
 
 #include <stdlib.h>
 #include <string.h>
 #include <zlib.h>
+
+enum { LEAST_FOR_TWO = 1 << 14 }; /* nodes of a tree that is worth a second thread */
 
 void scene_plan_section(struct trax_scene_section *section, uint64_t *end, uint32_t count, size_t record_size) {
   if (count == 0)
@@ -64,9 +67,37 @@ static trax_status make_normals(const struct layout *layout, double cosine, trax
   return result;
 }
 
+/* What two threads do at the same time: the triangles, and the positions of nodes. */
+struct placing_work {
+  struct layout *layout;
+  size_t size; /* of the scene */
+  struct scene_order *order;
+  const struct trax_build_options *options;
+  trax_status status;
+  trax_error *error;
+};
+
+static void place_triangles(struct scene_worker *worker, void *pointer) {
+  (void)worker;
+  const struct placing_work *work = pointer;
+  memset(work->layout->bytes, 0, work->size);
+  if (!work->layout->wide)
+    scene_place_triangles(work->layout);
+}
+
+static void order_nodes(struct scene_worker *worker, void *pointer) {
+  (void)worker;
+  struct placing_work *work = pointer;
+  const struct trax_build_options *options = work->options;
+  if (!work->order->position)
+    work->status = scene_order_nodes(work->order, work->layout->tree, options->nodes,
+                                     options->cache_lines ? options->cache_lines : SCENE_CACHE_LINES,
+                                     options->interrupt, work->error);
+}
+
 static trax_status lay_out(struct trax_scene *scene, const struct trax_mesh *mesh, const struct scene_tree *tree,
-                           const struct palette *palette, const uint32_t *positions, const struct scene_wide *wide,
-                           const struct trax_build_options *options, trax_error *error) {
+                           const struct palette *palette, struct scene_order *order, struct scene_wide *wide,
+                           struct scene_crew *crew, const struct trax_build_options *options, trax_error *error) {
   const uint32_t node_count = wide ? wide->count : tree->inner_count;
   struct trax_scene_header header = {.magic = TRAX_SCENE_MAGIC,
                                      .version = TRAX_SCENE_VERSION,
@@ -91,13 +122,11 @@ static trax_status lay_out(struct trax_scene *scene, const struct trax_mesh *mes
   unsigned char *bytes = aligned_alloc(TRAX_SCENE_ALIGNMENT, end);
   if (!bytes)
     return scene_out_of_memory(error, "scene");
-  memset(bytes, 0, end);
   header.file_size = (uint32_t)end;
 
   struct layout layout = {.mesh = mesh,
                           .tree = tree,
                           .materials = palette->of_mesh,
-                          .positions = positions,
                           .wide = wide,
                           .node_layout = options->nodes,
                           .bytes = bytes,
@@ -114,6 +143,18 @@ static trax_status lay_out(struct trax_scene *scene, const struct trax_mesh *mes
     free(bytes);
     return scene_out_of_memory(error, "normals");
   }
+  struct placing_work work = {&layout, end, order, options, TRAX_OK, error};
+  if (!scene_crew_add(crew, place_triangles, &work))
+    place_triangles(NULL, &work);
+  scene_crew_run(crew, order_nodes, &work);
+  if (work.status != TRAX_OK) {
+    free(layout.numbers);
+    free(bytes);
+    return work.status;
+  }
+  layout.positions = order->position;
+  if (wide)
+    scene_place_wide(wide, tree, order->position);
   scene_copy_materials(bytes, sections, palette, mesh);
   if (mesh->triangle_count) {
     memcpy(header.bounds_min, tree->bounds.min, sizeof tree->bounds.min);
@@ -182,11 +223,14 @@ trax_status trax_scene_build(struct trax_scene *scene, const struct trax_mesh *m
     chosen.nodes = scene_grid_suits(&tree) ? TRAX_NODES_QUANTISED : TRAX_NODES_BINARY;
   chosen.splits = tree.split ? TRAX_DEFAULT_SPLITS : 0;
   options = &chosen;
+  struct scene_crew *crew = scene_crew_new(tree.node_count < LEAST_FOR_TWO ? 1 : options->threads);
+  if (!crew)
+    result = scene_out_of_memory(error, "scene");
   scene_report(options, SCENE_LAY_OUT, 0);
   struct palette palette = {0};
   struct scene_wide wide = {0};
   const bool is_wide = trax_node_formats[options->nodes].children > 2 && tree.node_count;
-  if (is_wide)
+  if (is_wide && result == TRAX_OK)
     result = scene_widen(&wide, &tree, options->nodes, error);
   if (result == TRAX_OK && !tree.split && !tree.unique)
     result = scene_order_duplicates(&tree, wide.leaves, mesh, error);
@@ -194,18 +238,13 @@ trax_status trax_scene_build(struct trax_scene *scene, const struct trax_mesh *m
     result = scene_order_split_duplicates(&tree, wide.leaves, mesh, error);
   if (result == TRAX_OK && scene_is_interrupted(options->interrupt))
     result = TRAX_INTERRUPTED;
-  if (result == TRAX_OK && !order.position)
-    result =
-        scene_order_nodes(&order, &tree, options->nodes,
-                          options->cache_lines ? options->cache_lines : SCENE_CACHE_LINES, options->interrupt, error);
-  if (result == TRAX_OK && is_wide)
-    scene_place_wide(&wide, &tree, order.position);
   if (result == TRAX_OK) {
     result = scene_make_palette(&palette, mesh, mesh->uvs != NULL, error);
     if (result == TRAX_OK)
-      result = lay_out(scene, mesh, &tree, &palette, order.position, is_wide ? &wide : NULL, options, error);
+      result = lay_out(scene, mesh, &tree, &palette, &order, is_wide ? &wide : NULL, crew, options, error);
     scene_palette_release(&palette);
   }
+  scene_crew_release(crew);
   scene_wide_release(&wide);
   scene_order_release(&order);
   scene_tree_release(&tree);

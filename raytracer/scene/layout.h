@@ -24,6 +24,7 @@ struct layout {
   bool file_normals;                     /* those of the mesh, where it has some */
   uint32_t nodes_offset, triangles_offset;
   uint32_t next_triangle;
+  bool has_triangles; /* all are in their places already */
   uint32_t *numbers; /* in the mesh, of the file's triangles; NULL: nothing needs them */
 };
 
@@ -48,6 +49,8 @@ void scene_copy_materials(unsigned char *bytes, const struct trax_scene_section 
 
 /* --- place_tree.c --- */
 
+/* Places the triangles of a tree whose nodes are binary, which needs no positions of nodes. */
+void scene_place_triangles(struct layout *layout);
 /* Places a subtree depth first; returns its reference, and its box as it is stored. */
 trax_scene_ref scene_place_subtree(struct layout *layout, uint32_t index, struct scene_box *box);
 /* The same of a wide node and what is below it. */

@@ -41,13 +41,25 @@ struct trax_scene_grid trax_scene_grid_of(const float bounds_min[3], const float
   return grid;
 }
 
+/* floor and ceil without a call where a 32-bit integer has the result, as all cells of a scene do. */
+static inline float cell_below(double place) {
+  return place >= 0 && place < INT32_MAX ? (float)(int32_t)place : (float)floor(place);
+}
+
+static inline float cell_above(double place) {
+  if (!(place >= 0 && place < INT32_MAX))
+    return (float)ceil(place);
+  const int32_t whole = (int32_t)place;
+  return (float)(whole + (whole < place));
+}
+
 /* Rounded outwards. */
 static struct scene_box box_in_cells(const struct trax_scene_grid *grid, const struct scene_box *box) {
   struct scene_box result;
   for (int axis = 0; axis < 3; axis++) {
     const double origin = grid->origin[axis], cell = grid->cell[axis];
-    result.min[axis] = (float)floor((box->min[axis] - origin) / cell);
-    result.max[axis] = (float)ceil((box->max[axis] - origin) / cell);
+    result.min[axis] = cell_below((box->min[axis] - origin) / cell);
+    result.max[axis] = cell_above((box->max[axis] - origin) / cell);
   }
   return result;
 }

@@ -28,6 +28,7 @@ static uint32_t *add_leaf(uint32_t *end, const struct scene_numbering *numbering
 bool scene_measure_built(const struct scene_numbering *numbering, struct built_node *node) {
   node->below = node->triangle_count;
   node->height = 0;
+  node->nodes = 1;
   if (node->triangle_count) {
     for (uint32_t i = 0; i < node->triangle_count && numbering->duplicates; i++)
       for (uint32_t other = node->triangles[i]; (other = numbering->duplicates->after[other]) != SCENE_NO_DUPLICATE;)
@@ -40,6 +41,7 @@ bool scene_measure_built(const struct scene_numbering *numbering, struct built_n
     if (!child || !scene_measure_built(numbering, child))
       return false;
     node->below += child->below;
+    node->nodes += child->nodes;
     node->height = child->height + 1 > node->height ? child->height + 1 : node->height;
   }
   return true;

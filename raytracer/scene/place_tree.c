@@ -5,6 +5,10 @@
 
 static trax_scene_ref place_leaf(struct layout *layout, const struct scene_tree_node *node) {
   uint32_t offset = layout->triangles_offset + layout->next_triangle * (uint32_t)sizeof(struct trax_triangle);
+  if (layout->has_triangles) {
+    layout->next_triangle += node->triangle_count;
+    return offset | node->triangle_count;
+  }
   for (uint32_t i = 0; i < node->triangle_count; i++) {
     const struct trax_mesh_triangle *source = &layout->mesh->triangles[node->triangles[i]];
     struct trax_triangle *triangle = &layout->triangles[layout->next_triangle];
@@ -26,6 +30,14 @@ static trax_scene_ref place_leaf(struct layout *layout, const struct scene_tree_
     layout->next_triangle++;
   }
   return offset | node->triangle_count;
+}
+
+void scene_place_triangles(struct layout *layout) {
+  for (uint32_t i = 0; i < layout->tree->node_count; i++) /* in the order of the recursion below */
+    if (layout->tree->nodes[i].triangle_count)
+      place_leaf(layout, &layout->tree->nodes[i]);
+  layout->next_triangle = 0;
+  layout->has_triangles = true;
 }
 
 /* Recursion is bounded by the depth of the tree, at most TRAX_SCENE_MAX_DEPTH. */

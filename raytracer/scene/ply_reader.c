@@ -111,6 +111,56 @@ static trax_status read_list(struct ply_reader *reader, const struct property *p
   return result;
 }
 
+static void add_vertex(struct ply_reader *reader, const float values[per_vertex]) {
+  const uint32_t number = reader->mesh->vertex_count++;
+  memcpy(reader->mesh->vertices[number], values, sizeof *reader->mesh->vertices);
+  if (reader->normals)
+    memcpy(reader->normals[number], &values[normal_x - coordinate_x], sizeof *reader->normals);
+  if (reader->uvs)
+    memcpy(reader->uvs[number], &values[texture_u - coordinate_x], sizeof *reader->uvs);
+}
+
+/* Whether the element's records are as in most large files: vertices of binary32 numbers, or faces of nothing but a
+   list of 32-bit integers with its length in a byte. */
+static bool is_plain(const struct ply_reader *reader, const struct element *element) {
+  const struct property *properties = &reader->properties[element->first_property];
+  bool plain = reader->format == little_endian && !element->is_strips;
+  for (unsigned i = 0; i < element->property_count; i++)
+    plain =
+        plain && (element->is_vertex ? !properties[i].list_count && properties[i].type == float32
+                                     : element->property_count == 1 && properties[i].role == indices &&
+                                           type_sizes[properties[i].list_count] == 1 && properties[i].type >= int32);
+  return plain;
+}
+
+/* Reads a plain vertex, or a face if it is a triangle. All others, and those with an error, are left. */
+static trax_status read_plain(struct ply_reader *reader, const struct element *element, bool *was_read) {
+  const struct property *properties = &reader->properties[element->first_property];
+  const size_t left = (size_t)(reader->end - reader->at);
+  float values[per_vertex] = {0};
+  uint32_t list[3];
+  *was_read = false;
+  if (element->is_vertex) {
+    if (left < element->property_count * sizeof(float))
+      return TRAX_OK;
+    for (unsigned i = 0; i < element->property_count; i++, reader->at += sizeof(float))
+      if (properties[i].role >= coordinate_x && properties[i].role <= texture_v)
+        memcpy(&values[properties[i].role - coordinate_x], reader->at, sizeof(float));
+    add_vertex(reader, values);
+    *was_read = true;
+    return TRAX_OK;
+  }
+  if (left < 1 + sizeof list || *reader->at != 3 || reader->mesh->vertex_count != reader->vertex_count)
+    return TRAX_OK;
+  memcpy(list, reader->at + 1, sizeof list);
+  for (int i = 0; i < 3; i++)
+    if (list[i] >= reader->vertex_count || list[i] > INT32_MAX)
+      return TRAX_OK;
+  reader->at += 1 + sizeof list;
+  *was_read = true;
+  return add_triangle(reader, list[0], list[1], list[2]);
+}
+
 static trax_status read_record(struct ply_reader *reader, const struct element *element) {
   float values[per_vertex] = {0}; /* by role, from coordinate_x */
   trax_status result = TRAX_OK;
@@ -125,14 +175,8 @@ static trax_status read_record(struct ply_reader *reader, const struct element *
   }
   if (result != TRAX_OK)
     return result;
-  if (element->is_vertex) {
-    const uint32_t number = reader->mesh->vertex_count++;
-    memcpy(reader->mesh->vertices[number], values, sizeof *reader->mesh->vertices);
-    if (reader->normals)
-      memcpy(reader->normals[number], &values[normal_x - coordinate_x], sizeof *reader->normals);
-    if (reader->uvs)
-      memcpy(reader->uvs[number], &values[texture_u - coordinate_x], sizeof *reader->uvs);
-  }
+  if (element->is_vertex)
+    add_vertex(reader, values);
   if (reader->format == ascii) {
     while (*reader->at == ' ' || *reader->at == '\t')
       reader->at++;
@@ -174,9 +218,14 @@ static trax_status read_elements(struct ply_reader *reader) {
     if (element->property_count == 0)
       continue;
     reader->current = element;
+    const bool plain = is_plain(reader, element);
     for (reader->current_number = 0; reader->current_number < element->count; reader->current_number++) {
-      trax_status result =
-          scene_is_interrupted(reader->polygon_work.interrupt) ? TRAX_INTERRUPTED : read_record(reader, element);
+      bool was_read = false;
+      trax_status result = scene_is_interrupted(reader->polygon_work.interrupt) ? TRAX_INTERRUPTED : TRAX_OK;
+      if (result == TRAX_OK && plain)
+        result = read_plain(reader, element, &was_read);
+      if (result == TRAX_OK && !was_read)
+        result = read_record(reader, element);
       if (result != TRAX_OK)
         return result;
     }

@@ -281,6 +281,7 @@ static trax_status work_pass(struct round *round, struct scene_crew *crew, const
     else
       for (uint32_t k = 0; k < round->count && good; k++) {
         const uint32_t part = round->parts[k];
+        search->read_count = 0;
         fetch_ahead(&fetcher, improver->links->nodes, round->parts, round->count, k);
         const uint32_t place = part == improver->links->root ? part : scene_find_place(search, part);
         good = place != SCENE_NO_LINK;
@@ -315,7 +316,7 @@ trax_status scene_reinsert(struct scene_links *links, unsigned passes, struct sc
     result = scene_out_of_memory(error, "BVH");
   else {
     for (unsigned i = 0; i < threads; i++)
-      searches[i] = (struct search){.links = links, .foci = &improver.foci, .records = several};
+      searches[i] = (struct search){.links = links, .foci = &improver.foci};
     *round = (struct round){.improver = &improver, .searches = searches};
   }
   struct scene_ranking ranked = {keys, numbers}, room = {keys + links->count, numbers + links->count};

@@ -39,15 +39,6 @@ static inline double visits_of(const struct foci *foci, const struct scene_box *
   return sum;
 }
 
-static inline struct scene_box join_boxes(const struct scene_box *a, const struct scene_box *b) {
-  struct scene_box both;
-  for (int axis = 0; axis < 3; axis++) {
-    both.min[axis] = a->min[axis] < b->min[axis] ? a->min[axis] : b->min[axis];
-    both.max[axis] = a->max[axis] > b->max[axis] ? a->max[axis] : b->max[axis];
-  }
-  return both;
-}
-
 /* --- reinsert_search.c --- */
 
 /* Limits a search in trees with many overlapping boxes. */
@@ -67,9 +58,9 @@ struct search {
     struct place queue[2 * MOST_LOOKED_AT];
   };
   size_t heap_count;
-  uint32_t *read; /* the nodes that the search depends on, if `records` */
+  uint32_t *read; /* the nodes that the searches depend on */
   size_t read_count, read_capacity;
-  bool records, heights; /* heights: the last search depends on some */
+  bool heights; /* the last search depends on some */
   /* of the current search */
   const struct scene_link *part;
   uint32_t parent, beside; /* of the part; its other child */

@@ -2,6 +2,7 @@
 #include "reinsert.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 /* --- the heap --- */
 
@@ -36,7 +37,7 @@ static struct place pop(struct search *search) {
 /* Makes room for those of one search. False when out of memory. */
 static bool reserve(struct search *search) {
   enum { MOST_OF_ONE = 2 * MOST_LOOKED_AT + 2 * TRAX_SCENE_MAX_DEPTH + 8 };
-  if (!search->records || search->read_capacity - search->read_count >= MOST_OF_ONE)
+  if (search->read_capacity - search->read_count >= MOST_OF_ONE)
     return true;
   const size_t capacity = 2 * search->read_capacity + MOST_OF_ONE;
   uint32_t *read = realloc(search->read, capacity * sizeof *read);
@@ -47,8 +48,7 @@ static bool reserve(struct search *search) {
 }
 
 static inline void note(struct search *search, uint32_t node) {
-  if (search->records)
-    search->read[search->read_count++] = node;
+  search->read[search->read_count++] = node;
 }
 
 static void note_part(struct search *search, uint32_t part) {
@@ -101,18 +101,12 @@ static inline void least_visits(double bounds[AT_ONCE], const struct foci *foci,
   _mm_storeu_pd(bounds + 2, _mm_sub_pd(_mm_mul_pd(_mm_cvtps_pd(_mm_movehl_ps(sum, sum)), factor), underflow));
 }
 
-static inline bool contains(const struct scene_box *box, const struct scene_box *part) {
-  bool all = true;
-  for (int axis = 0; axis < 3; axis++)
-    all &= (box->min[axis] <= part->min[axis]) & (box->max[axis] >= part->max[axis]);
-  return all;
-}
-
 /* False: no place costs less than the part's own. True for nearly all parts that have a better one, and for few others:
    as its limit does not fall meanwhile, the order in which nodes are looked at does not matter, and lower bounds do. */
 static bool may_gain(struct search *search) {
   const struct scene_link *nodes = search->links->nodes, *part = search->part;
   struct place *queue = search->queue;
+  uint32_t *read = search->read + search->read_count;
   uint32_t first = 0, end = 0; /* first in, first out: nodes are in the cache when they are looked at */
   /* The nodes above whose boxes are smaller without the part, from below. */
   struct {
@@ -120,15 +114,20 @@ static bool may_gain(struct search *search) {
     uint32_t other; /* the child that is not on the way */
   } open[TRAX_SCENE_MAX_DEPTH + 1];
   uint32_t open_count = 0, from = search->parent, node = nodes[from].parent;
-  struct scene_box below = nodes[search->beside].box;
+  const __m128 part_min = _mm_loadu_ps(part->box.min), part_max = _mm_loadu_ps(part->box.max);
+  __m128 min = _mm_loadu_ps(nodes[search->beside].box.min), max = _mm_loadu_ps(nodes[search->beside].box.max);
   for (; node != SCENE_NO_LINK; from = node, node = nodes[node].parent) {
     const uint32_t other = other_child(&nodes[node], from);
-    note(search, node);
-    note(search, other);
-    below = join_boxes(&below, &nodes[other].box);
-    if (contains(&below, &part->box))
+    *read++ = node, *read++ = other;
+    min = _mm_min_ps(min, _mm_loadu_ps(nodes[other].box.min)); /* the fourth numbers count for nothing */
+    max = _mm_max_ps(max, _mm_loadu_ps(nodes[other].box.max));
+    const __m128 within = _mm_and_ps(_mm_cmple_ps(min, part_min), _mm_cmpge_ps(max, part_max));
+    if ((_mm_movemask_ps(within) & 7) == 7)
       break;
-    open[open_count].box = below;
+    float below[2][4];
+    _mm_storeu_ps(below[0], min), _mm_storeu_ps(below[1], max);
+    memcpy(open[open_count].box.min, below[0], sizeof open->box.min);
+    memcpy(open[open_count].box.max, below[1], sizeof open->box.max);
     open[open_count++].other = other;
   }
   const struct scene_link *whole = node != SCENE_NO_LINK ? &nodes[node] : NULL;
@@ -143,44 +142,50 @@ static bool may_gain(struct search *search) {
   const double own = part->visits, limit = cost_beside(search, &beside->box, least);
   if (cheapest < limit)
     return true;
-  if (!(own < limit))
-    return false;
-  for (; node != SCENE_NO_LINK; from = node, node = nodes[node].parent) {
-    note(search, node);
-    const uint32_t other = other_child(&nodes[node], from);
-    __builtin_prefetch(&nodes[other]);
-    queue[end++] = (struct place){0, other, 0};
-  }
-  for (uint32_t i = open_count; i-- > 0 && least_of[i] + own < limit;)
+  for (uint32_t i = open_count; own < limit && i-- > 0 && least_of[i] + own < limit;)
     queue[end++] = (struct place){least_of[i], open[i].other, 0};
   least = limit - beside->visits;
-  for (int c = 0; c < 2 && beside->child[0] != SCENE_NO_LINK && least + own < limit; c++) {
-    __builtin_prefetch(&nodes[beside->child[c]]);
+  for (int c = 0; c < 2 && own < limit && beside->child[0] != SCENE_NO_LINK && least + own < limit; c++)
     queue[end++] = (struct place){least, beside->child[c], 0};
-  }
-  while (first < end) {
-    const uint32_t count = end - first < AT_ONCE ? end - first : AT_ONCE;
-    const struct scene_link *links[AT_ONCE];
-    double bounds[AT_ONCE];
+  const __m128d all_own = _mm_set1_pd(own), all_limit = _mm_set1_pd(limit);
+  while (own < limit) {
+    for (int i = 0; i < AT_ONCE && node != SCENE_NO_LINK; i++, from = node, node = nodes[node].parent) {
+      *read++ = node;
+      queue[end++] = (struct place){0, other_child(&nodes[node], from), 0};
+    }
+    if (first == end)
+      break;
     if (first > MOST_LOOKED_AT - TRAX_SCENE_MAX_DEPTH - AT_ONCE)
       return true;
-    for (uint32_t i = 0; i < AT_ONCE; i++)
-      links[i] = &nodes[queue[first + (i < count ? i : 0)].node];
+    while (end - first < AT_ONCE) /* what gains nothing */
+      queue[end++] = (struct place){__builtin_inf(), search->parent, 0};
+    const struct scene_link *links[AT_ONCE];
+    double bounds[AT_ONCE], further[AT_ONCE];
+    int gains = 0, grows = 0;
+    for (int i = 0; i < AT_ONCE; i++)
+      links[i] = &nodes[queue[first + i].node];
     least_visits(bounds, search->foci, &part->box, links);
-    for (uint32_t i = 0; i < count; i++) {
-      const struct place place = queue[first++];
-      const struct scene_link *link = links[i];
-      note(search, place.node);
-      const double cost = place.least + bounds[i];
-      if (cost < limit)
-        return true;
-      const double further = cost - link->visits > place.least ? cost - link->visits : place.least;
-      for (int c = 0; c < 2 && link->child[0] != SCENE_NO_LINK && further + own < limit; c++) {
-        __builtin_prefetch(&nodes[link->child[c]]);
-        queue[end++] = (struct place){further, link->child[c], 0};
-      }
+    for (int i = 0; i < AT_ONCE; i += 2) {
+      const __m128d above = _mm_set_pd(queue[first + i + 1].least, queue[first + i].least);
+      const __m128d cost = _mm_add_pd(above, _mm_loadu_pd(&bounds[i]));
+      const __m128d under = _mm_max_pd(_mm_sub_pd(cost, _mm_set_pd(links[i + 1]->visits, links[i]->visits)), above);
+      gains |= _mm_movemask_pd(_mm_cmplt_pd(cost, all_limit));
+      grows |= _mm_movemask_pd(_mm_cmplt_pd(_mm_add_pd(under, all_own), all_limit)) << i;
+      _mm_storeu_pd(&further[i], under);
     }
+    if (gains)
+      return true;
+    for (int i = 0; i < AT_ONCE; i++)
+      *read++ = queue[first + i].node;
+    for (int i = 0; i < AT_ONCE; i++)
+      if (grows >> i & 1 && links[i]->child[0] != SCENE_NO_LINK)
+        for (int c = 0; c < 2; c++) {
+          __builtin_prefetch(&nodes[links[i]->child[c]]);
+          queue[end++] = (struct place){further[i], links[i]->child[c], 0};
+        }
+    first += AT_ONCE;
   }
+  search->read_count = (size_t)(read - search->read);
   return false;
 }
 

@@ -89,6 +89,37 @@ static void test_binary_ply(void **state) {
   check_square(test_file("binary.ply", bytes, size));
 }
 
+/* Records as in most large files, with one wrong number each. */
+static void test_bad_binary_ply(void **state) {
+  (void)state;
+  static const char header[] = "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\n"
+                               "property float y\nproperty float z\nelement face 1\n"
+                               "property list uchar int vertex_indices\nend_header\n";
+  static const float vertices[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  static const struct {
+    int32_t last;
+    size_t cut; /* bytes */
+    const char *message;
+  } cases[] = {{3, 0, "face 0: vertex index 3 is out of range (3 vertices)"},
+               {-1, 0, "face 0: vertex index -1 is out of range (3 vertices)"},
+               {2, 1, "face 0: the file ends too early"},
+               {2, 14, "cut off: too short for the 3 records of 'vertex'"}};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    const int32_t triangle[3] = {0, 1, cases[i].last};
+    unsigned char bytes[1024];
+    size_t size = 0;
+    append(bytes, &size, header, strlen(header));
+    append(bytes, &size, vertices, sizeof vertices);
+    append(bytes, &size, "\3", 1);
+    append(bytes, &size, triangle, sizeof triangle);
+    const char *path = test_file("bad.ply", bytes, size - cases[i].cut);
+    struct trax_mesh mesh;
+    trax_error error = {{0}};
+    assert_int_equal(trax_mesh_import(&mesh, &path, 1, NULL, NULL, &error), TRAX_ERROR);
+    assert_contains(error.message, cases[i].message);
+  }
+}
+
 /* Big endian, coordinates of three types behind a property and an element that mean nothing, and triangle strips. */
 static void test_ply_types(void **state) {
   (void)state;
@@ -903,6 +934,7 @@ int main(void) {
       cmocka_unit_test(test_forest),
       cmocka_unit_test(test_text_formats),
       cmocka_unit_test(test_binary_ply),
+      cmocka_unit_test(test_bad_binary_ply),
       cmocka_unit_test(test_ply_types),
       cmocka_unit_test(test_numbers),
       cmocka_unit_test(test_compressed),
