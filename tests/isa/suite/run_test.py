@@ -116,6 +116,8 @@ with tempfile.TemporaryDirectory() as folder:
     expect("no emulator", 2, "--emulator is needed", "--only", "^sub$")
     right = ("--emulator", "./right", "--command", TEMPLATE)
     expect("no name", 2, "no name matches nonsense", *right, "--only", "nonsense")
+    expect("some left out", 0, r"^sub +2 images .*ok\n", *right, "--only", "^sub$", "--without", "bit[0-9]+$")
+    expect("all left out", 2, "--without: every name matches sub", *right, "--only", "^sub$", "--without", "sub")
     expect("no pattern", 2, "--only: \\(: ", *right, "--only", "(")
     expect("no folder", 2, "none/suite.json: no suite", *right, "--suite", "none")
     expect("no emulator", 2, "./none: cannot be run", "--emulator", "./none", "--command", TEMPLATE, "--only", "^sub$")
