@@ -83,122 +83,45 @@ INSTANCES = (b"mesh m a.obj\nmaterial red 0.8,0.1,0.1\ngroup g\nplace m\n"
              b"place g\nplace g -1 0 0 5  0 1 0 0  0 0 0.5 1e4\nplace m material red\n")
 add_case("trax-scene-mesh", "", ("a.instances", INSTANCES), ("a.obj", OBJ.replace(b"usemtl b\n", b"")), ("a.mtl", MTL))
 GLTF = json.dumps({
-    "asset": {
-        "version": "2.0"
-    },
-    "scene":
-    0,
-    "scenes": [{
-        "nodes": [0, 3]
-    }],
+    "asset": {"version": "2.0"},
+    "scene": 0,
+    "scenes": [{"nodes": [0, 3]}],
     "extensionsRequired": ["KHR_texture_transform"],
-    "nodes": [{
-        "children": [1, 2],
-        "rotation": [0, 0, 0.6, 0.8],
-        "scale": [1, -2, 1]
-    }, {
-        "camera": 0,
-        "translation": [0, 0, 4]
-    }, {
-        "mesh": 0
-    }, {
-        "mesh": 0,
-        "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, 0, 0, 1]
-    }],
-    "cameras": [{
-        "type": "perspective",
-        "perspective": {
-            "yfov": 0.8,
-            "znear": 0.1
-        }
-    }],
-    "meshes": [{
-        "primitives": [{
-            "attributes": {
-                "POSITION": 0,
-                "NORMAL": 0,
-                "TEXCOORD_0": 1
-            },
-            "indices": 2,
-            "material": 0,
-            "mode": 5
-        }, {
-            "attributes": {
-                "POSITION": 0
-            },
-            "mode": 2
-        }]
-    }],
+    "nodes": [
+        {"children": [1, 2], "rotation": [0, 0, 0.6, 0.8], "scale": [1, -2, 1]},
+        {"camera": 0, "translation": [0, 0, 4]},
+        {"mesh": 0},
+        {"mesh": 0, "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, 0, 0, 1]},
+    ],
+    "cameras": [{"type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1}}],
+    "meshes": [{"primitives": [
+        {"attributes": {"POSITION": 0, "NORMAL": 0, "TEXCOORD_0": 1}, "indices": 2, "material": 0, "mode": 5},
+        {"attributes": {"POSITION": 0}, "mode": 2},
+    ]}],
     "materials": [{
-        "name": "a",
-        "alphaMode": "MASK",
-        "emissiveFactor": [1, 2, 3],
+        "name": "a", "alphaMode": "MASK", "emissiveFactor": [1, 2, 3],
         "pbrMetallicRoughness": {
-            "metallicFactor": 0.5,
-            "roughnessFactor": 0.5,
-            "metallicRoughnessTexture": {
-                "index": 1
-            },
+            "metallicFactor": 0.5, "roughnessFactor": 0.5, "metallicRoughnessTexture": {"index": 1},
             "baseColorTexture": {
                 "index": 0,
-                "extensions": {
-                    "KHR_texture_transform": {
-                        "offset": [0, 1],
-                        "rotation": 1,
-                        "scale": [2, 3]
-                    }
-                }
-            }
-        }
+                "extensions": {"KHR_texture_transform": {"offset": [0, 1], "rotation": 1, "scale": [2, 3]}},
+            },
+        },
     }],
-    "textures": [{
-        "source": 0,
-        "sampler": 0
-    }, {
-        "source": 1
-    }],
-    "samplers": [{
-        "wrapS": 33071
-    }],
-    "images": [{
-        "uri": "a.png"
-    }, {
-        "bufferView": 2
-    }],
-    "accessors": [{
-        "bufferView": 0,
-        "componentType": 5126,
-        "count": 4,
-        "type": "VEC3"
-    }, {
-        "bufferView": 1,
-        "componentType": 5121,
-        "count": 4,
-        "type": "VEC2",
-        "normalized": True
-    }, {
-        "bufferView": 1,
-        "byteOffset": 8,
-        "componentType": 5123,
-        "count": 4,
-        "type": "SCALAR"
-    }],
-    "bufferViews": [{
-        "buffer": 0,
-        "byteLength": 48
-    }, {
-        "buffer": 0,
-        "byteOffset": 48,
-        "byteLength": 16
-    }, {
-        "buffer": 0,
-        "byteOffset": 64,
-        "byteLength": len(image)
-    }],
-    "buffers": [{
-        "byteLength": 64 + len(image),
-        "uri": "b.bin"
-    }]
+    "textures": [{"source": 0, "sampler": 0}, {"source": 1}],
+    "samplers": [{"wrapS": 33071}],
+    "images": [{"uri": "a.png"}, {"bufferView": 2}],
+    "accessors": [
+        {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
+        {"bufferView": 1, "componentType": 5121, "count": 4, "type": "VEC2", "normalized": True},
+        {"bufferView": 1, "byteOffset": 8, "componentType": 5123, "count": 4, "type": "SCALAR"},
+    ],
+    "bufferViews": [
+        {"buffer": 0, "byteLength": 48},
+        {"buffer": 0, "byteOffset": 48, "byteLength": 16},
+        {"buffer": 0, "byteOffset": 64, "byteLength": len(image)},
+    ],
+    "buffers": [{"byteLength": 64 + len(image), "uri": "b.bin"}],
 }).encode()
 BUFFER = struct.pack("<12f8B4H", 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 1, 0, 0, 255, 0, 0, 255, 255, 255, 0, 1, 2, 3) + image
 add_case("trax-scene-mesh", "", ("a.gltf", GLTF), ("a.png", image), ("b.bin", BUFFER))
