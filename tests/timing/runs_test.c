@@ -279,6 +279,26 @@ static void a_bank_after_one_was_awake(void **state) {
   }
 }
 
+/* A burst that has stored a byte does not load its word, from a block that has been written before. */
+static void a_byte_before_its_word(void **state) {
+  (void)state;
+  const struct trax_config config = bench_near(1, 2);
+  const uint32_t program[] = {U(LUI, 1, 1),
+                              U(RDSR, 2, TRAX_SR_THREAD),
+                              I(SLLI, 2, 2, 6),
+                              R(ADD, 1, 1, 2),
+                              I(ADDI, 3, 0, 9),
+                              I(ADDI, 3, 3, -1),
+                              S(SB, 3, 1, 1),
+                              I(LW, 4, 1, 0),
+                              R(ADD, 5, 5, 4),
+                              S(SW, 5, 1, 4),
+                              NOP,
+                              B(BNE, 3, 0, -6 * 4),
+                              HALT};
+  expect_as_reference(&config, program, sizeof program / 4);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(branch_bubbles),
@@ -289,6 +309,7 @@ int main(void) {
       cmocka_unit_test(own_increment_before_load),
       cmocka_unit_test(every_value_once),
       cmocka_unit_test(latencies_of_one_tp),
+      cmocka_unit_test(a_byte_before_its_word),
       cmocka_unit_test(a_bank_after_one_was_awake),
       cmocka_unit_test(exit_statuses),
       cmocka_unit_test(the_limit_covers_the_last_store),

@@ -79,14 +79,20 @@ static void test_large_sequences(void **state) {
 enum { FAR = 0x100000, FAR_WORDS = 66000 };
 
 static void map_far(void *context, struct trax_machine *machine) {
-  const uint32_t begin[] = {I(ADDI, 1, 1, 1), J(0, 4 * (FAR_WORDS - 5))},
-                 end[] = {I(ADDI, 31, 31, -1), B(BEQ, 31, 0, 8), J(0, -4 * (FAR_WORDS - 2)), HALT};
+  const uint32_t begin[] = {I(JALR, 0, 2, 4) /* no jump */, I(ADDI, 1, 1, 1), J(0, 4 * (FAR_WORDS - 9))};
+  const uint32_t end[] = {I(ADDI, 31, 31, -1),
+                          B(BEQ, 31, 0, 5 * 4),
+                          I(ANDI, 4, 31, 1),
+                          B(BEQ, 4, 0, 8),
+                          I(JALR, 0, 2, 0),
+                          J(0, -4 * (FAR_WORDS - 2)),
+                          HALT};
   uint8_t *text;
   (void)context;
   assert_int_equal(trax_machine_map(machine, FAR, 4 * FAR_WORDS, TRAX_PERMIT_READ | TRAX_PERMIT_EXECUTE, &text, NULL),
                    TRAX_OK);
   memcpy(text, begin, sizeof begin);
-  memcpy(text + 4 * (FAR_WORDS - 4), end, sizeof end);
+  memcpy(text + 4 * FAR_WORDS - sizeof end, end, sizeof end);
 }
 
 static void test_far_jumps(void **state) {
