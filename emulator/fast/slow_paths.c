@@ -37,9 +37,9 @@ void trax_fast_report(const struct trax_chip *chip, uint64_t cycles) {
    snprintf(path->reason, sizeof path->reason, "%s", (REASON)), path++)
   ROW("observed", chip->burst == 1 ? cycles : 0, TRAX_OF_CYCLES, observed);
   ROW("TMs cycle by cycle", chip->single_cycles, TRAX_OF_CYCLES,
-      chip->machine->observer ? observed
-      : chip->epochs          ? conflicts
-                              : epochs_reason(config));
+      chip->epochs                                                   ? conflicts
+      : chip->machine->observer && !chip->machine->observer->go_back ? observed
+                                                                     : epochs_reason(config));
   ROW("fetches bank by bank", first->simple_fetch ? 0 : cycles, TRAX_OF_CYCLES, fetch_reason(config));
   ROW("adders group by group", first->fp.even ? 0 : cycles, TRAX_OF_CYCLES,
       "the groups do not have one adder and one multiplier each, or differ in size");
