@@ -91,6 +91,8 @@ static bool are_those(const struct trax_pixel_rays *rays, const struct trax_expl
 static void put_known(const struct trax_explore_picture *picture, FILE *members, FILE *columns) {
   const struct trax_explore_ray *rays = picture->rays;
   fputs("\"kind\", \"hit\", \"material\", \"nodes\", \"triangles\"", members);
+  if (picture->has_instances)
+    fputs(", \"instance\"", members);
   for (size_t i = 0; i < picture->ray_count; i++)
     trax_page_number(columns, rays[i].kind);
   for (size_t i = 0; i < picture->ray_count; i++)
@@ -101,6 +103,8 @@ static void put_known(const struct trax_explore_picture *picture, FILE *members,
     trax_page_number(columns, rays[i].nodes);
   for (size_t i = 0; i < picture->ray_count; i++)
     trax_page_number(columns, rays[i].triangles);
+  for (size_t i = 0; i < picture->ray_count && picture->has_instances; i++)
+    trax_page_number(columns, rays[i].instance == TRAX_NO_INSTANCE ? 0 : rays[i].instance + 1);
 }
 
 static void put_costs(const struct trax_pixel_rays *rays, FILE *members, FILE *columns) {

@@ -1,4 +1,4 @@
-#define _XOPEN_SOURCE 700 /* realpath, readlink, open_memstream */
+#define _GNU_SOURCE /* realpath, readlink, open_memstream, dladdr */
 /* The sources that the page contains. A program's debug information may name any file of the host, so a file is copied
    only if, with links resolved, it lies
 
@@ -10,6 +10,7 @@
 #include "explain/texts.h"
 #include "trax/input.h"
 
+#include <dlfcn.h>
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
@@ -80,8 +81,14 @@ static char *folder_of(const char *path) {
   return resolved;
 }
 
-/* Returns the resolved lib/trax of the installation to which the running program belongs. */
+/* Returns the resolved lib/trax of the installation to which this code belongs: the shared library's folder, whatever
+   program has loaded it, or else that beside the running program. */
 static char *installed_folder(void) {
+  static const char here;
+  Dl_info object;
+  const char *ending = dladdr(&here, &object) && object.dli_fname ? strrchr(object.dli_fname, '.') : NULL;
+  if (ending && strcmp(ending, ".so") == 0)
+    return folder_of(object.dli_fname);
   char path[PATH_MAX + 32];
   const ssize_t length = readlink("/proc/self/exe", path, PATH_MAX);
   if (length <= 0)

@@ -109,7 +109,12 @@ static void put_known(const struct trax_explain *explain, const struct trax_expl
   const char *hit = ray->material != TRAX_NO_MATERIAL ? explain->picture.materials[ray->material]
                     : ray->hit                        ? "yes"
                                                       : "no";
-  fprintf(out, "  %-14s %-20s %7" PRIu32 " %9" PRIu32, trax_ray_kind_names[ray->kind], hit, ray->nodes, ray->triangles);
+  fprintf(out, "  %-14s %-20s ", trax_ray_kind_names[ray->kind], hit);
+  if (explain->picture.has_instances && ray->instance != TRAX_NO_INSTANCE)
+    fprintf(out, "%8" PRIu32 " ", ray->instance);
+  else if (explain->picture.has_instances)
+    fprintf(out, "%8s ", "-");
+  fprintf(out, "%7" PRIu32 " %9" PRIu32, ray->nodes, ray->triangles);
 }
 
 static void put_rays(const struct trax_explain *explain, const struct trax_story *story, FILE *out) {
@@ -119,11 +124,12 @@ static void put_rays(const struct trax_explain *explain, const struct trax_story
   if (!count) /* of another program, or none */
     return;
   const bool apart = explain->picture.counted_apart && count + 1 == story->ray_count;
-  fprintf(out, "\n%-16s %-20s %7s %9s", "Rays", "hit", "nodes", "triangles");
+  const bool instances = explain->picture.has_instances;
+  fprintf(out, "\n%-16s %-20s %s%7s %9s", "Rays", "hit", instances ? "instance " : "", "nodes", "triangles");
   fprintf(out, apart ? " %11s %7s %12s  causes\n" : "\n", "cycles", "share", "instructions");
   for (size_t i = 0; i < count + apart; i++) {
     if (apart && i == 0)
-      fprintf(out, "  %-53s", "before the first");
+      fprintf(out, "  %-*s", instances ? 62 : 53, "before the first");
     else
       put_known(explain, &rays[i - apart], out);
     if (!apart) {

@@ -59,6 +59,7 @@ static trax_status end_explanation(struct trax_explain *explain, const struct tr
                                                    visits.triangles};
     materials = name_materials(frame->scene);
     shown.rays = materials ? visits.rays : NULL;
+    shown.has_instances = frame->scene->instances != NULL;
     shown.ray_count = materials ? visits.ray_count : 0;
     shown.counted_apart = frame->params->features & (TRAX_PATH_FEATURES | TRAX_FEATURE_BIT(RAY_KINDS));
     shown.materials = (const char *const *)materials;

@@ -25,6 +25,7 @@ struct pixel_counter {
   const struct trax_render_params *params;
   struct trax_visits *visits;
   const struct trax_scene *scene;
+  uint32_t *begins;          /* of the instances, in the order in which they were placed */
   uint32_t nodes, triangles; /* of the slot's earlier rays */
   bool out_of_memory;
 };
@@ -45,6 +46,29 @@ static void end_slot(struct trax_access_log *log, uint32_t slot, uint32_t rays) 
   counter->nodes = counter->triangles = 0;
 }
 
+static int compare_numbers(const void *a, const void *b) {
+  const uint32_t *left = a, *right = b;
+  return *left < *right ? -1 : *left > *right;
+}
+
+/* Where the triangles of each instance begin, in the order in which they were placed. In the file they are in the
+   tree's order. To be freed. */
+static uint32_t *sort_instances(const struct trax_scene *scene) {
+  uint32_t *begins = malloc((scene->instance_count + (size_t)1) * sizeof *begins);
+  for (uint32_t i = 0; begins && i < scene->instance_count; i++)
+    begins[i] = scene->instances[i].first_source;
+  if (begins && scene->instance_count)
+    qsort(begins, scene->instance_count, sizeof *begins, compare_numbers);
+  return begins;
+}
+
+/* The number of an instance in this order, from 0. */
+static uint32_t placed_number(const struct pixel_counter *pixels, const struct trax_instance *instance) {
+  const uint32_t *found = bsearch(&instance->first_source, pixels->begins, pixels->scene->instance_count,
+                                  sizeof *pixels->begins, compare_numbers);
+  return found ? (uint32_t)(found - pixels->begins) : TRAX_NO_INSTANCE;
+}
+
 static void end_ray(struct trax_access_log *log, const struct trax_traced_ray *ray) {
   struct pixel_counter *pixels = (struct pixel_counter *)log;
   struct trax_visit_counter *counter = &pixels->counter;
@@ -56,13 +80,21 @@ static void end_ray(struct trax_access_log *log, const struct trax_traced_ray *r
                                    .triangles = counter->triangles,
                                    .kind = (uint8_t)ray->kind,
                                    .hit = ray->found != 0,
-                                   .material = TRAX_NO_MATERIAL};
+                                   .material = TRAX_NO_MATERIAL,
+                                   .instance = TRAX_NO_INSTANCE};
   pixels->nodes += counter->nodes, pixels->triangles += counter->triangles;
   counter->nodes = counter->triangles = 0;
   if (!visits->wants_rays(visits->context, place))
     return;
+  const char *bytes = (const char *)pixels->scene->bytes;
   if (ray->triangle)
-    known.material = ((const struct trax_triangle *)((const char *)pixels->scene->bytes + ray->triangle))->material;
+    known.material = ((const struct trax_triangle *)(bytes + ray->triangle))->material;
+  if (ray->triangle && ray->instance) {
+    const struct trax_instance *instance = (const struct trax_instance *)(bytes + ray->instance);
+    known.instance = placed_number(pixels, instance);
+    if (instance->material != TRAX_NO_MATERIAL)
+      known.material = instance->material;
+  }
   if (trax_grow((void **)&visits->rays, visits->ray_count, &visits->ray_capacity, sizeof *visits->rays))
     visits->rays[visits->ray_count++] = known;
   else
@@ -97,7 +129,9 @@ trax_status trax_visits_count(struct trax_visits *visits, const struct trax_pict
   visits->nodes = calloc(pixels, sizeof *visits->nodes);
   visits->triangles = calloc(pixels, sizeof *visits->triangles);
   trax_status status = TRAX_OK;
-  if (!counter || !visits->nodes || !visits->triangles) {
+  if (counter)
+    counter->begins = sort_instances(frame->scene);
+  if (!counter || !counter->begins || !visits->nodes || !visits->triangles) {
     status = trax_fail(error, "out of memory for the visits of %zu pixels", pixels);
   } else {
     trax_visit_counter_init(&counter->counter);
@@ -113,6 +147,8 @@ trax_status trax_visits_count(struct trax_visits *visits, const struct trax_pict
     if (status == TRAX_OK && visits->wants_rays && (counter->out_of_memory || !sort_rays(visits, pixels)))
       status = trax_fail(error, "out of memory for the rays of %zu pixels", pixels);
   }
+  if (counter)
+    free(counter->begins);
   free(counter);
   const bool same = status == TRAX_OK && memcmp(twin.pixels, picture->pixels, pixels * sizeof *twin.pixels) == 0;
   trax_picture_release(&twin);

@@ -192,7 +192,12 @@ static trax_status place_mesh(struct nodes *nodes, size_t node_number, size_t nu
   struct trax_mesh_instance *out = &mesh->instances[mesh->instance_count++];
   *out = (struct trax_mesh_instance){.part = nodes->part_of[number] - 1, .material = TRAX_NO_MATERIAL};
   memcpy(out->transform, matrix, sizeof out->transform);
-  return TRAX_OK;
+  struct trax_instance placed = {0};
+  const char *wrong =
+      gltf->options->flatten || !mesh->parts[out->part].triangle_count ? NULL : scene_place_instance(&placed, matrix);
+  return wrong ? trax_fail(gltf->error, "%s: node %zu, which is instance %u (from 0): %s", gltf->path, node_number,
+                           mesh->instance_count - 1, wrong)
+               : TRAX_OK;
 }
 
 static trax_status copy_node(struct nodes *nodes, size_t number, const double above[3][4]) {

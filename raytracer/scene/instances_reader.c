@@ -21,6 +21,7 @@ struct place {
   uint32_t target; /* of groups and meshes together */
   uint32_t material;
   uint32_t next; /* of its group; NONE: it is the last */
+  unsigned line;
 };
 
 /* A mesh, or a group. */
@@ -174,7 +175,7 @@ static trax_status read_numbers(const struct reader *reader, struct place *place
 
 static trax_status read_place(struct reader *reader, char *rest) {
   char *name = next_word(&rest), *word = name ? next_word(&rest) : NULL;
-  struct place place = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}, 0, TRAX_NO_MATERIAL, NONE};
+  struct place place = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}, 0, TRAX_NO_MATERIAL, NONE, reader->line};
   if (!name)
     return fail_at(reader, reader->line_begin, "expected 'place NAME [12 numbers] [material NAME]'", NULL);
   place.target = find_target(reader, name);
@@ -273,21 +274,46 @@ static trax_status read_lines(struct reader *reader, char *text) {
 
 /* --- from places to instances --- */
 
-static void expand(struct reader *reader, const struct target *group, const double above[3][4], uint32_t material) {
+/* The places through which an instance is placed, the innermost first. */
+struct chain {
+  const struct chain *outer;
+  unsigned line;
+};
+
+/* A transform of its own may be good where its product with those of the groups around it is not. */
+static trax_status refuse_instance(const struct reader *reader, const struct chain *chain, const char *reason) {
+  char through[128] = "";
+  int length = 0;
+  for (const struct chain *outer = chain->outer; outer && length < 100; outer = outer->outer)
+    length += snprintf(through + length, sizeof through - (size_t)length, "%s%u", length ? ", " : "", outer->line);
+  return trax_fail(reader->error, "%s:%u: instance %u (from 0)%s%s: %s", reader->path, chain->line,
+                   reader->mesh->instance_count - 1, length ? ", in the group that is placed by line " : "", through,
+                   reason);
+}
+
+static trax_status expand(struct reader *reader, const struct target *group, const double above[3][4],
+                          uint32_t material, const struct chain *outer) {
   for (uint32_t i = group->first; i != NONE; i = reader->places[i].next) {
     const struct place *place = &reader->places[i];
     const struct target *target = &reader->targets[place->target];
     const uint32_t own = material == TRAX_NO_MATERIAL ? place->material : material;
+    const struct chain chain = {outer, place->line};
     double transform[3][4];
     scene_multiply(transform, above, place->transform);
     if (target->is_mesh) {
       struct trax_mesh_instance *out = &reader->mesh->instances[reader->mesh->instance_count++];
       *out = (struct trax_mesh_instance){.part = target->part, .material = own};
       memcpy(out->transform, transform, sizeof transform);
-    } else {
-      expand(reader, target, (const double(*)[4])transform, own);
+      struct trax_instance placed = {0};
+      const char *wrong =
+          reader->options->flatten ? NULL : scene_place_instance(&placed, (const double(*)[4])transform);
+      if (wrong)
+        return refuse_instance(reader, &chain, wrong);
+    } else if (expand(reader, target, (const double(*)[4])transform, own, &chain) != TRAX_OK) {
+      return TRAX_ERROR;
     }
   }
+  return TRAX_OK;
 }
 
 trax_status scene_read_instances(struct trax_mesh *mesh, const char *path, const struct trax_import_options *options,
@@ -316,7 +342,7 @@ trax_status scene_read_instances(struct trax_mesh *mesh, const char *path, const
   if (result == TRAX_OK) {
     mesh->instances = malloc(reader.targets[SCENE_GROUP].instances * sizeof *mesh->instances);
     if (mesh->instances)
-      expand(&reader, &reader.targets[SCENE_GROUP], identity, TRAX_NO_MATERIAL);
+      result = expand(&reader, &reader.targets[SCENE_GROUP], identity, TRAX_NO_MATERIAL, NULL);
     else
       result = scene_out_of_memory(error, path);
   }

@@ -67,6 +67,15 @@ const char *scene_derive_instance(struct trax_instance *instance) {
   return NULL;
 }
 
+const char *scene_place_instance(struct trax_instance *instance, const double transform[3][4]) {
+  for (int row = 0; row < 3; row++) {
+    instance->origin[row] = (float)transform[row][3];
+    for (int column = 0; column < 3; column++)
+      instance->to_world[row][column] = (float)transform[row][column];
+  }
+  return scene_derive_instance(instance);
+}
+
 /* render/frame.c's margin is 64 units of 2^-24 of D, the greatest distance of a ray's origin from the scene, which is
    twice what tests of boxes and triangles need. In the mesh both tests see one and the same ray, and distances grow by
    the norm of to_object at most. But the margin is added to coordinates of the origin there, which may be larger than

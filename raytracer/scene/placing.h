@@ -7,6 +7,9 @@
 /* Sets what follows from to_world and origin, but stretch. NULL, or why there is no such instance. */
 const char *scene_derive_instance(struct trax_instance *instance);
 
+/* Sets to_world and origin, and what follows from them. NULL, or why there is no such instance. */
+const char *scene_place_instance(struct trax_instance *instance, const double transform[3][4]);
+
 /* The stretch of an instance in a scene with these bounds. */
 float scene_stretch_of(const struct trax_instance *instance, const struct scene_box *bounds);
 

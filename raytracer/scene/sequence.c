@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 const char *scene_find_number(const char *path, int *digits, size_t *length) {
   for (const char *at = strchr(path, '%'); at; at = strchr(at + 1, '%')) {
@@ -21,7 +22,11 @@ trax_status scene_name_at(char **name, const char *path, const struct trax_impor
   enum { MOST = 1000000000 };
   int digits;
   size_t length;
-  const char *place = options->moves ? scene_find_number(path, &digits, &length) : NULL;
+  const char *place = scene_find_number(path, &digits, &length);
+  if (place && !options->moves && access(path, F_OK) != 0)
+    return trax_fail(error, "%s: there is no such file; --at 12 takes that of frame 12", path);
+  if (!options->moves)
+    place = NULL;
   if (place && !(options->at >= 0 && options->at < MOST && options->at == floor(options->at)))
     return trax_fail(error, "%s: there is no frame %g; a frame is a whole number", path, options->at);
   report->moved = place != NULL;

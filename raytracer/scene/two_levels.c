@@ -197,12 +197,7 @@ static trax_status make_instance(struct trax_instance *out, const struct two_lev
       .root = two->scene.meshes[source->part].root,
       .material = source->material == TRAX_NO_MATERIAL ? TRAX_NO_MATERIAL : two->palette.of_mesh[source->material],
       .mesh = source->part};
-  for (int row = 0; row < 3; row++) {
-    out->origin[row] = (float)source->transform[row][3];
-    for (int column = 0; column < 3; column++)
-      out->to_world[row][column] = (float)source->transform[row][column];
-  }
-  const char *wrong = scene_derive_instance(out);
+  const char *wrong = scene_place_instance(out, source->transform);
   return wrong ? trax_fail(two->error, "instance %u (from 0): %s", number, wrong) : TRAX_OK;
 }
 

@@ -43,7 +43,7 @@ static int put_padded(const char *begin, unsigned bytes) {
 /* Without a stream, which a stack in local memory has no room for. */
 static void complain(int number) {
   const char *const parts[] = {"profile: ", __llvm_profile_filename, " cannot be written: ", strerror(number),
-                               "; trax-sim needs --dir FOLDER\n"};
+                               "; it must be in a folder of trax-sim's --dir\n"};
   file = 2;
   for (unsigned i = 0; i < sizeof parts / sizeof *parts; i++)
     put(parts[i], strlen(parts[i]));

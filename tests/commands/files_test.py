@@ -273,6 +273,11 @@ def evaluation():
     inside = Inside(pathlib.Path(BIN).resolve())
     for name in spellings("results.json"):
         refused(INPUT, inside, "report", "results.json", "-o", name)
+    for name in ("html", "picture", "cost-picture"):
+        refused(f"--{name} is given twice", "trax-sim", "compare", "results.json", "results.json", f"--{name}", "a",
+                f"--{name}", "b")
+    for words in (["report", "results.json"], ["small.json", "."], ["fetch-scenes"]):
+        refused("--output is given twice", "trax-eval", *words, "-o", "a", "--output", "b")
     for words in (["small.json", ".", "-o", ""], ["report", "results.json", "-o", ""]):
         refused("is empty", "trax-eval", *words)
 

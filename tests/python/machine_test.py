@@ -3,6 +3,7 @@
 import gc
 import json
 import os
+import pathlib
 import signal
 import subprocess
 import sys
@@ -14,6 +15,9 @@ import numpy
 import pytest
 
 import trax
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from report.explore_page import unpack  # noqa: E402
 
 VALUES = numpy.arange(1000, dtype=numpy.uint32)
 HOST = ("host_seconds", "instructions_per_host_second", "program")
@@ -57,6 +61,14 @@ def test_page_has_the_differences_to_another_run(programs, tmp_path):
         triple(programs, explore=pages[1], against=tmp_path / "none.json")
     with pytest.raises(trax.TraxError, match="needs --explore"):
         triple(programs, against=pages[0])
+
+
+def test_page_has_the_sources_of_the_installation(manifest, tmp_path):
+    trax.Machine(manifest, "1x32").run(explore=tmp_path / "python.html")
+    subprocess.run([trax.tool("trax-sim"), "--quiet", "--config", "1x32", "--explore", tmp_path / "sim.html", manifest],
+                   check=True)
+    mine, other = (unpack(tmp_path / name)[0]["sources"] for name in ("python.html", "sim.html"))
+    assert mine == other and any(name.endswith("/traverse.h") for name in mine)
 
 
 def test_picture_is_that_of_trax_render(manifest, tmp_path):

@@ -15,6 +15,7 @@ import zlib
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 import checking  # noqa: E402
 from checking import check, equal  # noqa: E402
+from report.explore_page import unpack  # noqa: E402
 
 BIN = pathlib.Path(sys.argv[1]).resolve()
 call = functools.partial(checking.call, BIN)
@@ -142,6 +143,22 @@ def check_groups():
     check(pathlib.Path("nested.trax").read_bytes() == pathlib.Path("product.trax").read_bytes(), "groups")
 
 
+def check_story():
+    """A pixel's story names the instance that each ray hit, by its number in the order of placing, and its material."""
+    places = 4, -2, 2, 0  # the file has them in the order of the tree
+    write("story.instances", "mesh solid solid.obj\nmaterial shine mirror\n",
+          *(f"place solid 1 0 0 {place}  0 1 0 0  0 0 1 0{' material shine' * (place == 2)}\n" for place in places))
+    for number, place in enumerate(places):
+        done = call("trax-render", "story.instances", f"--eye={place + 0.5},-3,0.3", f"--look-at={place + 0.5},0,0.3",
+                    "--up=0,0,1", "--light=3,-9,9", "--size", "8x8", "--config", "1x32", "--mark-rays",
+                    "--pixel", "4,4", "--explore", "story.html", "-o", "story.png")
+        primary = next(line for line in done.stdout.splitlines() if line.startswith("  primary"))
+        equal(primary[38:46].split(), [str(number)], "the instance")
+        check(("mirror" in primary) == (place == 2), "the instance's material", primary)
+        ray = unpack(pathlib.Path("story.html"))[0]["rays"][4 * 8 + 4][0]
+        equal(ray["instance"], number + 1, "the instance on the page")
+
+
 def check_gltf():
     """Nodes that share a mesh are kept with --instances, and show the same picture."""
     points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 2]]
@@ -150,7 +167,7 @@ def check_gltf():
     pathlib.Path("solid.bin").write_bytes(floats + corners)
     nodes = [{"mesh": 0, "rotation": [0, 0, 0.6, 0.8], "translation": [-1, 0, 0], "children": [1]},
              {"mesh": 0, "scale": [-1, 2, 1], "translation": [2, 0.5, 0]}, {"mesh": 0, "translation": [0, 2, -1]}]
-    write("nodes.gltf", json.dumps({
+    write("nodes.gltf", text := json.dumps({
         "asset": {"version": "2.0"}, "nodes": nodes, "scenes": [{"nodes": [0, 2]}],
         "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
         "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
@@ -163,6 +180,10 @@ def check_gltf():
         statistics[name] = json.loads(pathlib.Path("s.json").read_text())
         call("trax-scene", "--check", f"{name}.trax")
         render(name, f"{name}.trax", "--engine", "native", "--one-sided")
+    write("bad.gltf", text.replace('"scale": [-1, 2, 1]', '"scale": [1e-9, 2, 1]'))
+    done = call("trax-scene", "bad.gltf", "--instances", "-o", "bad.trax", status=1)
+    check("bad.gltf: node 1, which is instance 1 (from 0): the transform" in done.stderr, done.stderr)
+    call("trax-scene", "bad.gltf", "--instances", "--flatten", "-q", "-o", "flattened.trax")
     equal(statistics["kept"]["scene.instances"], 3, "instances")
     equal(statistics["kept"]["scene.triangles"], 4, "stored triangles")
     equal(statistics["flat"]["scene.triangles"], 12, "flattened triangles")
@@ -174,8 +195,15 @@ BAD = [
     ("mesh a solid.obj\nplace a 1 2 3", "2:14: a transform has 12 numbers"),
     ("mesh a solid.obj\nplace a 1 0 0 0  0 1 0 0  0 0 0 0", "2:9: the transform is singular"),
     ("mesh a solid.obj\nplace a 1 0 0 0  0 1 0 0  0 0 1 nan", "2:33: not a finite number: 'nan'"),
-    ("mesh a solid.obj\nplace a 1e6 0 0 0  0 1e6 0 0  0 0 1e6 0", "instance 0 (from 0): the transform scales"),
+    ("mesh a solid.obj\nplace a 1e6 0 0 0  0 1e6 0 0  0 0 1e6 0",
+     "bad.instances:2: instance 0 (from 0): the transform scales"),
     ("mesh a solid.obj\nplace a 1e5 0 0 0  0 1 0 0  0 0 1 0", "instance 0 (from 0): the transform is nearly singular"),
+    ("mesh a solid.obj\ngroup g\nplace a\nplace a 1e20 0 0 0  0 1e20 0 0  0 0 1e20 0\nend\ngroup h\nplace g\nend\n"
+     "place g 1e-20 0 0 0  0 1e-20 0 0  0 0 1e-20 0\n", "bad.instances:3: instance 0 (from 0), in the group that is "
+     "placed by line 9: the transform"),
+    ("mesh a solid.obj\ngroup g\nplace a 1e200 0 0 0  0 1e200 0 0  0 0 1e200 0\nend\ngroup h\nplace g\nend\n"
+     "place h 1e200 0 0 0  0 1e200 0 0  0 0 1e200 0\n", "bad.instances:3: instance 0 (from 0), in the group that is "
+     "placed by line 6, 8: a number is not finite"),
     ("mesh a solid.obj\nplace a material blue", "2:18: no material has this name"),
     ("mesh a solid.obj\nplace a material", "2:17: expected the material's name"),
     ("mesh a solid.obj\nmaterial red purple", "2:14: neither a kind of material nor R,G,B: 'purple'"),
@@ -245,6 +273,7 @@ def main():
         check_scales()
         check_shadows()
         check_groups()
+        check_story()
         check_gltf()
         check_bad()
         check_unplaced()

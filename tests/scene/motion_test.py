@@ -121,6 +121,7 @@ def test_refusals():
             ("--refit keeps a tree", "wave-00.obj", "--refit", "base.trax", "--leaf=1"),
             ("no frame 2.5", "wave-%02d.obj", "--at", "2.5"),
             ("wave-06.obj: cannot be read", "wave-%02d.obj", "--at", "6"),
+            ("wave-%02d.obj: there is no such file; --at 12 takes that of frame 12", "wave-%02d.obj"),
             ("nothing moves", "wave-00.obj", "--at", "6"),
             ("is neither a time", "wave-%02d.obj", "--at", "nan")):
         refused(expected_text, "trax-scene", *words, "-q", "-o", "x.trax")

@@ -17,19 +17,20 @@ const sumOf = (numbers) => numbers.reduce((sum, number) => sum + number, 0);
 
 function rayTable({ rays, causes, causeNames }, pixel, story, total) {
   const from = rays.first[pixel], count = rays.first[pixel + 1] - from, costs = rays.cycles !== undefined,
-    parts = story && story.rays.length === count + 1 ? story.rays : null;
+    parts = story && story.rays.length === count + 1 ? story.rays : null, placed = rays.instance !== undefined;
   if (!count) return [];
-  const heads = [["ray"], ["hit"], ["nodes", "n"], ["triangles", "n"], ...(costs ? [["cycles", "n"], ["share", "n"],
-    ["instructions", "n"]] : []), ...(costs && parts ? [["causes", "bar"]] : [])];
+  const heads = [["ray"], ["hit"], ...(placed ? [["instance", "n"]] : []), ["nodes", "n"], ["triangles", "n"],
+    ...(costs ? [["cycles", "n"], ["share", "n"], ["instructions", "n"]] : []), ...(costs && parts ? [["causes", "bar"]] : [])];
   const rows = Array.from({ length: count }, (_, k) => {
     const i = from + k, material = rays.material[i] ? rays.materials[rays.material[i] - 1] : rays.hit[i] ? "yes" : "nothing",
       cycles = costs ? rays.cycles[i] : 0;
-    return [`${k + 1} ${rays.kinds[rays.kind[i]]}`, material, [whole(rays.nodes[i]), rays.nodes[i]],
+    return [`${k + 1} ${rays.kinds[rays.kind[i]]}`, material, ...(placed ? [rays.instance[i] ?
+      [whole(rays.instance[i] - 1), rays.instance[i]] : ["none", 0]] : []), [whole(rays.nodes[i]), rays.nodes[i]],
       [whole(rays.triangles[i]), rays.triangles[i]], ...(costs ? [[whole(cycles), cycles], [percent(cycles / total), cycles],
         [whole(rays.instructions[i]), rays.instructions[i]]] : []),
       ...(costs && parts ? [stack(causes, causesIn(causeNames, parts[k + 1].slice(2)), total)] : [])];
   });
-  const before = costs ? total - sumOf(rows.map((row) => row[4][1])) : 0;
+  const before = costs ? total - sumOf(rows.map((row) => row[placed ? 5 : 4][1])) : 0;
   return [element("div", { class: "scroll" }, element("table", { id: "story-rays" })), element("p", { class: "soft" }, costs ?
     `${whole(before)} cycles passed before the first ray; what follows a ray, such as shading, is counted with it.` :
     "The program counts a pixel's rays together, so that their cycles are not known apart: trax-render --mark-rays."),

@@ -115,9 +115,11 @@ struct trax_explore_ray {
   uint32_t place;            /* the pixel's number */
   uint32_t nodes, triangles; /* that it visited */
   uint32_t material;         /* of what it hit; TRAX_NO_MATERIAL: it hit nothing, or something that is not known */
+  uint32_t instance;         /* that it hit, if the picture has some; else or with TRAX_NO_INSTANCE: none */
   uint8_t kind, hit;         /* kind: as in trax/ray_kinds.h */
 };
 #define TRAX_NO_MATERIAL UINT32_MAX
+#define TRAX_NO_INSTANCE UINT32_MAX
 
 /* The picture of the page: item_buffer has its pixels, row by row. */
 struct trax_explore_picture {
@@ -132,6 +134,7 @@ struct trax_explore_picture {
   const struct trax_explore_ray *rays;
   size_t ray_count;
   bool counted_apart;           /* the program counts each ray where it begins */
+  bool has_instances;
   const char *const *materials; /* names without quotation marks */
   uint32_t material_count;
 };

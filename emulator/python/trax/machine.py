@@ -12,7 +12,7 @@ from ._library import (Fault, Interrupted, Memory, Stuck, TraxError, check, enco
                        printed)
 from .config import Config
 from .picture import Picture
-from .tools import call
+from .tools import call, sources
 
 
 def flat(statistics, before=""):
@@ -235,6 +235,10 @@ class Machine:
             else:
                 keep.append(ffi.new("char[]", encoded(value)))
                 setattr(options, name, keep[-1])
+        if folder := sources():
+            keep.append(ffi.new("char[]", encoded(folder)))
+            options.source_folders[options.source_folder_count] = keep[-1]
+            options.source_folder_count += 1
         keep.append(options)
         check(lib.trax_explain_check_against(options, error), error)
         options.against = ffi.NULL

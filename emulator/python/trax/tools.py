@@ -28,6 +28,14 @@ def tool(name):
     raise TraxError(f"{name} is neither beside the package nor on the PATH; the variable TRAX_BIN names its folder")
 
 
+def sources():
+    """lib/trax of the build folder that a wheel was made of, or None: other libraries are in it themselves."""
+    if (HERE / "libtraxemu.so").exists() and (HERE / "bin.txt").exists():
+        folder = pathlib.Path((HERE / "bin.txt").read_text().strip()).parent / "lib/trax"
+        return folder if folder.is_dir() else None
+    return None
+
+
 def call(name, *arguments):
     """Runs a program; TraxError with what it says if it fails."""
     done = subprocess.run([tool(name), *map(os.fspath, arguments)], capture_output=True, text=True, check=False)

@@ -5,7 +5,7 @@ import os
 import pathlib
 
 from trax_eval.sweep import CHIPS, MODES
-from trax_eval.util import Parser, Problem
+from trax_eval.util import Once, Parser, Problem
 
 COLUMN = 24  # of the meanings in the help
 
@@ -73,7 +73,7 @@ GROUPS = {
     ),
     "Results": (
         Option("output", "DIR", "the folder of results (default: out/eval)", "o",
-               {"default": "out/eval", "type": path_argument}, files="d"),
+               {"default": "out/eval", "type": path_argument, "action": Once}, files="d"),
         Option("dry-run", "",
                "prints the runs that are missing, and what they take by those that are there, and ends;\n"
                "imports no scene and writes nothing"),

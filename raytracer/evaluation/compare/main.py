@@ -7,7 +7,7 @@ import pathlib
 import sys
 
 from trax_eval.outputs import IsInput, write_output
-from trax_eval.util import Parser, Problem, check_files
+from trax_eval.util import Once, Parser, Problem, check_files
 
 from .difference import compare
 from .figures import Figures
@@ -40,7 +40,7 @@ def new_parser():
     parser.add_argument("a")
     parser.add_argument("b")
     for name in ("html", "picture", "cost-picture"):
-        parser.add_argument(f"--{name}")
+        parser.add_argument(f"--{name}", action=Once)
     for name in ("json", "all", "add", "help"):
         parser.add_argument(f"--{name}", action="store_true")
     return parser

@@ -16,7 +16,7 @@ import tempfile
 
 from trax_eval.fields import installed
 from trax_eval.scenes import find_scenes
-from trax_eval.util import Parser, Problem, complain, remark
+from trax_eval.util import Once, Parser, Problem, complain, remark
 
 from .folder import work_folder
 from .geometry import geometry_hash, import_triangles
@@ -30,7 +30,7 @@ def new_parser():
                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("names", nargs="*", metavar="SCENE",
                         help="scenes, or files of meshes (default: all that this program knows)")
-    parser.add_argument("-o", "--output", metavar="DIR", default=os.environ.get("TRAX_SCENES") or "scenes",
+    parser.add_argument("-o", "--output", action=Once, metavar="DIR", default=os.environ.get("TRAX_SCENES") or "scenes",
                         help="the folder of scenes (default: the variable TRAX_SCENES, or else ./scenes)")
     parser.add_argument("--from", dest="mirror", metavar="PLACE", default=os.environ.get("TRAX_SCENES_FROM"),
                         help="an address or a folder that has the meshes (NAME.ply, also as .xz or .gz) or the files "

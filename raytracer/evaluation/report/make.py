@@ -13,7 +13,7 @@ import sys
 import urllib.parse
 
 from trax_eval.outputs import IsInput, read, write_output
-from trax_eval.util import Problem, check_files, complain
+from trax_eval.util import Once, Parser, Problem, check_files, complain
 
 from . import choices, estimates, machines, own, rays, simd, tables
 from .charts import all_figures, sweep_figure
@@ -297,9 +297,9 @@ class Page:
 
 
 def new_parser():
-    parser = argparse.ArgumentParser(prog="trax-eval report", description="Makes one HTML page of a file of results.")
+    parser = Parser(prog="trax-eval report", description="Makes one HTML page of a file of results.")
     parser.add_argument("results", type=pathlib.Path, metavar="RESULTS.json")
-    parser.add_argument("-o", "--output", metavar="FILE.html",
+    parser.add_argument("-o", "--output", action=Once, metavar="FILE.html",
                         help="the page (default: report.html beside the results)")
     parser.add_argument("--paper", type=pathlib.Path, default=HERE.parent / "paper", metavar="DIR",
                         help="the paper's tables (default: those that come with trax)")
@@ -309,9 +309,10 @@ def new_parser():
 
 def main(arguments=None):
     read.clear()
-    options = new_parser().parse_args(arguments)
-    output = pathlib.Path(options.output or "report.html")
+    output = pathlib.Path("report.html")
     try:
+        options = new_parser().parse_args(arguments)
+        output = pathlib.Path(options.output or output)
         if options.output == "" or not options.results.name:
             raise Problem(
                 "--output: the value is empty" if options.results.name else "the name of the results is empty")

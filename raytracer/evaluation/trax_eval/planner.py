@@ -8,6 +8,7 @@ import tempfile
 from .fields import installed
 from .inputs import Request, prepare_inputs
 from .jobs import key_of, make_job, write_job
+from .names import check_report
 from .programs import Program, build
 from .scenes import import_scenes, order_options, plan_scene
 from .sweep import CHIPS, TAKEN, option_of, option_words, without_option
@@ -47,6 +48,7 @@ def check_machines(sweeps, tools):
             raise Problem(f"{place}: {problem}") from None
 
     for sweep in sweeps:
+        check_report(sweep, tools)
         for program in sweep.programs:
             machine(f"{program.file}: set", CHIPS[0], program.settings)
         for point in sweep.points:

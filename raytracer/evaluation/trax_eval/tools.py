@@ -114,6 +114,14 @@ class Tools:
         return [line.removeprefix("--").partition(" ")[::2] for line in lines]
 
     @functools.lru_cache(maxsize=None)
+    def described(self, option):
+        """The names that trax-sim --help-config or --help-stats describes, one a line: patterns where a part of them is
+        in angle brackets."""
+        run = run_tool([self.path("trax-sim"), option])
+        words = re.findall(r"^([a-z]\w*(?:\.[\w<>]+)*) ", run.stdout, re.MULTILINE)
+        return tuple(re.sub(r"<\w+>", "*", word) for word in words)
+
+    @functools.lru_cache(maxsize=None)
     def configuration(self, chip, settings):
         """The whole configuration of a chip with changes (a tuple of (key, value)), as a file for trax-sim --config."""
         command = [self.path("trax-sim"), "--config", chip]

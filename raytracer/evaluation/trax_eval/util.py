@@ -30,6 +30,17 @@ def nearest(word, names):
     return f"; did you mean {found[0]}?" if found else ""
 
 
+class Once(argparse.Action):
+    """An option that names an output: given twice, the first output would be missing. As base/options.c has it."""
+    given = False
+
+    def __call__(self, parser, namespace, values, option_string=None):
+        if self.given:
+            parser.error(f"{self.option_strings[-1]} is given twice")
+        self.given = True
+        setattr(namespace, self.dest, values)
+
+
 class Parser(argparse.ArgumentParser):
     """Its errors are Problems. An unknown option suggests one. An empty value is an error, as in -o "$UNSET"."""
     def _get_value(self, action, text):
