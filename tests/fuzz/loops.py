@@ -5,8 +5,9 @@
 
 Loops count up and down, from and to constants, arguments and the counters around them. Subscripts are sums of counters.
 Arrays are reached by name and by pointers that may point to the same one, whole and by bytes. Some loads stay the same
-while their loop stores close by. The program prints a checksum of all arrays after each function, and all of what it
-prints must be what the host prints at -O0. Exit status: 0 if all agree, 1 otherwise.
+while their loop stores close by, and some loops end at what they store. The program prints a checksum of all arrays
+after each function, and all of what it prints must be what the host prints at -O0. Exit status: 0 if all agree, 1
+otherwise.
 """
 
 import random
@@ -16,6 +17,7 @@ import runner
 
 LEVELS = ["-O2", "-O3"]
 FUNCTIONS = 24  # in a program
+FURTHER = 6     # of each other kind
 
 PROLOGUE = """\
 #include <stdio.h>
@@ -41,6 +43,7 @@ static void fill(void) {
     (&c[0][0])[i] = r >> 9, (&h[0][0])[i] = r >> 13, v[i % 20] = (int)r >> 24;
   }
 }
+HIDDEN int later(int a, int b) { return a > b ? a : b; }
 HIDDEN void touch(int i) { a[i][i] ^= 5, v[i]++; }
 """
 PARAMETERS = "int n, int m, int (*x)[20], int (*y)[20], int *p, int *q"
@@ -116,15 +119,29 @@ class Generator:
         self.counters.remove(counter)
         return f"{indent}{head} {{\n{body}{indent}}}\n"
 
-    def function(self, number):
-        body = "".join(self.loop(2, "  ") for _ in range(self.rng.randint(1, 2)))
-        return f"HIDDEN int function{number}({PARAMETERS}) {{\n  int s = n;\n{body}  return s;\n}}\n"
+    def until(self):
+        """A loop whose end its own stores may change."""
+        self.counters.append("i")
+        body = self.statement(0, "    ") + self.loop(0, "    ") + self.statement(0, "    ")
+        return f"  int i = 0, end;\n  do {{\n    end = later({self.place()} & 7, i);\n{body}  }} while (i++ != end);\n"
+
+    def across(self):
+        """A loop whose stores come to a word that it loads, pass it, or leave it."""
+        rng, more, away = self.rng, self.rng.randint(0, 3), self.rng.randint(-1, 6)
+        head, word = rng.choice([("int i = 0; i < n; i++", more + away),
+                                 ("int i = 9; i > 9 - n; i--", 9 + more - away)])
+        array = rng.choice("pqvw")
+        body = [f"{array}[i + {more}] {rng.choice(['=', '+=', '^='])} s;", f"s = s * 3 + {array}[{max(word, 0)}];"]
+        rng.shuffle(body)
+        return f"  for ({head}) {{\n    {body[0]}\n    {body[1]}\n  }}\n"
 
 
 def generate(rng):
+    bodies = [lambda own: "".join(own.loop(2, "  ") for _ in range(own.rng.randint(1, 2)))] * FUNCTIONS
     functions, calls = [], []
-    for number in range(FUNCTIONS):
-        functions.append(Generator(rng).function(number))
+    for number, body in enumerate([*bodies, *[Generator.until, Generator.across] * FURTHER]):
+        functions.append(f"HIDDEN int function{number}({PARAMETERS}) {{\n  int s = n;\n"
+                         f"{body(Generator(rng))}  return s;\n}}\n")
         for _ in range(2):
             arguments = ", ".join([str(rng.randint(1, 9)), str(rng.randint(1, 9)), rng.choice("ab"), rng.choice("ab"),
                                    rng.choice(["w", "w", "&a[0][0]", "&b[0][0]"]),
