@@ -7,11 +7,15 @@ import tempfile
 failures = 0
 
 
-def check(condition, *message):
+def fail(*message):
     global failures
+    failures += 1
+    print("FAILED:", *(str(part)[:1000] for part in message), flush=True)
+
+
+def check(condition, *message):
     if not condition:
-        failures += 1
-        print("FAILED:", *(str(part)[:1000] for part in message), flush=True)
+        fail(*message)
 
 
 def equal(a, b, *what):

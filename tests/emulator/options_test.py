@@ -15,16 +15,11 @@ import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import checking  # noqa: E402
+from checking import fail  # noqa: E402
 from png_files import read_png  # noqa: E402
 
 SIM, PROGRAMS = (os.path.abspath(path) for path in sys.argv[1:])
-failures = 0
-
-
-def fail(message, *run):
-    global failures
-    failures += 1
-    print("FAILED:", message, *(f"\n    {stream}" for stream in run))
 
 
 def run(*words):
@@ -259,5 +254,5 @@ with tempfile.TemporaryDirectory() as directory:
     same_file()
     picture()
     os.chdir("/")
-print(f"{len(CASES)} options, {failures} failures")
-sys.exit(failures > 0)
+print(f"{len(CASES)} options, {checking.failures} failures")
+sys.exit(checking.failures > 0)

@@ -13,18 +13,13 @@ import subprocess
 import sys
 import tempfile
 
-from experiments_test import write_scene
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import checking  # noqa: E402
+from checking import check  # noqa: E402
+from experiments_test import write_scene  # noqa: E402
 
 BASE = "1x32"
 SIZE = "24x16"
-failures = 0
-
-
-def check(condition, text):
-    global failures
-    if not condition:
-        failures += 1
-        print(f"FAILED: {text}", flush=True)
 
 
 def check_bandwidth(runs):
@@ -96,7 +91,7 @@ def main():
             (scratch / "one.json").write_text(json.dumps(one_pixel(data, sweep) | {"name": f"one-{sweep}"}))
             runs = evaluate(program, scratch, "one.json")
             check_bandwidth([run for run in runs if f"one-{sweep}" in run["experiments"]])
-    return 1 if failures else 0
+    return 1 if checking.failures else 0
 
 
 if __name__ == "__main__":

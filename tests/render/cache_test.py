@@ -13,8 +13,11 @@ import sys
 import tempfile
 import time
 
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+import checking  # noqa: E402
+from checking import fail  # noqa: E402
+
 BIN, SOURCE = os.path.abspath(sys.argv[1]), os.path.dirname(os.path.abspath(__file__))
-failures = 0
 TINY = """#include <trax.h>
 struct trax_buffer scene, image;
 int main(void) {
@@ -23,12 +26,6 @@ int main(void) {
       ((unsigned *)image.data)[i] = 0xFF000000u + i + (scene.size == 0);
 }
 """
-
-
-def fail(text):
-    global failures
-    failures += 1
-    print(f"FAILED: {text}", flush=True)
 
 
 def command(cache, *words):
@@ -251,5 +248,5 @@ with tempfile.TemporaryDirectory() as directory:
     for part in (turntable, healing, together, no_room, after_turntable):
         part()
     os.chdir("/")
-print("all as expected" if not failures else f"{failures} failures")
-sys.exit(failures > 0)
+print("all as expected" if not checking.failures else f"{checking.failures} failures")
+sys.exit(checking.failures > 0)
