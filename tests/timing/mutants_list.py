@@ -321,6 +321,9 @@ MUTANTS = [
     # Losers of integer multipliers are charged.
     ("fast/time/grant.h", "return requesters & ~winners;",
      "return requesters & ~winners & ~(requesters & -requesters);"),
+    # A cycle with any loser is counted.
+    ("fast/time/cycle.c", "refused.fetch | tm->ready;", "refused.fetch != 0;"),
+    ("fast/time/cycle.c", "refused.fetch | tm->ready;", "tm->ready != 0;"),
     # A refused access is charged to the queue.
     ("fast/time/grant.h", "trax_tm_charge(tm, number, refused);\n    return false;",
      "return false;"),

@@ -279,6 +279,14 @@ static void a_bank_after_one_was_awake(void **state) {
   }
 }
 
+/* The second burst of the only TP stores ahead, but not there. */
+static void a_store_that_faults(void **state) {
+  (void)state;
+  const struct trax_config config = bench_near(1, 1);
+  const uint32_t program[] = {U(LUI, 1, RODATA >> 16), U(RDSR, 2, TRAX_SR_CYCLE), NOP, S(SW, 1, 1, 0), HALT};
+  expect_as_reference(&config, program, sizeof program / 4);
+}
+
 /* A burst that has stored a byte does not load its word, from a block that has been written before. */
 static void a_byte_before_its_word(void **state) {
   (void)state;
@@ -309,6 +317,7 @@ int main(void) {
       cmocka_unit_test(own_increment_before_load),
       cmocka_unit_test(every_value_once),
       cmocka_unit_test(latencies_of_one_tp),
+      cmocka_unit_test(a_store_that_faults),
       cmocka_unit_test(a_byte_before_its_word),
       cmocka_unit_test(a_bank_after_one_was_awake),
       cmocka_unit_test(exit_statuses),
