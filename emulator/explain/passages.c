@@ -48,7 +48,6 @@ struct trax_passages {
   bool holds;
   struct trax_charged *charged;            /* of the observer's logs, when the passages were held, */
   size_t charged_capacity, *charged_count; /* [threads] */
-  unsigned threads;
   struct trax_pool *placers, *readers; /* items: TMs, readers; NULL: there is one thread */
 };
 

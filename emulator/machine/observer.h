@@ -125,7 +125,7 @@ struct trax_observer {
   void (*keep)(void *context, bool holds);
   void (*go_back)(void *context);
   struct trax_thread_log *logs; /* [threads]; for stretches */
-  bool single;                  /* the observer wants stretches of one instruction from now on; set in `keep` */
+  bool single; /* the observer wants stretches of one instruction from now on; set during `keep` or `stretch` */
   bool full;                    /* it wants a call of `keep` soon; any thread may set it */
   bool lost;                    /* a charge was not recorded: out of memory */
 };
