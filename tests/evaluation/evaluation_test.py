@@ -93,6 +93,8 @@ def same_bytes(scratch, one, other):
 def test_sweep(evaluation, scratch):
     run = evaluation.run(SMALL, "undisturbed", "--jobs", "2")
     check(run.returncode == 0, f"exit status {run.returncode}: {run.stderr}")
+    shown = set(re.findall(r"^\|[^|]*\| +([\d.]+) +\|", run.stdout, re.MULTILINE))
+    check(shown == {"4", "8"}, f"the values of memory.bandwidth_gbps in the table: {shown}: {run.stdout}")
     results = evaluation.results("undisturbed")
     runs = results["runs"]
     expected = {(chip, bandwidth) for chip in ("1x32", "2x48") for bandwidth in (4, 8)}

@@ -63,7 +63,8 @@ def test_page_has_the_differences_to_another_run(programs, tmp_path):
         triple(programs, against=pages[0])
 
 
-def test_page_has_the_sources_of_the_installation(manifest, tmp_path):
+def test_page_has_the_sources_of_the_installation(manifest, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)  # sources below the current folder are taken anyway
     trax.Machine(manifest, "1x32").run(explore=tmp_path / "python.html")
     subprocess.run([trax.tool("trax-sim"), "--quiet", "--config", "1x32", "--explore", tmp_path / "sim.html", manifest],
                    check=True)

@@ -268,6 +268,7 @@ class SweepTable:
 
     def body(self, row):
         for part in row:
+            part = int(part) if isinstance(part, float) and part.is_integer() else part  # as a sweep has it
             yield figure(part, 6) if number(part) is not None else Cell(str(part) or "-", str(part))
         for column, value in itertools.product(self.column_places, self.values):
             yield self.cell(row, column, value)
