@@ -130,8 +130,9 @@ class Generator:
         rng, more, away = self.rng, self.rng.randint(0, 3), self.rng.randint(-1, 6)
         head, word = rng.choice([("int i = 0; i < n; i++", more + away),
                                  ("int i = 9; i > 9 - n; i--", 9 + more - away)])
-        array = rng.choice("pqvw")
-        body = [f"{array}[i + {more}] {rng.choice(['=', '+=', '^='])} s;", f"s = s * 3 + {array}[{max(word, 0)}];"]
+        array = rng.choice("pqvvw")
+        store = rng.choice([f"{array}[i + {more}] {rng.choice(['=', '+=', '^='])} s;"] * 2 + [f"touch(i + {more});"])
+        body = [store, f"s = s * 3 + {array}[{max(word, 0)}];"]
         rng.shuffle(body)
         return f"  for ({head}) {{\n    {body[0]}\n    {body[1]}\n  }}\n"
 
