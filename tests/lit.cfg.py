@@ -9,7 +9,7 @@ check-lit`, or some of them with lit.py -v BUILD/tests/codegen/frames.ll. Substi
   %runtime       directory of crt0.o, libc.a  %trax_llc      LLVM IR to assembly, with the verifier on
   %python        the Python interpreter       %trax_objdump  disassembler of ELF files
   %unwind_test   compares frame information with the call chain (tests/unwind)
-  %run_c         run_c.py: compiles a C program at several -O levels, runs each and compares (see tests/c)
+  %run_c         run_c.py: compiles a C program at several -O levels, runs each and compares (tests/c; lit_programs.py)
 
 LLVM's tools (FileCheck, not, split-file, yaml2obj, llvm-readelf, ...) are on the PATH. Nothing is skipped when a
 program is missing: the test fails.

@@ -90,19 +90,18 @@ head -n 2 x.pfm | tr '\n' ' ' | grep -qx 'Pf 64 36 ' || fail "x.pfm begins with 
 
 # A program for one picture and the one for all: the same bits from both engines, and what is left out is out.
 # both ARGUMENTS...: the same picture, with no more of the scene, and code that fits in the cache. What each reads stays in
-# special and general. $cache: where the specialised program is kept.
+# special and general.
 code() { sed -n '/"code"/,/}/s/^ *"'"$1"'": \([0-9]*\).*/\1/p' special/manifest.json; }
 scene_bytes() { wc -c <"$1/scene.trax"; }
 has_features() { tr -d ' \n' <special/manifest.json | grep -q "\"features\":\[$1\]"; }
 both() {
-  same "$@" ${cache:+--cache $cache} --keep special
+  same "$@" --keep special
   cp x.png special.png
   "$bin/trax-render" "$@" --no-specialise --keep general -o x.png >.out 2>.err || fail "$*: general: $(cat .err)"
   "$bin/trax-compare" -q x.png special.png || fail "$*: the general program's picture is another"
   [ "$(scene_bytes special)" -le "$(scene_bytes general)" ] || fail "$*: the specialised scene is larger"
   [ "$(code bytes)" -le "${code_bytes:-4096}" ] || fail "$*: $(code bytes) bytes are more than the instruction cache"
 }
-cache=
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >triangle.obj
 both "$source/box.obj" $view --size 64x36
 has_features '"shadows","materials"' || fail "box: $(cat special/manifest.json)"
@@ -123,15 +122,11 @@ both "$source/box.obj" --size 1x1 --samples 2 # more threads than pixels
 awk 'BEGIN { for (i = 0; i < 5000; i++) {
                x = 2 ^ (59 - 0.0358 * i); printf "v %.9g 0 0\nv 0 %.9g 0\nv 0 0 %.9g\nf -3 -2 -1\n", x, x, x } }' >deep.obj
 code_bytes=6656 # sizes that binary32 cannot tell apart: hits are exact
-cache=deep
-both deep.obj --size 16x9 --config 1x32
-grep -q 'TRAX_TREE_DEPTH 32$' deep/*.h || fail "deep.obj is not deep"
+"$bin/trax-scene" deep.obj -o deep.trax --stats | grep -q 'bvh.max_depth *32\>' || fail "deep.trax is not deep"
+both deep.trax --size 16x9 --config 1x32
 # Deeper than the TPs' own memory has room for: the stack is in global memory.
 "$bin/trax-scene" deep.obj --depth 62 --passes 0 -o deeper.trax --stats | grep -q 'bvh.max_depth *5[0-9]\>' || fail "deeper.trax is not deeper"
-cache=deeper
 both deeper.trax --size 16x9 --config 1x32
-grep -q 'TRAX_TREE_DEPTH 5[0-9]$' deeper/*.h || fail "deeper.trax: $(grep TRAX_ deeper/*.h)"
-cache=
 "$bin/trax-render" deeper.trax --size 16x9 --config 1x32 -o x.png --program "$bin/../lib/trax/trax-raytracer.elf" >.out 2>.err && fail "too deep for its stack"
 grep -q "the scene is deeper than this program's stack" .err || fail "too deep for its stack: $(cat .err)"
 code_bytes=4096
