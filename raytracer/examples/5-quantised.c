@@ -1,8 +1,8 @@
 /* Step 5: quantised nodes. The planes of all boxes are numbers of 16 bits on one grid for the whole scene, rounded
    outwards, so that a node, with both of its children's boxes, takes 32 bytes instead of 64: twice as many are in the
    cache, and a line that misses brings two. The scene is the file as trax-scene wrote it (trax/scene_format.h). */
+#include "layouts/records.h"
 #include "trax/render_params.h"
-#include "trax/scene_format.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -2,8 +2,8 @@
    eye, and that copy stands within the loop over pixels: no call saves registers, no pointer keeps the ray in memory,
    and the program stays small. The second child's box is tested in one place where the first one was entered and in
    another where it was missed, so that what was found needs no variable. */
+#include "layouts/records.h"
 #include "trax/render_params.h"
-#include "trax/scene_format.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -2,8 +2,8 @@
    data cache look at neighbouring parts of the scene; and each TM takes tiles from a queue of its own, so that no two
    caches have the lines of one tile. A pixel is found without a division, which the machine does not have for
    integers. */
+#include "layouts/records.h"
 #include "trax/render_params.h"
-#include "trax/scene_format.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -1,8 +1,8 @@
 /* Step 8: the ray unit. Boxes and triangles are tested by a unit that TPs share: two instructions, which read a ray and
    a box or a triangle from registers. The data cache holds the threads up then, so two planes of a box are one load.
    The paper's machine has no such unit (docs/results/ray-unit.md). The program needs ray.units_per_group=1. */
+#include "layouts/records.h"
 #include "trax/render_params.h"
-#include "trax/scene_format.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -3,8 +3,8 @@
 #ifndef TRAX_EXAMPLES_ONE_RAY_H
 #define TRAX_EXAMPLES_ONE_RAY_H
 
+#include "layouts/records.h"
 #include "trax/render_params.h"
-#include "trax/scene_format.h"
 
 #include <math.h>
 #include <stdbool.h>
