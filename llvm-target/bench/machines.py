@@ -16,7 +16,7 @@ SECONDS = 600
 # What the library's square roots start from where there is no reciprocal square root: single precision suffices.
 LIBRARY_SQRT = "-D__builtin_sqrt(x)=__builtin_sqrtf((float)(x))"
 COMMON = ["-std=c17", "-fno-math-errno", "-Wall", "-Wextra", "-Werror", "-I", str(ROOT / "raytracer/device"), "-I",
-          str(ROOT / "raytracer/include"), "-I", str(ROOT / "isa/include")]
+          str(ROOT / "raytracer/include"), "-I", str(ROOT / "raytracer"), "-I", str(ROOT / "isa/include")]
 RISCV = ["--target=riscv32", "-mabi=ilp32"]
 PACKAGES = {"clang-19": "clang-19", "nm": "binutils", "llvm-size-19": "llvm-19", "ld.lld-19": "lld-19",
             "qemu-riscv32": "qemu-user", "cc": "gcc"}

@@ -21,7 +21,7 @@ from machines import ROOT, Failure, run
 
 DEVICE = ROOT / "raytracer/device/main.c"
 FLAGS = ["-std=c17", "-O3", "-g", "-fdebug-info-for-profiling", "-DTRAX_TREE_DEPTH=TRAX_SCENE_DEFAULT_DEPTH",
-         f"-I{ROOT / 'raytracer/include'}"]
+         f"-I{ROOT / 'raytracer/include'}", f"-I{ROOT / 'raytracer'}"]
 
 
 def build(options, output, *flags):

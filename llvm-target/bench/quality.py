@@ -44,7 +44,7 @@ KERNEL_LIMIT = 1.05  # without contraction
 COMPILE_TIME_LIMIT = 1.30
 CONTRACTION_TOLERANCE = 1e-3
 RAY_TRACER = ROOT / "raytracer/device/main.c"
-RAY_TRACER_FLAGS = ["-Wno-frame-larger-than", "-DKNOWS_WIDE_NODES=0"]  # as the general program of the TPs
+RAY_TRACER_FLAGS = ["-Wno-frame-larger-than", "-DGENERAL_LAYOUTS_ONLY=1"]  # as the general program of the TPs
 
 
 # --- executed instructions ----------------------------------------------------

@@ -11,16 +11,22 @@
 /* The bits of a plane's distance along the ray. */
 static inline __attribute__((always_inline)) int32_t plane_distance(uint32_t layout, const char *plane, float origin,
                                                                     float inverse) {
-  return nodes_are_wide8(layout)       ? wide8_plane(plane, origin, inverse)
-         : nodes_are_quantised(layout) ? quantised_plane(plane, origin, inverse)
-                                       : binary_plane(plane, origin, inverse);
+#define OF(kind)
+#define OWN(kind)                                                                                                      \
+  if (kind##_number == 0 || has_##kind##_planes(layout))                                                               \
+    return kind##_plane(plane, origin, inverse);
+#define LAYOUT(number, NAME, name, general, planes, ...) planes
+#include "layouts/table.def"
 }
 
 /* A distance in the unit of the planes' distances. */
 static inline __attribute__((always_inline)) int32_t limit_of(uint32_t layout, int32_t distance_bits) {
-  return nodes_are_wide8(layout)       ? distance_in_units(distance_bits, FRAME_EXPONENT)
-         : nodes_are_quantised(layout) ? distance_in_units(distance_bits, GRID_EXPONENT)
-                                       : distance_bits;
+#define OF(kind)
+#define OWN(kind)                                                                                                      \
+  if (kind##_number == 0 || has_##kind##_planes(layout))                                                               \
+    return kind##_unit ? distance_in_units(distance_bits, kind##_unit) : distance_bits;
+#define LAYOUT(number, NAME, name, general, planes, ...) planes
+#include "layouts/table.def"
 }
 
 /* place - offset, by integers: for pointers the compiler would keep -offset in a register of its own. */

@@ -144,22 +144,11 @@ static inline __attribute__((always_inline)) NO_RETURN void render_layout(const 
   END_THREAD();
 }
 
-static RENDER_ALL void render_binary(const struct trax_render_params *run) {
-  render_layout(run, TRAX_NODES_BINARY);
-}
-
-static RENDER_ALL void render_quantised(const struct trax_render_params *run) {
-  render_layout(run, TRAX_NODES_QUANTISED);
-}
-
-static RENDER_ALL void render_wide(const struct trax_render_params *run) {
-  if (RUN_LAYOUT(run) == TRAX_NODES_WIDE4)
-    render_layout(run, TRAX_NODES_WIDE4);
-  else if (RUN_LAYOUT(run) == TRAX_NODES_WIDE4_QUANTISED)
-    render_layout(run, TRAX_NODES_WIDE4_QUANTISED);
-  else
-    render_layout(run, TRAX_NODES_WIDE8);
-}
+#define LAYOUT(number, NAME, name, general, ...)                                                                       \
+  static RENDER_ALL void render_##name(const struct trax_render_params *run) {                                         \
+    render_layout(run, TRAX_NODES_##NAME);                                                                             \
+  }
+#include "layouts/table.def"
 
 static RENDER_ALL void refuse_layout(void) {
   trax_abort("this program does not know the scene's layout of nodes");
@@ -191,11 +180,10 @@ NO_RETURN int main(void) {
   if (NEEDS_PATHS(run))
     render_all_paths(run);
   else if (RUN_LAYOUT(run) == TRAX_NODES_BINARY)
-    render_binary(run);
-  else if (RUN_LAYOUT(run) == TRAX_NODES_QUANTISED)
-    render_quantised(run);
-  else if (KNOWS_WIDE_NODES && RUN_LAYOUT(run) < TRAX_NODE_LAYOUTS)
-    render_wide(run);
+    render_binary(run); /* the first function of the general program, though the last row */
+#define LAYOUT(number, NAME, name, general, ...)                                                                       \
+  else if ((general || !GENERAL_LAYOUTS_ONLY) && RUN_LAYOUT(run) == TRAX_NODES_##NAME) render_##name(run);
+#include "layouts/table.def"
   else
     refuse_layout();
 #ifndef __trax__

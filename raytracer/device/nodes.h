@@ -1,50 +1,56 @@
-/* The layouts of nodes. nodes_binary.h and nodes_quantised.h prepare a ray and compute a plane's distance,
-   nodes_wide4.h visits nodes of up to four children with such planes, and nodes_wide8.h is the whole of the layout of
-   eight. The layout is a constant in code that is compiled for one, so that nothing is left of the others. */
+/* What all layouts of nodes (layouts/) have in common. The layout is a constant in code that is compiled for one, so
+   that nothing is left of the others. */
 #ifndef TRAX_DEVICE_NODES_H
 #define TRAX_DEVICE_NODES_H
 
-#include "trax/scene_format.h"
+#include "layouts/records.h"
 #include "vector.h"
 
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Whether there is code for nodes of more than two children: the general programs of the TPs have none. */
-#ifndef KNOWS_WIDE_NODES
-#if defined TRAX_NODE_LAYOUT || !defined __trax__
-#define KNOWS_WIDE_NODES 1
+#ifndef GENERAL_LAYOUTS_ONLY
+#if defined __trax__ && !defined TRAX_NODE_LAYOUT
+#define GENERAL_LAYOUTS_ONLY 1
 #else
-#define KNOWS_WIDE_NODES 0
+#define GENERAL_LAYOUTS_ONLY 0
 #endif
 #endif
 
-static inline bool nodes_are_wide4(uint32_t layout) {
-  return KNOWS_WIDE_NODES && (layout == TRAX_NODES_WIDE4 || layout == TRAX_NODES_WIDE4_QUANTISED);
-}
-
-static inline bool nodes_are_wide8(uint32_t layout) {
-  return KNOWS_WIDE_NODES && layout == TRAX_NODES_WIDE8;
-}
-
-/* Whether planes are numbers, on the scene's grid or in a frame. */
-static inline bool nodes_are_quantised(uint32_t layout) {
-  return layout != TRAX_NODES_BINARY && !(KNOWS_WIDE_NODES && layout == TRAX_NODES_WIDE4);
-}
-
-/* From a plane of a box to that of the next axis: of eight children, planes of an axis stand together. */
-static inline int plane_bytes(uint32_t layout) {
-  return nodes_are_wide8(layout) ? 8 : nodes_are_quantised(layout) ? 2 : 4;
-}
-
-/* A node, or a pair of children of a wide one, is two boxes of six planes, the three least ones first, and the
-   children's references. */
-static inline int second_box_of(uint32_t layout) {
-  return 6 * plane_bytes(layout);
-}
-static inline int children_of(uint32_t layout) {
-  return 12 * plane_bytes(layout);
-}
+/* is_NAME for each layout; has_NAME_planes and has_NAME_visit for each that has its own. In general programs all but
+   the first layout are the second. Each predicate is a plain function: the compiler's choices depend on it. */
+enum {
+#define LAYOUT(number, NAME, name, general, ...) name##_number = number, name##_general = general,
+#include "layouts/table.def"
+#define OWN(kind) kind##_number
+#define LAYOUT(number, NAME, name, general, planes, ...) | planes << 4 * number
+  PLANES = 0
+#include "layouts/table.def"
+  ,
+#define OWN(kind) kind##_number
+#define LAYOUT(number, NAME, name, general, planes, visit, ...) | visit << 4 * number
+  VISITS = 0
+#include "layouts/table.def"
+};
+#define LAYOUT(number, NAME, name, general, ...)                                                                       \
+  static inline bool is_##name(uint32_t layout) {                                                                      \
+    return GENERAL_LAYOUTS_ONLY ? general && layout != 0 : layout == number;                                           \
+  }
+#include "layouts/table.def"
+#define OF(kind)
+#define OWN(kind)                                                                                                      \
+  static inline bool has_##kind##_planes(uint32_t layout) {                                                            \
+    return GENERAL_LAYOUTS_ONLY ? kind##_general && layout != 0 : (PLANES >> 4 * layout & 15) == kind##_number;        \
+  }
+#define LAYOUT(number, NAME, name, general, planes, ...) planes
+#include "layouts/table.def"
+#define OF(kind)
+#define OWN(kind)                                                                                                      \
+  static inline bool has_##kind##_visit(uint32_t layout) {                                                             \
+    return GENERAL_LAYOUTS_ONLY ? kind##_general && layout != 0 : (VISITS >> 4 * layout & 15) == kind##_number;        \
+  }
+#define LAYOUT(number, NAME, name, general, planes, visit, ...) visit
+#include "layouts/table.def"
 
 /* A ray, prepared for boxes. A plane is at (plane - origin) * inverse, or, if it is a number on the grid, at plane *
    inverse - origin. The origins, one for near and one for far planes, include the margin by which boxes are widened. */

@@ -4,11 +4,22 @@
 
 #include "algebra.h"
 #include "bits.h"
-#include "nodes_binary.h"
-#include "nodes_quantised.h"
-#include "nodes_wide8.h"
+#include "nodes.h"
 #include "trax/render_params.h"
 #include "triangle.h"
+
+#define LAYOUT_FILE "planes.h"
+#include "layouts/table.def"
+
+/* From a plane of a box to that of the next axis. */
+static inline int plane_bytes(uint32_t layout) {
+#define OF(kind)
+#define OWN(kind)                                                                                                      \
+  if (kind##_number == 0 || has_##kind##_planes(layout))                                                               \
+    return kind##_step;
+#define LAYOUT(number, NAME, name, general, planes, ...) planes
+#include "layouts/table.def"
+}
 
 struct ray {
   struct box_ray box;
@@ -73,12 +84,14 @@ static inline __attribute__((always_inline)) void prepare_ray(struct ray *ray, u
   ray->near_offset_z = near_offset(way.z, far_planes);
   struct vector margin = {with_sign_of(box_margin, way.x), with_sign_of(box_margin, way.y),
                           with_sign_of(box_margin, way.z)};
-  if (nodes_are_wide8(layout))
-    prepare_for_frames(&ray->box, origin, inverse, margin);
-  else if (nodes_are_quantised(layout))
-    prepare_for_quantised(&ray->box, origin, inverse, margin, grid);
-  else
-    prepare_for_binary(&ray->box, origin, inverse, margin);
+#define OF(kind)
+#define OWN(kind)                                                                                                      \
+  if (kind##_number == 0 || has_##kind##_planes(layout)) {                                                             \
+    kind##_prepare(&ray->box, origin, inverse, margin, grid);                                                          \
+  } else
+#define LAYOUT(number, NAME, name, general, planes, ...) planes
+#include "layouts/table.def"
+  { __builtin_unreachable(); }
   prepare_triangle_ray(&ray->triangle, origin, direction, inverse);
 }
 

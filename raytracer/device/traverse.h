@@ -19,14 +19,6 @@ struct stack_entry {
   int32_t enter; /* where the ray enters its box */
 };
 
-/* Of a node of four children the nearest one is on the stack, too, for a moment. */
-#ifdef TRAX_NODE_LAYOUT
-#define MAY_BE_WIDE4 (TRAX_NODE_LAYOUT == TRAX_NODES_WIDE4 || TRAX_NODE_LAYOUT == TRAX_NODES_WIDE4_QUANTISED)
-#else
-#define MAY_BE_WIDE4 KNOWS_WIDE_NODES
-#endif
-#define STACK_ENTRIES (TRAX_TREE_DEPTH + 1 + MAY_BE_WIDE4)
-
 static inline __attribute__((always_inline)) void push(struct stack_entry **top, trax_scene_ref reference,
                                                        int32_t enter) {
   **top = (struct stack_entry){reference, enter};
@@ -34,31 +26,22 @@ static inline __attribute__((always_inline)) void push(struct stack_entry **top,
   ++*top;
 }
 
-#include "nodes_wide4.h"
-#include "traverse_wide8.h"
+#define LAYOUT_FILE "visit.h"
+#include "layouts/table.def"
 
-/* Goes from a node to the nearer of the children that the ray enters, and pushes the other one. False if it enters
-   none. */
-static inline __attribute__((always_inline)) bool visit_node(uint32_t layout, const char *node, const struct ray *ray,
-                                                             int32_t limit, trax_scene_ref *reference,
-                                                             struct stack_entry **top) {
-  const int second_box = second_box_of(layout), children = children_of(layout);
-  int32_t enter0, enter1;
-  if (!enter_box(layout, node, 0, ray, limit, &enter0)) {
-    if (!enter_box(layout, node, second_box, ray, limit, &enter1))
-      return false;
-    *reference = load_word(node + children + 4);
-  } else if (!enter_box(layout, node, second_box, ray, limit, &enter1)) {
-    *reference = load_word(node + children);
-  } else if (enter0 <= enter1) {
-    *reference = load_word(node + children);
-    push(top, load_word(node + children + 4), enter1);
-  } else {
-    *reference = load_word(node + children + 4);
-    push(top, load_word(node + children), enter0);
-  }
-  return true;
-}
+/* More entries of the stack than the tree is deep. */
+#ifdef TRAX_NODE_LAYOUT
+#define MAY_BE(number, general) (TRAX_NODE_LAYOUT == number)
+#else
+#define MAY_BE(number, general) (general || !GENERAL_LAYOUTS_ONLY)
+#endif
+enum {
+  MORE_ENTRIES = 0
+#define OWN(kind) kind##_more_entries
+#define LAYOUT(number, NAME, name, general, planes, visit, ...) | (visit && MAY_BE(number, general))
+#include "layouts/table.def"
+};
+#define STACK_ENTRIES (TRAX_TREE_DEPTH + 1 + MORE_ENTRIES)
 
 /* Goes from a node down to a leaf, or stays at one. False if the ray enters no child of a node on the way. If the
    layout is known only at run time, this chooses its code. */
@@ -68,16 +51,14 @@ static inline __attribute__((always_inline)) bool descend(uint32_t layout, const
   while (__builtin_expect_with_probability(!leads_to_leaf(*reference), 1, 0.95)) {
     const char *node = scene_at(scene, *reference);
     ACCESS_NODE(node);
-    if (nodes_are_wide4(layout)) { /* the next child is the stack's */
-      if (nodes_are_quantised(layout))
-        visit_wide4_node(TRAX_NODES_WIDE4_QUANTISED, node, ray, limit, top);
-      else
-        visit_wide4_node(TRAX_NODES_WIDE4, node, ray, limit, top);
-      return false;
-    }
-    if (nodes_are_quantised(layout) ? !visit_node(TRAX_NODES_QUANTISED, node, ray, limit, reference, top)
-                                    : !visit_node(TRAX_NODES_BINARY, node, ray, limit, reference, top))
-      return false;
+#define OWN(kind) kind##_visit
+#define LAYOUT(number, NAME, name, general, planes, visit, ...)                                                        \
+  if (number == 0 || is_##name(layout)) {                                                                              \
+    if (!visit(TRAX_NODES_##NAME, node, ray, limit, reference, top))                                                   \
+      return false;                                                                                                    \
+  } else
+#include "layouts/table.def"
+    { __builtin_unreachable(); }
   }
   return true;
 }
@@ -88,7 +69,12 @@ static inline __attribute__((always_inline)) bool descend_by_sign(uint32_t layou
                                                                   const struct ray *ray, int32_t limit,
                                                                   trax_scene_ref *reference, struct stack_entry **top) {
   struct ray positive = *ray, negative = *ray;
-  if (!LOOPS_FOR_BOTH_SIGNS || nodes_are_wide4(layout))
+#define OF(kind)
+#define OWN(kind) || (!kind##_by_sign && has_##kind##_visit(layout))
+#define LAYOUT(number, NAME, name, general, planes, visit, ...) visit
+  if (!LOOPS_FOR_BOTH_SIGNS
+#include "layouts/table.def"
+  )
     return descend(layout, scene, ray, limit, reference, top);
   positive.near_offset_x = 0, negative.near_offset_x = 3 * (uint32_t)plane_bytes(layout);
   return float_bits(ray->box.inverse.x) < 0 ? descend(layout, scene, &negative, limit, reference, top)
@@ -99,8 +85,12 @@ static inline __attribute__((always_inline)) bool descend_by_sign(uint32_t layou
    tell the register allocator that rays visit many more nodes than triangles. */
 static inline __attribute__((always_inline)) bool trace_ray(uint32_t layout, const char *scene, trax_scene_ref root,
                                                             const struct ray *ray, bool any, struct hit *hit) {
-  if (nodes_are_wide8(layout))
-    return trace_wide8(scene, root, ray, any, hit);
+#define OF(kind)
+#define OWN(kind)                                                                                                      \
+  if (kind##_traces && has_##kind##_visit(layout))                                                                     \
+    return kind##_trace(scene, root, ray, any, hit);
+#define LAYOUT(number, NAME, name, general, planes, visit, ...) visit
+#include "layouts/table.def"
   struct stack_entry stack[STACK_ENTRIES], *top = stack;
   trax_scene_ref reference = root;
   int32_t limit = limit_of(layout, hit->distance_bits); /* boxes that the ray enters later are left out */

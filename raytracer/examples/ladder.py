@@ -62,7 +62,7 @@ class Ladder:
         program = self.folder / f"{source.stem}.elf"
         run(self.bin / "clang", "--target=trax", "-std=c17", "-O3", "-Wall", "-Wextra", "-Werror",
             f"-DQUEUES={tms[1] if tms else 1}",
-            "-I", HERE.parent / "include", source, "-o", program)
+            "-I", HERE.parent / "include", "-I", HERE.parent, source, "-o", program)
         return program
 
     def render(self, name, scene, *options):

@@ -2,7 +2,7 @@
 #ifndef TRAX_EXAMPLES_QUANTISED_H
 #define TRAX_EXAMPLES_QUANTISED_H
 
-#include "trax/scene_format.h"
+#include "layouts/records.h"
 
 typedef struct trax_triangle triangle_record;
 #include "one-division.h"

@@ -2,7 +2,7 @@
    nodes. docs/motion.md has the commands and what it takes.
 
    Of a node's two children the one that is done last, as a counter says, goes on to the parent. */
-#include "trax/scene_format.h"
+#include "layouts/records.h"
 
 #include <stdio.h>
 #include <trax.h>

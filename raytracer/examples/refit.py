@@ -45,7 +45,8 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         base, wanted, moved, found = (folder / f"{part}.trax" for part in ("base", "wanted", "moved", "found"))
-        run("clang", "--target=trax", "-O2", f"-I{include}", here / "refit.c", "-o", folder / "refit")
+        run("clang", "--target=trax", "-O2", f"-I{include}", f"-I{here.parent}", here / "refit.c", "-o",
+            folder / "refit")
         tree = ["--nodes", "binary", "--quiet"]
         run("trax-scene", options.mesh, "--at", options.base, "--splits=1", *tree, "-o", base)
         run("trax-scene", options.mesh, "--at", options.at, "--refit", base, *tree, "-o", wanted)

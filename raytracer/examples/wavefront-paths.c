@@ -5,7 +5,7 @@
    same order, and the picture is the general program's in every bit.
 
      clang --target=trax -std=c17 -O3 -DTRAX_TREE_DEPTH=TRAX_SCENE_DEFAULT_DEPTH -DQUEUES=4 -I raytracer/include
-       raytracer/examples/wavefront-paths.c -o wavefront-paths.elf
+       -I raytracer raytracer/examples/wavefront-paths.c -o wavefront-paths.elf
      trax-render SCENE --paths 4 --program wavefront-paths.elf   (compare with --no-specialise) */
 #define TILE_BITS 6
 #include "../device/path.h"

@@ -49,6 +49,17 @@ def render(*words):
     subprocess.run([os.path.join(build, "bin", "trax-render"), *words, "--engine", "native", "-q"], check=True)
 
 
+def rays(count, exponent=0, exact=0):
+    header = struct.pack("<8s4IiI", b"traxray1", 64, 8, 4, 1, exponent, exact)
+    return header + b"".join(
+        struct.pack("<8f3HBBI3f2I", i % 5, i % 3, -9, 0.5 - i % 2, i % 7 / 8, 1, 0, 2.0**127 if i % 3 else 4, i % 8,
+                    i // 8, 0, i % 4, 1, i, 3, 0.25, 0.5, 4, 2) for i in range(count))
+
+
+for words in ((1, ), (2, 0, 1), (7, ), (20, -3), (41, )):
+    add("trax-rays", rays(*words))
+
+
 # JPEG, 8 x 8, grey: as libjpeg writes it.
 JPEG = bytes.fromhex(
     "ffd8ffe000104a46494600010100000100010000ffdb004300080606070605080707070909080a0c140d0c0b0b0c1912130f141d1a1f1e1d"
@@ -82,6 +93,10 @@ INSTANCES = (b"mesh m a.obj\nmaterial red 0.8,0.1,0.1\ngroup g\nplace m\n"
              b"place m 0 -1 0 2 1 0 0 0 0 0 1 0 material red\nend\n"
              b"place g\nplace g -1 0 0 5  0 1 0 0  0 0 0.5 1e4\nplace m material red\n")
 add_case("trax-scene-mesh", "", ("a.instances", INSTANCES), ("a.obj", OBJ.replace(b"usemtl b\n", b"")), ("a.mtl", MTL))
+add_case("trax-instances", "", ("a.instances", INSTANCES), ("a.obj", OBJ.replace(b"usemtl b\n", b"")), ("a.mtl", MTL))
+NESTED = (b"mesh a a.obj\nmesh b b.ply\ngroup c\nplace a\nplace b 1 0 0 3  0 -2 0 1  0 0 1 0\nend\n"
+          b"place c\nplace c 1e-3 0 0 1e6  0 1e3 0 0  0 0 1 0\n")
+add_case("trax-instances", "", ("a.instances", NESTED), ("a.obj", OBJ), ("b.ply", BINARY_PLY))
 GLTF = json.dumps({
     "asset": {"version": "2.0"},
     "scene": 0,
@@ -146,6 +161,9 @@ add(
 for kind, pixel in ((0, b"\x40"), (2, b"\x10\x20\x30"), (4, b"\x40\x80"), (6, b"\x10\x20\x30\x40")):
     add("trax-picture", png(7, 5, kind, pixel))
 add("trax-picture", JPEG)
+HDR = b"#?RADIANCE\nEXPOSURE=2\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X %d\n"
+add("trax-picture", HDR % 3 + 2 * b"\x80\x40\x20\x81\1\1\1\2")
+add("trax-picture", HDR % 9 + 2 * (b"\2\2\0\x09" + 3 * b"\x89\x40" + b"\4\x80\x81\x82\x83\x85\x7f"))
 add("trax-picture", b"Pf\n3 2\n1.0\n" + struct.pack(">6f", 0, 1, 2, 3, 4, 5))
 
 

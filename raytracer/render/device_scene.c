@@ -73,39 +73,25 @@ void trax_device_scene_release(struct trax_device_scene *scene) {
   *scene = (struct trax_device_scene){0};
 }
 
-static trax_scene_ref at_address(trax_scene_ref reference, uint32_t address) {
-  const trax_scene_ref there = reference + address;
-  return TRAX_SCENE_REF_COUNT(reference) ? -there : there;
-}
-
 void trax_scene_relocate(void *bytes, uint32_t address) {
   struct trax_scene_header *header = bytes;
   const struct trax_scene_section *section = &header->sections[TRAX_SCENE_NODES];
   const struct trax_node_format *format = &trax_node_formats[header->node_layout];
   unsigned char *node = (unsigned char *)bytes + section->offset;
-  for (uint32_t i = 0; i < section->count; i++, node += format->bytes) {
-    if (header->node_layout == TRAX_NODES_WIDE8) { /* references to what is there; nothing reads the others */
-      struct trax_wide8_node *wide = (struct trax_wide8_node *)(void *)node;
-      wide->first_node += address, wide->first_triangle += address;
-      continue;
-    }
-    for (uint32_t k = 0; k < format->children; k++) {
-      trax_scene_ref *child = (trax_scene_ref *)(void *)(node + trax_node_child(format, k));
-      *child = *child ? at_address(*child, address) : 0;
-    }
-  }
+  for (uint32_t i = 0; i < section->count; i++, node += format->bytes)
+    format->code->relocate(node, format, address);
   if (header->version == TRAX_SCENE_VERSION_INSTANCES) {
     const struct trax_scene_more *more = (const struct trax_scene_more *)(header + 1);
     const struct trax_scene_section *instances = &more->sections[TRAX_SCENE_INSTANCES];
     struct trax_instance *instance = (struct trax_instance *)(void *)((unsigned char *)bytes + instances->offset);
     for (uint32_t i = 0; i < instances->count; i++)
-      instance[i].root = at_address(instance[i].root, address);
+      instance[i].root = trax_ref_at(instance[i].root, address);
   }
   const struct trax_scene_section *textures = &header->sections[TRAX_SCENE_TEXTURES];
   struct trax_texture *texture = (struct trax_texture *)(void *)((unsigned char *)bytes + textures->offset);
   for (uint32_t i = 0; i < textures->count; i++)
     texture[i].texels += address;
   if (header->root)
-    header->root = at_address(header->root, address);
+    header->root = trax_ref_at(header->root, address);
   header->base = address;
 }

@@ -26,7 +26,7 @@ static trax_status general_program(struct trax_program *program, const struct op
     return TRAX_OK;
   }
   const struct trax_node_format *format = &trax_node_formats[frame->params->node_layout];
-  if (format->children > 2)
+  if (!format->general)
     return trax_fail(error, "%s nodes: the general program knows binary and quantised ones only", format->name);
   const char *name = frame->params->features & TRAX_FEATURE_BIT(EXACT) ? "trax-raytracer-exact"
                      : deep                                            ? "trax-raytracer-deep"

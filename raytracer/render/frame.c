@@ -18,61 +18,43 @@ static double greatest(double so_far, const float values[3]) {
   return so_far;
 }
 
-static void scale_floats(float *values, size_t count, int exponent) {
-  for (size_t i = 0; i < count; i++)
-    values[i] = ldexpf(values[i], exponent);
-}
-
-/* Scales of frames that are out of range belong to nodes smaller than any margin. */
-static void scale_frame(struct trax_wide8_node *node, int exponent) {
-  scale_floats(node->origin, 3, exponent);
-  for (int axis = 0; axis < 3; axis++) {
-    const int scale = node->scale[axis] + exponent;
-    node->scale[axis] = (uint8_t)(scale < 0 ? 0 : scale > 255 ? 255 : scale);
-  }
-}
-
-/* Rounding to subnormals keeps the order of coordinates, so boxes stay exact. Boxes on the grid scale with the grid. */
+/* Rounding to subnormals keeps the order of coordinates, so boxes stay exact. */
 void trax_scale_scene(struct trax_scene *scene, int exponent) {
   if (exponent == 0)
     return;
   struct trax_scene_header *header = scene->bytes;
-  scale_floats(header->bounds_min, 3, exponent);
-  scale_floats(header->bounds_max, 3, exponent);
-  scale_floats(scene->grid.origin, 3, exponent);
-  scale_floats(scene->grid.cell, 3, exponent);
+  trax_scale_floats(header->bounds_min, 3, exponent);
+  trax_scale_floats(header->bounds_max, 3, exponent);
+  trax_scale_floats(scene->grid.origin, 3, exponent);
+  trax_scale_floats(scene->grid.cell, 3, exponent);
   const struct trax_node_format *format = &trax_node_formats[header->node_layout];
   unsigned char *node = (unsigned char *)scene->nodes;
-  for (uint32_t i = 0; i < scene->node_count && !format->quantised; i++, node += format->bytes) {
-    if (header->node_layout == TRAX_NODES_WIDE8)
-      scale_frame((struct trax_wide8_node *)(void *)node, exponent);
-    for (uint32_t child = 0; child < format->children && header->node_layout != TRAX_NODES_WIDE8; child++)
-      scale_floats((float *)(void *)(node + trax_node_box(format, child)), 6, exponent);
-  }
+  for (uint32_t i = 0; i < scene->node_count; i++, node += format->bytes)
+    format->code->scale(node, format, exponent);
   struct trax_triangle *triangles = (struct trax_triangle *)scene->triangles;
   for (uint32_t i = 0; i < scene->triangle_count; i++) {
-    scale_floats(triangles[i].v0, 3, exponent);
-    scale_floats(triangles[i].v1, 3, exponent);
-    scale_floats(triangles[i].v2, 3, exponent);
+    trax_scale_floats(triangles[i].v0, 3, exponent);
+    trax_scale_floats(triangles[i].v1, 3, exponent);
+    trax_scale_floats(triangles[i].v2, 3, exponent);
   }
   /* The meshes of instances are scaled as the scene is, so their matrices stay. */
   for (uint32_t i = 0; i < scene->instance_count; i++)
-    scale_floats(((struct trax_instance *)scene->instances)[i].origin, 3, exponent);
+    trax_scale_floats(((struct trax_instance *)scene->instances)[i].origin, 3, exponent);
   for (uint32_t i = 0; i < scene->mesh_count; i++)
-    scale_floats(((struct trax_scene_mesh *)scene->meshes)[i].bounds_min, 6, exponent);
+    trax_scale_floats(((struct trax_scene_mesh *)scene->meshes)[i].bounds_min, 6, exponent);
   header->checksum = 0;
   header->checksum = (uint32_t)crc32(crc32(0, NULL, 0), scene->bytes, (uInt)scene->size);
 }
 
 void trax_scale_view(struct trax_view *view, int exponent) {
-  scale_floats(view->eye, 3, exponent);
-  scale_floats(view->look_at, 3, exponent);
-  scale_floats(view->light, 3, exponent);
+  trax_scale_floats(view->eye, 3, exponent);
+  trax_scale_floats(view->look_at, 3, exponent);
+  trax_scale_floats(view->light, 3, exponent);
   for (uint32_t i = 0; i < view->light_count; i++) {
     struct trax_light *light = &view->lights[i];
-    scale_floats(light->position, 3, exponent);
-    scale_floats(light->edges[0], 6, exponent);
-    scale_floats(&light->falloff, 1, exponent);
+    trax_scale_floats(light->position, 3, exponent);
+    trax_scale_floats(light->edges[0], 6, exponent);
+    trax_scale_floats(&light->falloff, 1, exponent);
   }
 }
 

@@ -32,8 +32,8 @@ static trax_status hash_file(XXH3_state_t *state, const char *root, const char *
   return TRAX_OK;
 }
 
-static int is_file(const struct dirent *entry) {
-  return entry->d_name[0] != '.' && strchr(entry->d_name, '.') != NULL; /* folders of ours have no dot */
+static int is_visible(const struct dirent *entry) {
+  return entry->d_name[0] != '.';
 }
 
 bool trax_is_source_name(const char *name) {
@@ -51,17 +51,28 @@ static void drop_other(const char *folder, const char *name) {
     trax_reads_drop_path(path);
 }
 
-/* All files of a folder, by name. */
-static trax_status hash_folder(XXH3_state_t *state, const char *folder, trax_error *error) {
+/* All files of a folder, by name; deep: with those of its folders, which have no dot in their names. */
+static trax_status hash_folder(XXH3_state_t *state, const char *folder, bool deep, trax_error *error) {
   struct dirent **entries;
-  const int count = scandir(folder, &entries, is_file, alphasort);
+  char below[TRAX_PATH_SIZE];
+  struct stat found;
+  const int count = scandir(folder, &entries, is_visible, alphasort);
   if (count < 0)
     return trax_fail(error, "%s: %s", folder, strerror(errno));
   trax_status status = TRAX_OK;
   for (int i = 0; i < count; i++) {
-    if (status == TRAX_OK)
-      status = hash_file(state, folder, entries[i]->d_name, error);
-    drop_other(folder, entries[i]->d_name);
+    const char *name = entries[i]->d_name;
+    if (!strchr(name, '.')) {
+      if (deep && status == TRAX_OK && join_path(below, folder, name, "") && stat(below, &found) == 0 &&
+          S_ISDIR(found.st_mode)) {
+        XXH3_128bits_update(state, name, strlen(name) + 1);
+        status = hash_folder(state, below, deep, error);
+      }
+    } else {
+      if (status == TRAX_OK)
+        status = hash_file(state, folder, name, error);
+      drop_other(folder, name);
+    }
     free(entries[i]);
   }
   free(entries);
@@ -81,9 +92,8 @@ static void hash_library(XXH3_state_t *state, const char *path) {
 
 trax_status trax_program_key(char key[33], const char *root, const char *source, const char *constants,
                              const struct flags *flags, uint32_t icache_bytes, trax_error *error) {
-  char headers[TRAX_PATH_SIZE];
-  if (!join_path(headers, source, "trax", ""))
-    return trax_fail(error, "%s: the path is too long", source);
+  static const char *const folders[] = {"layouts", "trax"};
+  char folder[TRAX_PATH_SIZE];
   XXH3_state_t *state = XXH3_createState();
   if (!state)
     return trax_fail(error, "out of memory");
@@ -93,9 +103,10 @@ trax_status trax_program_key(char key[33], const char *root, const char *source,
   for (size_t i = 0; i < sizeof ingredients / sizeof *ingredients && status == TRAX_OK; i++)
     status = hash_file(state, root, ingredients[i], error);
   if (status == TRAX_OK)
-    status = hash_folder(state, source, error);
-  if (status == TRAX_OK)
-    status = hash_folder(state, headers, error);
+    status = hash_folder(state, source, false, error);
+  for (size_t i = 0; i < sizeof folders / sizeof *folders && status == TRAX_OK; i++)
+    status = join_path(folder, source, folders[i], "") ? hash_folder(state, folder, true, error)
+                                                       : trax_fail(error, "%s: the path is too long", source);
   hash_library(state, TRAX_LLVM_LIBRARY);
   for (size_t i = 0; i < flags->count; i++)
     XXH3_128bits_update(state, flags->words[i], strlen(flags->words[i]) + 1);

@@ -174,12 +174,32 @@ static unsigned find_channels(int place[CHANNELS], const EXRHeader *header) {
   return found;
 }
 
+/* Whether the file is one part of scan lines. The library ends the program at a header that gives another type, or none
+   that exists. What is damaged otherwise is left to it. */
+static bool has_scan_lines(const EXRVersion *version, const uint8_t *bytes, size_t size) {
+  static const char right[] = "scanlineimage";
+  const char *at = (const char *)bytes + 8; /* behind magic and version: name, type, size and value of each attribute */
+  const char *const end = (const char *)bytes + size;
+  while (at < end && *at) {
+    const char *name = at, *type = memchr(name, 0, (size_t)(end - name));
+    const char *value = type ? memchr(type + 1, 0, (size_t)(end - type - 1)) : NULL;
+    uint32_t length;
+    if (!value || end - value - 1 < (ptrdiff_t)sizeof length)
+      break;
+    memcpy(&length, value + 1, sizeof length);
+    value += 1 + sizeof length;
+    if (length > (size_t)(end - value))
+      break;
+    if (strcmp(name, "type") == 0 && (length != sizeof right - 1 || memcmp(value, right, length) != 0))
+      return false;
+    at = value + length;
+  }
+  return !version->multipart && !version->non_image && !version->tiled;
+}
+
 /* Returns why the file cannot be read, or NULL. bytes: of the file. */
-static const char *check_exr(EXRHeader *header, const EXRVersion *version, int64_t width, int64_t height,
-                             size_t bytes) {
+static const char *check_exr(EXRHeader *header, int64_t width, int64_t height, size_t bytes) {
   enum { MOST_RATIO = 1100 }; /* of bytes to packed bytes: RLE and deflate have less */
-  if (version->multipart || version->non_image || version->tiled)
-    return "it is not one part of scan lines";
   if (header->compression_type < TINYEXR_COMPRESSIONTYPE_NONE || header->compression_type > TINYEXR_COMPRESSIONTYPE_ZIP)
     return "it is packed by another method than RLE and ZIP";
   for (int i = 0; i < header->num_channels; i++) {
@@ -222,15 +242,17 @@ trax_status trax_exr_decode(struct trax_picture *picture, const uint8_t *bytes, 
   *picture = (struct trax_picture){0};
   InitEXRHeader(&header);
   InitEXRImage(&image);
-  if (ParseEXRVersionFromMemory(&version, bytes, size) != TINYEXR_SUCCESS ||
-      ParseEXRHeaderFromMemory(&header, &version, bytes, size, &reason) != TINYEXR_SUCCESS) {
+  const bool known = ParseEXRVersionFromMemory(&version, bytes, size) == TINYEXR_SUCCESS;
+  if (known && !has_scan_lines(&version, bytes, size))
+    return trax_fail(error, "%s: not a readable EXR: it is not one part of scan lines", name);
+  if (!known || ParseEXRHeaderFromMemory(&header, &version, bytes, size, &reason) != TINYEXR_SUCCESS) {
     trax_fail(error, "%s: not a readable EXR: %s", name, reason ? reason : "it has no header");
     FreeEXRErrorMessage(reason);
     return TRAX_ERROR;
   }
   const EXRBox2i window = header.data_window;
   const int64_t width = (int64_t)window.max_x - window.min_x + 1, height = (int64_t)window.max_y - window.min_y + 1;
-  const char *wrong = check_exr(&header, &version, width, height, size);
+  const char *wrong = check_exr(&header, width, height, size);
   if (wrong)
     status = trax_fail(error, "%s: not a readable EXR: %s", name, wrong);
   if (status == TRAX_OK)

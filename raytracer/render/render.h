@@ -5,6 +5,7 @@
 #ifndef TRAX_RENDER_H
 #define TRAX_RENDER_H
 
+#include "layouts/layouts.h"
 #include "trax/access.h"
 #include "trax/emulator.h"
 #include "trax/ray_kinds.h"

@@ -109,7 +109,7 @@ static trax_status note_or_error(const struct trax_frame *frame, const struct tr
     return trax_fail(error, "--source %s: there is no program: %s", options->source, note);
   if (frame->params->features & TRAX_FEATURE_BIT(INSTANCES))
     return trax_fail(error, "instances: there is no program for them: %s", note);
-  if (trax_node_formats[frame->params->node_layout].children > 2)
+  if (!trax_node_formats[frame->params->node_layout].general)
     return trax_fail(error, "%s nodes: there is no program for them: %s",
                      trax_node_formats[frame->params->node_layout].name, note);
   if (frame->params->features & TRAX_FEATURE_BIT(RAY_KINDS))

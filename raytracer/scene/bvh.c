@@ -76,7 +76,7 @@ static void link_built(const struct linking *linking) {
     link_built(&below);
   }
   if (built->nodes < LEAST_OF_LINKING)
-    link->box = join_boxes(&nodes[link->child[0]].box, &nodes[link->child[1]].box);
+    link->box = scene_join_boxes(&nodes[link->child[0]].box, &nodes[link->child[1]].box);
 }
 
 static void link_task(struct scene_worker *worker, void *pointer) {
@@ -96,7 +96,7 @@ static void bound_large(const struct linking *linking, uint32_t index) {
     return;
   for (int i = 0; i < 2; i++)
     bound_large(linking, link->child[i]);
-  link->box = join_boxes(&nodes[link->child[0]].box, &nodes[link->child[1]].box);
+  link->box = scene_join_boxes(&nodes[link->child[0]].box, &nodes[link->child[1]].box);
 }
 
 /* Improves the tree and numbers its nodes. */

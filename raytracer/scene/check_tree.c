@@ -20,6 +20,17 @@ struct checker {
   bool any_in_part;
 };
 
+/* Room for a node of any layout. */
+enum {
+#define LAYOUT(number, NAME, name, general, planes, visit, option, record, ...) +sizeof(record)
+  MOST_NODE_BYTES = 0
+#include "layouts/table.def"
+};
+
+static const struct trax_node_format *format_of(const struct checker *checker) {
+  return &trax_node_formats[checker->view->header->node_layout];
+}
+
 static trax_status check_leaf(struct checker *checker, trax_scene_ref ref, struct scene_box *box) {
   const struct trax_scene *view = checker->view;
   uint32_t offset = TRAX_SCENE_REF_OFFSET(ref), count = TRAX_SCENE_REF_COUNT(ref);
@@ -89,7 +100,7 @@ static trax_status wrong_box(const struct checker *checker, uint32_t place) {
 /* Checks a node that is the last of `depth` on its path, and reads it. */
 static trax_status enter_node(struct checker *checker, trax_scene_ref ref, unsigned depth, uint32_t *entered,
                               struct scene_node *node) {
-  const struct trax_node_format *format = &trax_node_formats[checker->view->header->node_layout];
+  const struct trax_node_format *format = format_of(checker);
   if (ref < checker->nodes_offset || ref - checker->nodes_offset >= checker->nodes_size ||
       (ref - checker->nodes_offset) % format->bytes != 0)
     return trax_fail(checker->error, "%s: reference %08x is to no node", checker->name, ref);
@@ -103,7 +114,7 @@ static trax_status enter_node(struct checker *checker, trax_scene_ref ref, unsig
   if (depth > TRAX_SCENE_MAX_DEPTH)
     return trax_fail(checker->error, "%s: node %u is deeper than %u", checker->name, number, TRAX_SCENE_MAX_DEPTH);
   scene_node_of(node, checker->view, number);
-  if (node->count < 2 && !(format->children == 8 && node->count == 1 && checker->view->node_count == 1))
+  if (node->count < 2 && !(format->code->arrange && node->count == 1 && checker->view->node_count == 1))
     return trax_fail(checker->error, "%s: node %u: fewer than two children", checker->name, number);
   return TRAX_OK;
 }
@@ -111,10 +122,9 @@ static trax_status enter_node(struct checker *checker, trax_scene_ref ref, unsig
 /* Each byte of a node is as it is written around these boxes: its frame, what is reserved, and children that are not
    there. */
 static trax_status check_bytes(const struct checker *checker, uint32_t number, const struct scene_node *node) {
-  _Alignas(struct trax_wide4_node) unsigned char right[sizeof(struct trax_wide4_node)];
-  const enum trax_node_layout layout = checker->view->header->node_layout;
-  const struct trax_node_format *format = &trax_node_formats[layout];
-  scene_node_write(right, layout, node);
+  _Alignas(TRAX_SCENE_ALIGNMENT) unsigned char right[MOST_NODE_BYTES];
+  const struct trax_node_format *format = format_of(checker);
+  format->code->write(right, format, node);
   if (memcmp(right, (const unsigned char *)checker->view->nodes + (size_t)number * format->bytes, format->bytes) == 0)
     return TRAX_OK;
   return trax_fail(checker->error, "%s: node %u: %s", checker->name, number,
@@ -138,7 +148,7 @@ static trax_status check_child(struct checker *checker, struct scene_node *node,
       return wrong_box(checker, TRAX_NODE_MOST_CHILDREN * number + i);
     note_parts(checker, child, &stored, TRAX_NODE_MOST_CHILDREN * number + i);
   }
-  if (checker->view->header->node_layout == TRAX_NODES_WIDE8)
+  if (format_of(checker)->code->box)
     node->box[i] = TRAX_SCENE_REF_COUNT(child) ? scene_box_within(&stored, &expected) : expected;
   return TRAX_OK;
 }
@@ -161,7 +171,7 @@ static trax_status check_subtree(struct checker *checker, trax_scene_ref ref, un
     return TRAX_ERROR;
   entries = scene_stack_entries(layout, entries, node.count, &checker->max_depth);
   checker->ranges[number].first = checker->next_triangle;
-  const bool leaves_first = trax_node_formats[layout].children == 8;
+  const bool leaves_first = trax_node_formats[layout].code->arrange != NULL;
   for (uint32_t i = 0; i < node.count; i++)
     if (!leaves_first || TRAX_SCENE_REF_COUNT(node.child[i]))
       if (check_child(checker, &node, i, number, depth, entries) != TRAX_OK)
@@ -180,7 +190,7 @@ static trax_status check_subtree(struct checker *checker, trax_scene_ref ref, un
 /* With room for the notes of each node and triangle. */
 static trax_status check_whole_tree(struct checker *checker) {
   struct scene_box root;
-  if (checker->view->header->node_layout == TRAX_NODES_WIDE8 && TRAX_SCENE_REF_COUNT(checker->view->header->root))
+  if (format_of(checker)->code->arrange && TRAX_SCENE_REF_COUNT(checker->view->header->root))
     return trax_fail(checker->error, "%s: its root is no node", checker->name);
   trax_status result = check_subtree(checker, checker->view->header->root, 0, 0, &root);
   if (result != TRAX_OK || !checker->any_in_part)

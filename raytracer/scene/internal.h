@@ -2,9 +2,10 @@
 #ifndef TRAX_SCENE_INTERNAL_H
 #define TRAX_SCENE_INTERNAL_H
 
+#include "boxes.h"
 #include "files.h"
 #include "images.h"
-#include "node_layouts.h"
+#include "layouts/layouts.h"
 
 /* Larger coordinates are treated as infinite: Embree takes none beyond 1.844e18. */
 #define SCENE_MAX_COORDINATE 0x1.8p60f
@@ -148,26 +149,6 @@ trax_status scene_check_parts(const struct scene_parts *parts, uint32_t *bad, tr
 trax_status scene_check_tree(const struct trax_scene *view, const char *name, trax_error *error);
 
 /* --- bvh.c --- */
-
-/* A tree as the builder makes it; links are indices into nodes. */
-struct scene_tree {
-  struct scene_tree_node {
-    uint32_t triangle_count; /* 0: an inner node */
-    union {
-      uint32_t child[2];
-      struct {
-        uint32_t triangles[TRAX_SCENE_MAX_LEAF]; /* of the mesh */
-        struct scene_box box;                    /* of the triangles' parts that are in this leaf */
-      };
-    };
-  } * nodes; /* depth first, the root first */
-  uint32_t node_count, inner_count, max_leaf;
-  uint32_t max_depth;      /* as in the file's header */
-  uint32_t ref_count;      /* triangles in leaves; those that were split are in several */
-  struct scene_box bounds; /* of all triangles */
-  bool split;              /* triangles at one place are in the order of their numbers in every leaf */
-  bool unique;             /* no two triangles are at one place; false: not known */
-};
 
 trax_status scene_build_tree(struct scene_tree *tree, const struct trax_mesh *mesh,
                              const struct trax_build_options *options, trax_error *error);

@@ -231,7 +231,7 @@ trax_status trax_scene_build(struct trax_scene *scene, const struct trax_mesh *m
   struct scene_wide wide = {0};
   const bool is_wide = trax_node_formats[options->nodes].children > 2 && tree.node_count;
   if (is_wide && result == TRAX_OK)
-    result = scene_widen(&wide, &tree, options->nodes, error);
+    result = scene_widen(&wide, &tree, options->nodes) ? TRAX_OK : scene_out_of_memory(error, "BVH");
   if (result == TRAX_OK && !tree.split && !tree.unique)
     result = scene_order_duplicates(&tree, wide.leaves, mesh, error);
   else if (result == TRAX_OK && wide.leaves)

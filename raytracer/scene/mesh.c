@@ -325,8 +325,8 @@ void scene_add_report(struct trax_import_report *total, const struct trax_import
 }
 
 /* Leaves out instances of nothing, and what no instance places. Gives all others triangles of their own if that is
-   asked for. */
-static trax_status place_instances(struct trax_mesh *mesh, const struct trax_import_options *options,
+   asked for. name: of the file, for messages. */
+static trax_status place_instances(struct trax_mesh *mesh, const char *name, const struct trax_import_options *options,
                                    struct trax_import_report *report, trax_error *error) {
   if (scene_drop_parts(mesh, error) != TRAX_OK)
     return TRAX_ERROR;
@@ -334,7 +334,7 @@ static trax_status place_instances(struct trax_mesh *mesh, const struct trax_imp
     return TRAX_OK;
   trax_status result = scene_flatten_mesh(mesh, error);
   if (result == TRAX_OK) /* transforms may make triangles flat, or too large */
-    result = filter(mesh, options, "the instances", report, error);
+    result = filter(mesh, options, name, report, error);
   if (result == TRAX_OK)
     scene_mend_normals(mesh, report);
   return result;
@@ -391,7 +391,7 @@ trax_status trax_mesh_import(struct trax_mesh *mesh, const char *const *paths, s
     result = trax_fail(error, "%s: nothing moves: no glTF file has an animation, and no name has %%d for the frame",
                        path_count ? paths[0] : "no mesh");
   if (result == TRAX_OK)
-    result = place_instances(mesh, options, &total, error);
+    result = place_instances(mesh, path_count == 1 ? paths[0] : "the instances", options, &total, error);
   if (result == TRAX_OK)
     result = scene_override_materials(mesh, options, error);
   if (result != TRAX_OK) {

@@ -3,6 +3,7 @@
 #include "internal.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -42,7 +43,10 @@ trax_status trax_take_at(void *target, const trax_option *option, const char *va
              : trax_option_refuse(option, value, error, "is neither a time in seconds nor the number of a frame");
 }
 
-const char *const trax_node_words[] = {"auto", "binary", "quantised", "wide4", "wide4-quantised", "wide8", NULL};
+const char *const trax_node_words[] = {
+#define LAYOUT(number, NAME, name, general, planes, visit, option, ...) [1 + number] = option,
+#include "layouts/table.def"
+    [0] = "auto", [1 + TRAX_NODE_LAYOUTS] = NULL};
 const char *const trax_normals_words[] = {"file", "smooth", "flat", NULL};
 
 trax_status trax_take_texture_size(void *target, const trax_option *option, const char *value, trax_error *error) {
@@ -62,11 +66,15 @@ trax_status trax_take_unpack_limit(void *target, const trax_option *option, cons
 
 trax_status trax_take_nodes(void *target, const trax_option *option, const char *value, trax_error *error) {
   struct trax_build_options build;
+  char words[256];
   *(const char **)member(target, option) = value;
-  return trax_node_layout_choose(value, &build)
-             ? TRAX_OK
-             : trax_option_refuse(option, value, error,
-                                  "is none of auto, binary, quantised, wide4, wide4-quantised and wide8");
+  if (trax_node_layout_choose(value, &build))
+    return TRAX_OK;
+  int length = snprintf(words, sizeof words, "%s", trax_node_words[0]);
+  for (unsigned i = 1; i <= TRAX_NODE_LAYOUTS; i++)
+    length += snprintf(words + length, sizeof words - (size_t)length, "%s%s", i < TRAX_NODE_LAYOUTS ? ", " : " and ",
+                       trax_node_words[i]);
+  return trax_option_refuse(option, value, error, "is none of %s", words);
 }
 
 trax_status trax_take_splits(void *target, const trax_option *option, const char *value, trax_error *error) {

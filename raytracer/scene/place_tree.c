@@ -51,8 +51,9 @@ trax_scene_ref scene_place_subtree(struct layout *layout, uint32_t index, struct
   for (int i = 0; i < 2; i++)
     out.child[i] = scene_place_subtree(layout, node->child[i], &out.box[i]);
   *box = scene_box_around(&out);
-  const uint32_t offset = layout->positions[index] * trax_node_formats[layout->node_layout].bytes;
-  scene_node_write(layout->nodes + offset, layout->node_layout, &out);
+  const struct trax_node_format *format = &trax_node_formats[layout->node_layout];
+  const uint32_t offset = layout->positions[index] * format->bytes;
+  format->code->write(layout->nodes + offset, format, &out);
   return layout->nodes_offset + offset;
 }
 
@@ -66,8 +67,9 @@ static void place_child(struct layout *layout, struct scene_node *out, uint32_t 
    far as there are triangles in it. That is also all that the checker knows. */
 static void read_back(struct scene_node *out, const struct layout *layout, const struct scene_wide_node *wide,
                       const void *bytes) {
+  const struct trax_node_format *format = &trax_node_formats[layout->node_layout];
   struct scene_node stored;
-  scene_node_read(&stored, layout->node_layout, bytes);
+  format->code->read(&stored, format, bytes);
   for (uint32_t i = 0; i < out->count; i++) {
     const struct scene_tree_node *leaf = &layout->tree->nodes[wide->child[i]];
     struct scene_box whole = scene_empty_box();
@@ -91,9 +93,10 @@ trax_scene_ref scene_place_wide_node(struct layout *layout, uint32_t number, str
   for (uint32_t i = 0; i < wide->count; i++)
     if (leaves_first && !layout->tree->nodes[wide->child[i]].triangle_count)
       place_child(layout, &out, i, wide->child[i]);
-  const uint32_t offset = layout->wide->position[number] * trax_node_formats[layout->node_layout].bytes;
-  scene_node_write(layout->nodes + offset, layout->node_layout, &out);
-  if (layout->node_layout == TRAX_NODES_WIDE8)
+  const struct trax_node_format *format = &trax_node_formats[layout->node_layout];
+  const uint32_t offset = layout->wide->position[number] * format->bytes;
+  format->code->write(layout->nodes + offset, format, &out);
+  if (format->code->box)
     read_back(&out, layout, wide, layout->nodes + offset);
   *box = scene_box_around(&out);
   return layout->nodes_offset + offset;

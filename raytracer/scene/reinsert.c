@@ -93,7 +93,7 @@ static void mark_refitted(struct improver *improver) {
 static bool refit_node(struct improver *improver, uint32_t index) {
   struct scene_link *node = &improver->links->nodes[index];
   const struct scene_link *a = &improver->links->nodes[node->child[0]], *b = &improver->links->nodes[node->child[1]];
-  const struct scene_box box = join_boxes(&a->box, &b->box);
+  const struct scene_box box = scene_join_boxes(&a->box, &b->box);
   const uint32_t height = 1 + (a->height > b->height ? a->height : b->height);
   const bool moved = memcmp(&box, &node->box, sizeof box) != 0;
   if (!moved && height == node->height)

@@ -64,7 +64,7 @@ static inline uint32_t other_child(const struct scene_link *node, uint32_t child
 /* The cost of the part if it is inserted beside a node: of a new node over both, and of the growth of the nodes above.
    least: that growth. */
 static inline double cost_beside(const struct search *search, const struct scene_box *box, double least) {
-  const struct scene_box both = join_boxes(&search->part->box, box);
+  const struct scene_box both = scene_join_boxes(&search->part->box, box);
   return least + visits_of(search->foci, &both);
 }
 
@@ -210,7 +210,7 @@ static void take_out(struct search *search) {
       continue;
     const uint32_t other = other_child(link, from);
     note(search, other);
-    const struct scene_box box = join_boxes(&below, &nodes[other].box);
+    const struct scene_box box = scene_join_boxes(&below, &nodes[other].box);
     above->height = 1 + (height > nodes[other].height ? height : nodes[other].height);
     bool moved = false;
     for (int axis = 0; axis < 3; axis++)

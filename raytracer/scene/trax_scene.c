@@ -1,6 +1,7 @@
 /* trax-scene: from mesh files to a scene file. */
 #define _GNU_SOURCE /* memfd_create */
 #include "trax_scene.h"
+#include "layouts/layouts.h"
 
 #include "trax/input.h"
 #include "trax/message.h"

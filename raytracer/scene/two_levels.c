@@ -257,7 +257,7 @@ static trax_scene_ref place_upper(struct upper *upper, uint32_t index, uint32_t 
     out.child[i] = place_upper(upper, node->child[i], depth + 1, &out.box[i]);
   *box = scene_box_around(&out);
   struct trax_bvh_node *to = (struct trax_bvh_node *)scene->nodes + upper->positions[index];
-  scene_node_write(to, TRAX_NODES_BINARY, &out);
+  trax_node_formats[TRAX_NODES_BINARY].code->write(to, &trax_node_formats[TRAX_NODES_BINARY], &out);
   return (uint32_t)((const char *)to - (const char *)scene->bytes);
 }
 

@@ -9,7 +9,7 @@ DEVICE = ROOT / "raytracer/device"
 
 def changed_copy(folder, tests, mutant):
     """Gives the folder raytracer/device, changed as the mutant says, and the folder tests of the tree."""
-    for part in ("raytracer/device", tests):
+    for part in ("raytracer/device", "raytracer/layouts", tests):
         shutil.rmtree(folder / part, ignore_errors=True)
         shutil.copytree(ROOT / part, folder / part)
     (folder / "raytracer/device" / mutant.file).write_text(mutant.changed(DEVICE))

@@ -105,7 +105,7 @@ done
 cmp -s kept-one/program.elf kept-two/program.elf || fail "--source: the program depends on the folder"
 [ "$(ls programs/*.elf | wc -l)" -eq 1 ] || fail "--source: $(ls programs)"
 measure -o x.png && "$bin/trax-compare" -q x.png one.png || fail "--source: another picture"
-sed -i 's/enter0 <= enter1/true/' two/traverse.h
+sed -i 's/enter0 <= enter1/true/' two/layouts/binary/visit.h
 measure --source two --cache programs --keep kept-two -o x.png || fail "--source, changed: $(cat .err)"
 "$bin/trax-compare" -q x.png one.png || fail "--source, changed: another picture"
 cmp -s kept-one/program.elf kept-two/program.elf && fail "--source, changed: the same program"

@@ -31,8 +31,8 @@ PICTURES = [
 def compile_program(name, *options):
     done = subprocess.run([BIN / "clang", "--target=trax", "-std=c17", "-O3", "-Wall", "-Wextra", "-Werror",
                            "-DQUEUES=2", "-DTRAX_TREE_DEPTH=TRAX_SCENE_DEFAULT_DEPTH", "-DWAVE=200u", *options, "-I",
-                           EXAMPLES.parent / "include", EXAMPLES / "wavefront-paths.c", "-o", name],
-                          capture_output=True, text=True, check=False)
+                           EXAMPLES.parent / "include", "-I", EXAMPLES.parent, EXAMPLES / "wavefront-paths.c", "-o",
+                           name], capture_output=True, text=True, check=False)
     equal(done.returncode, 0, name, done.stderr)
 
 

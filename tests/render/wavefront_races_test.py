@@ -41,8 +41,8 @@ def make(name, source, changes, options):
         text = text.replace(old, new)
     pathlib.Path(f"{name}.c").write_text(text)
     done = subprocess.run([BIN / "clang", "--target=trax", "-std=c17", "-O3", "-g", "-DQUEUES=2", *options, "-I",
-                           EXAMPLES, "-I", EXAMPLES.parent / "include", f"{name}.c", "-o", f"{name}.elf"],
-                          capture_output=True, text=True, check=False)
+                           EXAMPLES, "-I", EXAMPLES.parent / "include", "-I", EXAMPLES.parent, f"{name}.c", "-o",
+                           f"{name}.elf"], capture_output=True, text=True, check=False)
     equal(done.returncode, 0, name, done.stderr)
 
 

@@ -90,7 +90,7 @@ class Data(Scratch):
             self.assertEqual([sum(one[5][i] for one in instructions) for i in range(len(written["causes"]))],
                              list(written["causes"].values()))
             self.assertTrue(
-                any(path.endswith("traverse.h") and "visit_node" in text for path, text in data["sources"].items()))
+                any(path.endswith("traverse.h") and "descend" in text for path, text in data["sources"].items()))
         self.assertEqual(data["heat"], self.text("heat.csv"))
         self.assertEqual(data["waits"], self.text("waits.csv"))
         # trax-render also knows the parts of the scene.

@@ -9,8 +9,8 @@
 
 #include <cmocka.h>
 
+#include "layouts/layouts.h"
 #include "temporary.h"
-#include "trax/scene.h"
 
 /* Writes a file into the test's directory and returns its path. */
 const char *test_file(const char *name, const void *bytes, size_t size);

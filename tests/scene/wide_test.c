@@ -1,12 +1,14 @@
-/* Wide nodes. Of eight children (raytracer/scene/nodes_wide8.c): planes contain the boxes and are the nearest that do,
+/* Wide nodes. Of eight children (raytracer/layouts/wide8): planes contain the boxes and are the nearest that do,
    frames are the least, and what is read is written as the same bytes, for boxes that are flat, far away, tiny or
-   large. Of trees of any shape (raytracer/scene/wide.c): every leaf is in one node, and the stack is large enough. */
+   large. Of trees of any shape (layouts/widen.c): every leaf is in one node, and the stack is large enough. */
 #include "../../raytracer/scene/internal.h"
 #include "support.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+#define CODE trax_node_formats[TRAX_NODES_WIDE8].code
 
 static uint64_t state = 1;
 
@@ -87,7 +89,7 @@ static void check_planes(const struct trax_wide8_node *written, const struct sce
   assert_true(compare(distance_of(low, scale), scene_next_float(first, false), origin) > 0);
   assert_true(compare(distance_of(high, scale), last, origin) >= 0);
   assert_true(compare(distance_of(high, scale), scene_next_float(last, true), origin) < 0);
-  const struct scene_box stored = scene_wide8_box(written, &node->box[i]);
+  const struct scene_box stored = CODE->box(written, &node->box[i]);
   assert_true(stored.min[axis] == first && stored.max[axis] == last);
 }
 
@@ -97,8 +99,8 @@ static void test_planes(void **unused) {
     struct scene_node node, read;
     struct trax_wide8_node written, again;
     make_node(&node);
-    scene_wide8_write(&written, &node);
-    scene_wide8_read(&read, &written);
+    CODE->write(&written, NULL, &node);
+    CODE->read(&read, NULL, &written);
     assert_int_equal(read.count, node.count);
     assert_memory_equal(read.child, node.child, node.count * sizeof *node.child);
     assert_memory_equal(read.slot, node.slot, node.count);
@@ -110,7 +112,7 @@ static void test_planes(void **unused) {
       for (uint32_t i = 0; i < node.count; i++)
         check_planes(&written, &node, &read, i, axis);
     }
-    scene_wide8_write(&again, &read);
+    CODE->write(&again, NULL, &read);
     assert_memory_equal(&again, &written, sizeof written);
   }
 }
@@ -123,10 +125,10 @@ static void test_any_bytes(void **unused) {
     struct scene_node read;
     for (size_t i = 0; i < sizeof any; i++)
       ((unsigned char *)&any)[i] = (unsigned char)(next_random(8) ? next_random(256) : next_random(2) * 255);
-    scene_wide8_read(&read, &any);
-    scene_wide8_write(&again, &read);
+    CODE->read(&read, NULL, &any);
+    CODE->write(&again, NULL, &read);
     const struct scene_box box = {{-1, 0, 1e-40f}, {1, 1e18f, INFINITY}};
-    (void)scene_wide8_box(&any, &box);
+    (void)CODE->box(&any, &box);
     for (uint32_t i = 0; i < read.count; i++)
       assert_true(any.meta[read.slot[i]] != 0);
   }
@@ -198,12 +200,11 @@ static void test_trees(void **unused) {
   assert_non_null(nodes);
   for (int round = 0; round < 3000; round++) {
     struct scene_tree tree = {.nodes = nodes};
-    trax_error error;
     add_subtree(&tree, next_random(TRAX_SCENE_MAX_DEPTH + 1), 1 + next_random(20), 0);
     for (enum trax_node_layout layout = TRAX_NODES_WIDE4; layout <= TRAX_NODES_WIDE8; layout++) {
       unsigned char seen[ROOM] = {0};
       struct scene_wide wide;
-      assert_int_equal(scene_widen(&wide, &tree, layout, &error), TRAX_OK);
+      assert_true(scene_widen(&wide, &tree, layout));
       const uint32_t leaves = tree.node_count - tree.inner_count;
       const uint32_t most = tree.max_depth > TRAX_SCENE_DEFAULT_DEPTH ? tree.max_depth : TRAX_SCENE_DEFAULT_DEPTH;
       assert_true(wide.entries <= most);

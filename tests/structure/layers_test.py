@@ -66,8 +66,8 @@ class Part:
         beside = os.path.normpath(os.path.join(os.path.dirname(path), include))
         if os.path.exists(os.path.join(SOURCE, beside)):
             return beside.split(os.sep)[1]
-        if "/" in include:
-            return ""
+        if "/" in include:  # "layouts/records.h"
+            return first if os.path.exists(os.path.join(SOURCE, self.name, include)) else ""
         return next(iter(self.headers.get(include, ())), None)
 
     def check(self, files):

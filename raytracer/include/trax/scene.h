@@ -204,41 +204,10 @@ struct trax_scene {
   uint32_t instance_count, mesh_count;
 };
 
-/* A layout of nodes. All but that of eight children are pairs of two boxes of six planes each and two references. */
-struct trax_node_format {
-  const char *name;     /* of trax-scene --nodes */
-  uint32_t bytes;       /* of a node */
-  uint32_t children;    /* at most */
-  bool quantised;       /* boxes are in cells of the scene's grid */
-  uint32_t plane_bytes; /* 4: binary32; 2: a number on the scene's grid; 1: in the node's frame */
-};
-extern const struct trax_node_format trax_node_formats[TRAX_NODE_LAYOUTS];
-
-/* The offsets in a node of pairs of a child's box, and of its reference. */
-static inline uint32_t trax_node_pair(const struct trax_node_format *format, uint32_t child) {
-  return child / 2 * (12 * format->plane_bytes + 2 * (uint32_t)sizeof(trax_scene_ref));
-}
-static inline uint32_t trax_node_box(const struct trax_node_format *format, uint32_t child) {
-  return trax_node_pair(format, child) + child % 2 * 6 * format->plane_bytes;
-}
-static inline uint32_t trax_node_child(const struct trax_node_format *format, uint32_t child) {
-  return trax_node_pair(format, child) + 12 * format->plane_bytes + child % 2 * (uint32_t)sizeof(trax_scene_ref);
-}
-
 struct trax_scene_grid trax_scene_grid_of(const float bounds_min[3], const float bounds_max[3]);
 
-/* A node in a common form for all layouts. Boxes are exact, because binary64 represents the planes of grids; those of
-   frames are rounded into the box. */
-struct trax_node_children {
-  uint32_t count;
-  trax_scene_ref child[TRAX_NODE_MOST_CHILDREN];
-  double min[TRAX_NODE_MOST_CHILDREN][3], max[TRAX_NODE_MOST_CHILDREN][3];
-  double cell[3]; /* the distance of planes; 0: they are anywhere */
-};
-void trax_node_read(struct trax_node_children *children, const struct trax_scene *scene, uint32_t number);
-
 struct trax_build_options {
-  enum trax_node_layout nodes;
+  uint32_t nodes;       /* layouts/records.h */
   bool choose_nodes;    /* quantised nodes instead, if the scene's grid is fine enough for nearly all boxes */
   unsigned max_leaf;    /* triangles in a leaf, 1 to TRAX_SCENE_MAX_LEAF; 0: default */
   unsigned max_depth;   /* inner nodes on a path, at most TRAX_SCENE_MAX_DEPTH; 0: default */

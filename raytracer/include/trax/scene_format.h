@@ -38,16 +38,6 @@ typedef uint32_t trax_scene_ref;
 #define TRAX_SCENE_REF_COUNT(ref) ((ref) & 7u)   /* triangles of a leaf; 0: an inner node */
 #define TRAX_SCENE_REF_OFFSET(ref) ((ref) & ~7u) /* bytes from the start of the file */
 
-/* The records of the section of nodes. */
-enum trax_node_layout {
-  TRAX_NODES_BINARY = 0,    /* struct trax_bvh_node: two boxes in binary32 */
-  TRAX_NODES_QUANTISED = 1, /* struct trax_quantised_node: two boxes on the scene's grid, two nodes in a line */
-  TRAX_NODES_WIDE4 = 2,     /* struct trax_wide4_node: up to four boxes in binary32 */
-  TRAX_NODES_WIDE4_QUANTISED =
-      3,                /* struct trax_wide4_quantised_node: up to four boxes on the scene's grid, in a line */
-  TRAX_NODES_WIDE8 = 4, /* struct trax_wide8_node: up to eight boxes in a frame of the node's */
-  TRAX_NODE_LAYOUTS = 5
-};
 #define TRAX_NODE_MOST_CHILDREN 8u
 
 /* The grid of quantised nodes: along each axis 2^16 planes at equal distances. The first plane is at bounds_min, and
@@ -90,7 +80,7 @@ struct trax_scene_header {
   float bounds_max[3];
   uint32_t base; /* 0: references are offsets, as in every file. Otherwise they are addresses in the device's memory,
                     which has the scene at this one (render/device_scene.c) */
-  uint32_t node_layout; /* enum trax_node_layout */
+  uint32_t node_layout; /* layouts/records.h */
   struct trax_scene_section sections[TRAX_SCENE_SECTIONS];
 };
 
@@ -139,55 +129,6 @@ struct trax_scene_mesh {
   uint32_t depth;                          /* most inner nodes from the root to a leaf */
   float bounds_min[3], bounds_max[3];
   uint32_t reserved[5]; /* zero */
-};
-
-/* box[c] bounds every triangle below child[c] exactly: the least and the greatest of its vertices' coordinates, never
-   rounded outwards. The traversal allows for the rounding of a ray's own arithmetic. */
-struct trax_bvh_node {
-  struct {
-    float min[3], max[3];
-  } box[2];
-  trax_scene_ref child[2]; /* never 0 */
-  uint32_t reserved[2];    /* zero */
-};
-
-/* The same boxes as numbers of planes: the smallest boxes on the grid that contain them. Aligned to 32 bytes. */
-struct trax_quantised_node {
-  struct {
-    uint16_t min[3], max[3];
-  } box[2];
-  trax_scene_ref child[2]; /* never 0 */
-};
-
-/* Two binary nodes, one behind the other. Children that are not there follow the others; their reference is 0, and
-   their box is that of all children inside out. */
-struct trax_wide4_node {
-  struct {
-    struct {
-      float min[3], max[3];
-    } box[2];
-    trax_scene_ref child[2];
-  } pair[2];
-  uint32_t reserved[4]; /* zero */
-};
-
-struct trax_wide4_quantised_node {
-  struct trax_quantised_node pair[2];
-};
-
-/* The node of Ylitie, Karras and Laine ("Efficient incoherent ray traversal on GPUs through compressed wide BVHs", HPG
-   2017). Plane q of an axis is at origin + q * 2^(scale - 149), with the least scale that has room for all children. A
-   child is in one of eight slots. Rays with a positive direction along the axis of bit b of a slot's number visit the
-   slots without that bit first. Children that are nodes follow one another in the file in the order of slots, and so
-   do the triangles of all leaves, before those of the nodes. Aligned to 16 bytes. */
-struct trax_wide8_node {
-  float origin[3]; /* the least corner of all children */
-  uint8_t scale[3];
-  uint8_t reserved;
-  trax_scene_ref first_node, first_triangle; /* without a count; 0: no child needs it */
-  uint8_t meta[8]; /* a leaf: triangles + 8 * place of its first, counted from first_triangle; a node: 8 * its number
-                      from 1; 0: no child, whose planes are 255 to 0 */
-  uint8_t min[3][8], max[3][8];
 };
 
 struct trax_triangle {
@@ -257,11 +198,6 @@ TRAX_SCENE_ASSERT_SIZE(struct trax_scene_header, 192);
 TRAX_SCENE_ASSERT_SIZE(struct trax_scene_more, 64);
 TRAX_SCENE_ASSERT_SIZE(struct trax_instance, 128);
 TRAX_SCENE_ASSERT_SIZE(struct trax_scene_mesh, 64);
-TRAX_SCENE_ASSERT_SIZE(struct trax_bvh_node, 64);
-TRAX_SCENE_ASSERT_SIZE(struct trax_quantised_node, 32);
-TRAX_SCENE_ASSERT_SIZE(struct trax_wide4_node, 128);
-TRAX_SCENE_ASSERT_SIZE(struct trax_wide4_quantised_node, 64);
-TRAX_SCENE_ASSERT_SIZE(struct trax_wide8_node, 80);
 TRAX_SCENE_ASSERT_SIZE(struct trax_triangle, 40);
 TRAX_SCENE_ASSERT_SIZE(struct trax_triangle_normals, sizeof(struct trax_triangle));
 TRAX_SCENE_ASSERT_SIZE(struct trax_triangle_uvs, sizeof(struct trax_triangle));

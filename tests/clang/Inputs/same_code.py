@@ -15,7 +15,8 @@ differing = []
 for source, level in COMPILATIONS:
     for name, flags in (("without", []), ("with", ["-g"])):
         subprocess.run([clang, "--target=trax", level, *flags, "-w", "-I", tree / "raytracer/device", "-I",
-                        tree / "raytracer/include", "-c", tree / source, "-o", folder / f"{name}.o"], check=True)
+                        tree / "raytracer/include", "-I", tree / "raytracer", "-c", tree / source, "-o",
+                        folder / f"{name}.o"], check=True)
     done = subprocess.run([objdump, "-d", folder / "without.o", folder / "with.o"], capture_output=True, text=True,
                           check=True)
     without, listing = done.stdout.split(f"{folder}/with.o:", 1)

@@ -1,19 +1,16 @@
-/* Nodes of up to eight children with planes of 8 bits (struct trax_wide8_node): a ray in a node's frame.
-   traverse_wide8.h has the traversal.
+#include "../numbers.h"
 
-   As on the scene's grid (nodes_quantised.h), the bits of a plane's number are used as a subnormal float. The factor
+/* Planes are numbers of 8 bits in a frame of the node's own.
+
+   As on the scene's grid (quantised/planes.h), the bits of a plane's number are used as a subnormal float. The factor
    has 2^149 by the frame's scale. Distances are in units of 2^72, because cells are larger than the grid's. */
-#ifndef TRAX_DEVICE_NODES_WIDE8_H
-#define TRAX_DEVICE_NODES_WIDE8_H
-
-#include "nodes_quantised.h"
-
-#define FRAME_EXPONENT 72
+enum { wide8_unit = 72 };
 
 #define IN_WIDE8(member) ((int)__builtin_offsetof(struct trax_wide8_node, member))
 
-static inline void prepare_for_frames(struct box_ray *box, struct vector origin, struct vector inverse,
-                                      struct vector margin) {
+static inline void wide8_prepare(struct box_ray *box, struct vector origin, struct vector inverse, struct vector margin,
+                                 const struct trax_ray_grid *grid) {
+  (void)grid;
   box->inverse = times(0x1p-72f, inverse);
   box->near_origin = plus(origin, margin);
   box->far_origin = minus(origin, margin);
@@ -40,5 +37,3 @@ static inline __attribute__((always_inline)) struct box_ray ray_in_frame(const s
 static inline int32_t wide8_plane(const char *plane, float origin, float inverse) {
   return float_bits(times_plane(*(const uint8_t *)plane, inverse) - origin);
 }
-
-#endif

@@ -1,9 +1,9 @@
-/* Nodes of up to four children: pairs, one behind the other as two binary nodes are, so that one copy of the test of a
-   pair goes through both. traverse.h includes this file. */
-#ifndef TRAX_DEVICE_NODES_WIDE4_H
-#define TRAX_DEVICE_NODES_WIDE4_H
+#include "../pairs.h"
 
-#include "boxes.h"
+/* Nodes of up to four children: pairs, one behind the other as two binary nodes are, so that one copy of the test of a
+   pair goes through both. The nearest child is on the stack, too, for a moment. */
+enum { wide4_by_sign = 0, wide4_more_entries = 1, wide4_traces = 0 };
+#define wide4_trace(...) false
 
 /* Among those above `bottom`, of which the last is entered first; of equals the first put there is the last. */
 static inline __attribute__((always_inline)) void
@@ -19,10 +19,12 @@ stack_insert(const struct stack_entry *bottom, struct stack_entry **top, trax_sc
   *at = (struct stack_entry){reference, enter};
 }
 
-/* Puts the children of a wide node that the ray enters on the stack, the nearest last. To keep that one in a register
-   takes more cycles. */
-static inline __attribute__((always_inline)) void
-visit_wide4_node(uint32_t layout, const char *node, const struct ray *ray, int32_t limit, struct stack_entry **top) {
+/* Puts the children of a wide node that the ray enters on the stack, the nearest last, and lets that one be taken from
+   there. To keep it in a register takes more cycles. */
+static inline __attribute__((always_inline)) bool wide4_visit(uint32_t layout, const char *node, const struct ray *ray,
+                                                              int32_t limit, trax_scene_ref *next,
+                                                              struct stack_entry **top) {
+  (void)next;
   const int second_box = second_box_of(layout), children = children_of(layout);
   const struct stack_entry *bottom = *top;
   const char *pair = node;
@@ -34,12 +36,10 @@ visit_wide4_node(uint32_t layout, const char *node, const struct ray *ray, int32
         continue;
       const trax_scene_ref reference = load_word(pair + children + 4 * child);
       if (reference == 0)
-        return;
+        return false;
       stack_insert(bottom, top, reference, enter);
     }
     if (pair != node)
-      return;
+      return false;
   }
 }
-
-#endif

@@ -2,11 +2,9 @@
    on GPUs through compressed wide BVHs", HPG 2017). All children of a node are tested at once, from the slot that the
    ray reaches last to the first. What is left of a node is an entry of the stack, so that there is one for each level
    at most. Instead of a mask of slots, whose first bit this machine cannot find in one instruction, an entry has their
-   numbers, four bits each. traverse.h includes this file. */
-#ifndef TRAX_DEVICE_TRAVERSE_WIDE8_H
-#define TRAX_DEVICE_TRAVERSE_WIDE8_H
-
-#include "boxes.h"
+   numbers, four bits each. */
+enum { wide8_by_sign = 1, wide8_more_entries = 0, wide8_traces = 1 };
+#define wide8_visit(...) false
 
 struct slots {
   const char *node;
@@ -37,7 +35,7 @@ static inline __attribute__((always_inline)) uint32_t entered_slots(const char *
   return list;
 }
 
-static inline __attribute__((always_inline)) bool trace_wide8(const char *scene, trax_scene_ref root,
+static inline __attribute__((always_inline)) bool wide8_trace(const char *scene, trax_scene_ref root,
                                                               const struct ray *ray, bool any, struct hit *hit) {
   struct slots stack[TRAX_TREE_DEPTH + 1], *top = stack, at = {NULL, 0};
   const uint32_t last = last_slot(ray);
@@ -81,5 +79,3 @@ static inline __attribute__((always_inline)) bool trace_wide8(const char *scene,
                                ((meta >> 3) - 1) * (uint32_t)sizeof(struct trax_wide8_node));
   }
 }
-
-#endif

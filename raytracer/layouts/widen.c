@@ -1,15 +1,17 @@
 /* Wide nodes from a binary tree: of a node's children the one with the largest surface gives way to its own two, until
    there are as many as the layout has room for (Wald, Benthin and Boulos, "Getting rid of packets", 2008). */
-#include "internal.h"
+#include "layouts.h"
 
 #include <stdlib.h>
 
-enum { NONE = UINT32_MAX, MOST_WIDE8_TRIANGLES = 32 /* of a node's leaves: places have five bits */ };
+enum { NONE = UINT32_MAX };
 
 struct widening {
   struct scene_wide *wide;
   const struct scene_tree *tree;
   enum trax_node_layout layout;
+  const struct trax_node_format *format;
+  bool arranged;           /* nodes decide on the places of their children */
   struct scene_box *boxes; /* of each node of the tree */
   uint32_t *heights;       /* inner nodes from each to a leaf */
   uint32_t *room;          /* entries of the stack that each wide node may use, by its first node of the tree */
@@ -38,10 +40,10 @@ static bool fits(const struct widening *w, const uint32_t *children, uint32_t co
   uint32_t triangles = 0;
   for (uint32_t i = 0; i < count; i++) {
     triangles += w->tree->nodes[children[i]].triangle_count;
-    if (w->layout != TRAX_NODES_WIDE8 && count - 1 + w->heights[children[i]] > room)
+    if (!w->arranged && count - 1 + w->heights[children[i]] > room)
       return false;
   }
-  return w->layout != TRAX_NODES_WIDE8 || triangles <= MOST_WIDE8_TRIANGLES;
+  return !w->arranged || triangles <= w->format->code->most_triangles;
 }
 
 /* Puts the children of a child in its place. */
@@ -52,43 +54,8 @@ static void open_child(uint32_t *out, const uint32_t *children, uint32_t count, 
       out[at++] = i == place ? tree->nodes[children[i]].child[k] : children[i];
 }
 
-/* Slots in the order of rays: a child is in the slot along whose diagonal it lies farthest, the clearest cases first.
- */
-static void choose_slots(struct scene_wide_node *node, const struct widening *w, uint32_t parent) {
-  const struct scene_wide_node old = *node;
-  bool taken[TRAX_NODE_MOST_CHILDREN] = {false};
-  uint32_t child_of[TRAX_NODE_MOST_CHILDREN];
-  bool placed[TRAX_NODE_MOST_CHILDREN] = {false};
-  const struct scene_box *whole = &w->boxes[parent];
-  for (uint32_t round = 0; round < old.count; round++) {
-    uint32_t best_slot = NONE, best_child = 0;
-    double best = 0;
-    for (uint32_t i = 0; i < old.count; i++)
-      for (uint32_t slot = 0; slot < TRAX_NODE_MOST_CHILDREN; slot++) {
-        if (placed[i] || taken[slot])
-          continue;
-        const struct scene_box *box = &w->boxes[old.child[i]];
-        double along = 0;
-        for (int axis = 0; axis < 3; axis++) {
-          const double away = (double)box->min[axis] - whole->min[axis] + ((double)box->max[axis] - whole->max[axis]);
-          along += slot >> axis & 1 ? away : -away;
-        }
-        if (best_slot == (uint32_t)NONE || along > best)
-          best = along, best_slot = slot, best_child = i;
-      }
-    taken[best_slot] = placed[best_child] = true;
-    child_of[best_slot] = old.child[best_child];
-  }
-  node->count = 0;
-  for (uint32_t slot = 0; slot < TRAX_NODE_MOST_CHILDREN; slot++)
-    if (taken[slot]) {
-      node->slot[node->count] = (uint8_t)slot;
-      node->child[node->count++] = child_of[slot];
-    }
-}
-
 static void widen_node(struct widening *w, uint32_t index) {
-  const uint32_t most = trax_node_formats[w->layout].children, room = w->room[index];
+  const uint32_t most = w->format->children, room = w->room[index];
   struct scene_wide *wide = w->wide;
   struct scene_wide_node *node = &wide->nodes[wide->number[index] = wide->count++];
   *node = (struct scene_wide_node){.count = 1, .child = {index}};
@@ -109,10 +76,10 @@ static void widen_node(struct widening *w, uint32_t index) {
     const struct scene_wide_node old = *node;
     open_child(node->child, old.child, node->count++, best, w->tree);
   }
-  if (w->layout == TRAX_NODES_WIDE8)
-    choose_slots(node, w, index);
+  if (w->arranged)
+    w->format->code->arrange(node, w->boxes, &w->boxes[index]);
   for (uint32_t i = 0; i < node->count; i++)
-    w->room[node->child[i]] = w->layout == TRAX_NODES_WIDE8 ? 1 : room - (node->count - 1);
+    w->room[node->child[i]] = w->arranged ? 1 : room - (node->count - 1);
 }
 
 /* Positions and the order of leaves where the layout decides them: children that are nodes follow one another, and
@@ -146,19 +113,20 @@ static void widen_all(struct widening *w) {
     w->room[i] = 0, wide->number[i] = NONE;
   w->room[0] = tree->max_depth < TRAX_SCENE_DEFAULT_DEPTH ? TRAX_SCENE_DEFAULT_DEPTH : tree->max_depth;
   for (uint32_t i = 0; i < tree->node_count; i++)
-    if (w->room[i] && (is_inner(tree, i) || (i == 0 && w->layout == TRAX_NODES_WIDE8)))
+    if (w->room[i] && (is_inner(tree, i) || (i == 0 && w->arranged)))
       widen_node(w, i);
   if (wide->count)
     count_entries(wide, w, 0, 0);
-  if (w->layout == TRAX_NODES_WIDE8) {
+  if (w->arranged) {
     uint32_t next_node = 1, next_leaf = 0;
     wide->position[0] = 0;
     place_below(wide, tree, 0, &next_node, &next_leaf);
   }
 }
 
-trax_status scene_widen(struct scene_wide *wide, const struct scene_tree *tree, enum trax_node_layout layout,
-                        trax_error *error) {
+bool scene_widen(struct scene_wide *wide, const struct scene_tree *tree, enum trax_node_layout layout) {
+  const struct trax_node_format *format = &trax_node_formats[layout];
+  const bool arranged = format->code->arrange != NULL;
   const size_t count = tree->node_count + (size_t)1;
   *wide = (struct scene_wide){.nodes = malloc((tree->inner_count + (size_t)1) * sizeof *wide->nodes),
                               .number = malloc(count * sizeof *wide->number),
@@ -167,22 +135,23 @@ trax_status scene_widen(struct scene_wide *wide, const struct scene_tree *tree, 
   struct widening w = {wide,
                        tree,
                        layout,
+                       format,
+                       arranged,
                        malloc(count * sizeof *w.boxes),
                        malloc(count * sizeof *w.heights),
                        malloc(count * sizeof *w.room)};
-  if (layout == TRAX_NODES_WIDE8)
+  if (arranged)
     wide->leaves = malloc(count * sizeof *wide->leaves);
   const bool room = wide->nodes && wide->number && wide->position && wide->by_position && w.boxes && w.heights &&
-                    w.room && (layout != TRAX_NODES_WIDE8 || wide->leaves);
+                    w.room && (!arranged || wide->leaves);
   if (room)
     widen_all(&w);
   free(w.boxes);
   free(w.heights);
   free(w.room);
-  if (room)
-    return TRAX_OK;
-  scene_wide_release(wide);
-  return scene_out_of_memory(error, "BVH");
+  if (!room)
+    scene_wide_release(wide);
+  return room;
 }
 
 void scene_place_wide(struct scene_wide *wide, const struct scene_tree *tree, const uint32_t *position) {

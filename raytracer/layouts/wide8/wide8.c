@@ -1,10 +1,11 @@
-/* Nodes of up to eight children in a frame of their own (struct trax_wide8_node): writer and reader. */
-#include "internal.h"
+/* Nodes of up to eight children in a frame of their own (struct trax_wide8_node). */
+#include "../layouts.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { SCALE_BIAS = 149, LAST_PLANE = 255 };
+enum { SCALE_BIAS = 149, LAST_PLANE = 255, MOST_TRIANGLES = 32 /* of a node's leaves: places have five bits */ };
+#define NONE UINT32_MAX
 
 /* A plane is the exact sum value + rest, so that comparisons with coordinates are exact. */
 struct plane {
@@ -67,7 +68,9 @@ static uint8_t scale_for(float origin, float coordinate) {
   return (uint8_t)scale;
 }
 
-void scene_wide8_write(struct trax_wide8_node *out, const struct scene_node *node) {
+static void write_node(void *bytes, const struct trax_node_format *format, const struct scene_node *node) {
+  struct trax_wide8_node *out = bytes;
+  (void)format;
   const struct scene_box whole = scene_box_around(node); /* of exact boxes */
   *out = (struct trax_wide8_node){.reserved = 0};
   memset(out->min, LAST_PLANE, sizeof out->min);
@@ -94,7 +97,9 @@ void scene_wide8_write(struct trax_wide8_node *out, const struct scene_node *nod
   }
 }
 
-void scene_wide8_read(struct scene_node *node, const struct trax_wide8_node *in) {
+static void read_node(struct scene_node *node, const struct trax_node_format *format, const void *bytes) {
+  const struct trax_wide8_node *in = bytes;
+  (void)format;
   node->count = 0;
   for (uint32_t slot = 0; slot < TRAX_NODE_MOST_CHILDREN; slot++) {
     const uint32_t meta = in->meta[slot], count = TRAX_SCENE_REF_COUNT(meta), place = meta >> 3;
@@ -111,7 +116,8 @@ void scene_wide8_read(struct scene_node *node, const struct trax_wide8_node *in)
   }
 }
 
-struct scene_box scene_wide8_box(const struct trax_wide8_node *node, const struct scene_box *box) {
+static struct scene_box box_in_frame(const void *bytes, const struct scene_box *box) {
+  const struct trax_wide8_node *node = bytes;
   struct scene_box stored;
   for (int axis = 0; axis < 3; axis++) {
     const float origin = node->origin[axis];
@@ -125,6 +131,61 @@ struct scene_box scene_wide8_box(const struct trax_wide8_node *node, const struc
   return stored;
 }
 
-double scene_wide8_cell(const struct trax_wide8_node *node, int axis) {
-  return ldexp(1, node->scale[axis] - SCALE_BIAS);
+static double cell_of(const void *bytes, int axis) {
+  return ldexp(1, ((const struct trax_wide8_node *)bytes)->scale[axis] - SCALE_BIAS);
 }
+
+/* Scales of frames that are out of range belong to nodes smaller than any margin. */
+static void scale_frame(void *bytes, const struct trax_node_format *format, int exponent) {
+  struct trax_wide8_node *node = bytes;
+  (void)format;
+  trax_scale_floats(node->origin, 3, exponent);
+  for (int axis = 0; axis < 3; axis++) {
+    const int scale = node->scale[axis] + exponent;
+    node->scale[axis] = (uint8_t)(scale < 0 ? 0 : scale > 255 ? 255 : scale);
+  }
+}
+
+/* References to what is there; nothing reads the others. */
+static void relocate(void *bytes, const struct trax_node_format *format, uint32_t address) {
+  struct trax_wide8_node *node = bytes;
+  (void)format;
+  node->first_node += address, node->first_triangle += address;
+}
+
+/* Slots in the order of rays: a child is in the slot along whose diagonal it lies farthest, the clearest cases first.
+ */
+static void choose_slots(struct scene_wide_node *node, const struct scene_box *boxes, const struct scene_box *whole) {
+  const struct scene_wide_node old = *node;
+  bool taken[TRAX_NODE_MOST_CHILDREN] = {false};
+  uint32_t child_of[TRAX_NODE_MOST_CHILDREN];
+  bool placed[TRAX_NODE_MOST_CHILDREN] = {false};
+  for (uint32_t round = 0; round < old.count; round++) {
+    uint32_t best_slot = NONE, best_child = 0;
+    double best = 0;
+    for (uint32_t i = 0; i < old.count; i++)
+      for (uint32_t slot = 0; slot < TRAX_NODE_MOST_CHILDREN; slot++) {
+        if (placed[i] || taken[slot])
+          continue;
+        const struct scene_box *box = &boxes[old.child[i]];
+        double along = 0;
+        for (int axis = 0; axis < 3; axis++) {
+          const double away = (double)box->min[axis] - whole->min[axis] + ((double)box->max[axis] - whole->max[axis]);
+          along += slot >> axis & 1 ? away : -away;
+        }
+        if (best_slot == NONE || along > best)
+          best = along, best_slot = slot, best_child = i;
+      }
+    taken[best_slot] = placed[best_child] = true;
+    child_of[best_slot] = old.child[best_child];
+  }
+  node->count = 0;
+  for (uint32_t slot = 0; slot < TRAX_NODE_MOST_CHILDREN; slot++)
+    if (taken[slot]) {
+      node->slot[node->count] = (uint8_t)slot;
+      node->child[node->count++] = child_of[slot];
+    }
+}
+
+const struct node_code wide8_code = {write_node,   read_node, scale_frame,  relocate,
+                                     box_in_frame, cell_of,   choose_slots, MOST_TRIANGLES};
