@@ -11,7 +11,7 @@
 
 /* --- the file --- */
 
-/* Limits of quantised nodes (device/nodes_quantised.h); those of binary ones are wider. */
+/* Limits of quantised nodes (layouts/quantised/planes.h); those of binary ones are wider. */
 #define LEAST_DIRECTION 0x1p-2f
 #define GREATEST_DIRECTION 0x1p10f
 
