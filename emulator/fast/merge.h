@@ -16,7 +16,7 @@ struct trax_merge_order {
   uint64_t begin;               /* the epoch's first cycle */
   uint64_t *cycles;             /* [words]: masks of the epoch's cycles with entries that are not done */
   uint64_t *tms;                /* [64 * words], behind them: for each cycle a mask of the TMs with entries */
-  size_t words, word, capacity; /* word: the first one that may have one */
+  size_t words, word, capacity; /* word: the first one that may have such a cycle */
 };
 
 struct trax_merge {
@@ -38,8 +38,8 @@ struct trax_merge {
 bool trax_merge_create(struct trax_merge *merge, struct trax_chip *chip);
 void trax_merge_destroy(struct trax_merge *merge);
 
-/* Starts the transfers of the cycles from t to `until` that do not depend on the requests of the epoch to come. Returns
- * the first cycle whose transfers may depend on these requests. */
+/* Starts the transfers of the cycles from t to `until` that do not depend on the requests of the epoch to come.
+   Returns the first cycle whose transfers may depend on these requests. */
 uint64_t trax_merge_begin(struct trax_merge *merge, uint64_t t, uint64_t until);
 /* Gives a TM an empty store buffer; takes it from the TM after its cycles. To be called by the TM's thread. */
 void trax_merge_give(struct trax_merge *merge, struct trax_tm *tm);
