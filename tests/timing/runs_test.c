@@ -287,6 +287,21 @@ static void a_store_that_faults(void **state) {
   expect_as_reference(&config, program, sizeof program / 4);
 }
 
+/* The only TP has stored ahead when the run stops. */
+static void a_stop_behind_stores(void **state) {
+  (void)state;
+  const struct trax_config config = bench_near(1, 1);
+  const uint32_t program[] = {U(LUI, 1, 1),   U(RDSR, 2, TRAX_SR_CYCLE), I(ADDI, 3, 3, 1),
+                              S(SW, 3, 1, 0), I(ADDI, 1, 1, 4),          J(0, -12)};
+  for (uint64_t cycles = 20; cycles < 60; cycles += 3) {
+    struct run reference = run_alone(&config, program, 6, "reference", cycles, 1),
+               run = run_alone(&config, program, 6, getenv("TRAX_ENGINE"), cycles, 1);
+    expect_same(&reference, &run);
+    end(&reference);
+    end(&run);
+  }
+}
+
 /* A burst that has stored a byte does not load its word, from a block that has been written before. */
 static void a_byte_before_its_word(void **state) {
   (void)state;
@@ -318,6 +333,7 @@ int main(void) {
       cmocka_unit_test(every_value_once),
       cmocka_unit_test(latencies_of_one_tp),
       cmocka_unit_test(a_store_that_faults),
+      cmocka_unit_test(a_stop_behind_stores),
       cmocka_unit_test(a_byte_before_its_word),
       cmocka_unit_test(a_bank_after_one_was_awake),
       cmocka_unit_test(exit_statuses),

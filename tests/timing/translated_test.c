@@ -139,6 +139,22 @@ static void test_load_in_the_place_of_a_store(void **state) {
   assert_int_equal(at_issue[0], at_issue[1]);
 }
 
+/* Many bursts with stores to local memory follow each other. */
+static void test_local_stores(void **state) {
+  const struct trax_config config = bench_near(1, 2);
+  const uint32_t words[] = {I(ADDI, 31, 0, 200), I(ADDI, 5, 0, -256), S(SW, 31, 5, 0), S(SW, 31, 5, 4),
+                            S(SW, 31, 5, 8),     I(LW, 6, 5, 4),      R(ADD, 7, 7, 6), I(ADDI, 31, 31, -1),
+                            B(BNE, 31, 0, -24),  U(LUI, 1, 1),        S(SW, 7, 1, 0),  HALT};
+  const trax_run_options reference = {.engine = "reference"}, translated = {.engine = bursts.translated};
+  struct run a = run_with(&config, words, sizeof words / 4, &reference),
+             b = run_with(&config, words, sizeof words / 4, &translated);
+  (void)state;
+  assert_int_equal(a.bench.status, TRAX_OK);
+  expect_same(&a, &b);
+  end(&a);
+  end(&b);
+}
+
 struct trax_template *mutable_templates(unsigned op), *mutable_burst_templates(unsigned op); /* mutable_templates.c */
 
 static bool is_slow(unsigned op) {
@@ -263,6 +279,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test_prestate(test_equal, both[0]),
                                      cmocka_unit_test(test_large_sequences),
                                      cmocka_unit_test(test_far_jumps),
+                                     cmocka_unit_test(test_local_stores),
                                      cmocka_unit_test(test_load_in_the_place_of_a_store),
                                      cmocka_unit_test_prestate(test_mutants, both[0]),
                                      cmocka_unit_test_prestate(test_equal, both[1]),
