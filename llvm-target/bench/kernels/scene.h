@@ -3,8 +3,8 @@
 #define TRAX_BENCH_SCENE_H
 
 #include "../bench.h"
+#include "layouts/records.h"
 #include "trax/render_params.h"
-#include "trax/scene_format.h"
 
 /* The parameters of raytracer/device/run.h for this scene: twelve levels, binary nodes, a whole stack. */
 #define TRAX_TREE_DEPTH 12
