@@ -111,8 +111,8 @@ class Riscv:
 
     def add_sources(self, sources):
         """Compiles them with the flags that the runtime is compiled with."""
-        command = [*self.compiler, "-std=c17", "-O2", "-ffreestanding", "-fno-builtin", "-fno-math-errno",
-                   "-ffunction-sections", LIBRARY_SQRT, f"-I{ROOT / 'isa/include'}"]
+        command = [*self.compiler, "-std=c17", "-D_DEFAULT_SOURCE", "-O2", "-ffreestanding", "-fno-builtin",
+                   "-fno-math-errno", "-ffunction-sections", LIBRARY_SQRT, f"-I{ROOT / 'isa/include'}"]
         with self.growing:
             for source in sources:
                 made = self.work / f"{self.name}-{source.parent.name}-{source.stem}.o"

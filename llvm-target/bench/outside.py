@@ -76,8 +76,8 @@ class OutsideRiscv(Riscv):
         for part in ("builtins", "heap", "math", "string", *small):
             for source in sorted((ROOT / "runtime" / part).glob("*.c")):
                 objects.append(self.work / f"outside-{part}-{source.stem}.o")
-                run([*self.compiler, "-std=c17", "-O2", *(["-Os"] if part in small else []), "-ffreestanding",
-                     "-fno-builtin",
+                run([*self.compiler, "-std=c17", "-D_DEFAULT_SOURCE", "-O2", *(["-Os"] if part in small else []),
+                     "-ffreestanding", "-fno-builtin",
                      "-fno-math-errno", "-ffunction-sections", f"-I{ROOT / 'isa/include'}",
                      f"-I{self.build / 'isa/include'}", "-c", source,
                      "-o", objects[-1]])
