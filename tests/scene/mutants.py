@@ -15,7 +15,7 @@ SOURCE = ROOT / "raytracer/scene"
 TREES = ("scene-builder-test", "scene-scene-test", "scene-layout-test")
 READERS = ("scene-material-test", "scene-import-test")
 TESTS = {"bvh.c": TREES, "clip.c": TREES, "rank.c": TREES, "ply_values.c": READERS[1:],
-         "ply_reader.c": READERS[1:], "nodes.c": TREES, "splits.c": TREES,
+         "ply_reader.c": READERS[1:], "../layouts/grid.c": TREES, "splits.c": TREES,
          "reinsert.c": TREES, "reinsert.h": TREES, "reinsert_search.c": TREES, "sah.c": TREES, "sah_spatial.c": TREES,
          "texture.c": READERS[:1],
          "gltf_reader.c": READERS,
@@ -56,7 +56,7 @@ MUTANTS = [
      "power = (int64_t)whole - (int64_t)count - 1;"),
     ("plain-index", "ply_reader.c", "if (list[i] >= reader->vertex_count || ", "if ("),
     ("plain-big-endian", "ply_reader.c", "bool plain = reader->format == little_endian &&", "bool plain ="),
-    ("cell-above", "nodes.c", "(float)(whole + (whole < place))", "(float)whole"),
+    ("cell-above", "../layouts/grid.c", "(float)(whole + (whole < place))", "(float)whole"),
     ("large-subtrees-unbounded", "bvh.c", "    bound_large(&all, 0);\n", ""),
     ("changes-unseen", "reinsert.c", "return any & 1;", "return false;"),
     ("stale-visits-above", "reinsert_search.c", "changed ? above->visits : node->visits", "node->visits"),
@@ -116,7 +116,8 @@ MUTANTS = [
 
 def noticed(folder, build, mutant):
     """The tests that fail."""
-    programs = relinked(folder, build, "raytracer/scene/CMakeFiles/traxscene.dir", SOURCE / mutant.file,
+    target = f"raytracer/scene/CMakeFiles/traxscene.dir/{mutant.file.replace('..', '__')}"
+    programs = relinked(folder, build, str(pathlib.Path(target).parent), (SOURCE / mutant.file).resolve(),
                         mutant.changed(SOURCE), TESTS[mutant.file])
     return [said for program in programs if (said := failure(SECONDS, program))]
 
