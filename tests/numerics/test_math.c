@@ -21,7 +21,7 @@ long rt_lroundf(float);
 long rt_lrintf(float);
 long long rt_llroundf(float);
 long long rt_llrintf(float);
-float rt_nexttowardf(float, double); /* the TP's long double */
+float rt_nexttowardf(float, long double); /* the host's, since it is compiled for the host */
 float rt_remquof(float, float, int *);
 void rt_sincosf(float, float *, float *);
 double rt_sqrt(double);
