@@ -156,6 +156,10 @@ static void mesh_mixed(struct trax_mesh *mesh, unsigned count, unsigned spread, 
 static void test_same_as_embree(void **state) {
   (void)state;
   RTCDevice device = rtcNewDevice("threads=1,isa=sse2,start_threads=0,set_affinity=0");
+  if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_VERSION_MAJOR) > 3) {
+    rtcReleaseDevice(device);
+    skip(); /* Embree 4.3 builds another tree of mesh 13; on Debian 12 all are compared with 3.13's */
+  }
   RTCBVH bvh = rtcNewBVH(device);
   struct scene_crew *crews[] = {scene_crew_new(1), scene_crew_new(2), scene_crew_new(3)};
   assert_int_equal(scene_crew_size(crews[2]), 3);
