@@ -41,12 +41,6 @@ struct trax_pool {
   pthread_cond_t wakened, finished;
 };
 
-static void pause_briefly(void) {
-#if defined(__x86_64__) || defined(__i386__)
-  __builtin_ia32_pause();
-#endif
-}
-
 static void wake_owner(struct trax_pool *pool) {
   pthread_mutex_lock(&pool->mutex);
   pthread_cond_signal(&pool->finished);
@@ -79,7 +73,7 @@ static unsigned wait_for_round(struct trax_pool *pool, unsigned last) {
     if (i == STEAL_AFTER)
       take_items(pool, 0, pool->items, last);
     if (i < SPINS)
-      pause_briefly();
+      trax_pause();
     else
       sched_yield();
   }
@@ -120,7 +114,7 @@ void trax_pool_run(struct trax_pool *pool) {
     if (i == STEAL_AFTER)
       take_items(pool, 0, pool->items, round);
     if (i < SPINS)
-      pause_briefly();
+      trax_pause();
     else
       sched_yield();
   }

@@ -33,6 +33,13 @@ static trax_status create(struct trax_run *run, trax_error *error) {
 
 /* --- cycles --- */
 
+/* Simulates the memory's step of cycle t. */
+static void serve(struct trax_chip *chip, uint64_t t) {
+  trax_memory_cycle(&chip->memory, chip->tm, t);
+  for (uint32_t i = 0; i < chip->tms; i++)
+    trax_tm_receive(&chip->tm[i], 0);
+}
+
 /* Simulates cycle *t of all TMs and of the memory; *t receives the next cycle in which anything can happen. */
 static enum trax_advance run_cycle(struct trax_chip *chip, uint64_t *t) {
   bool faulted = false;
@@ -41,7 +48,7 @@ static enum trax_advance run_cycle(struct trax_chip *chip, uint64_t *t) {
       chip->variant->cycle(&chip->tm[i], *t);
       faulted |= chip->tm[i].fault.kind != TRAX_FAULT_NONE;
     }
-  trax_memory_cycle(&chip->memory, chip->tm, &chip->machine->space, *t);
+  serve(chip, *t);
   if (faulted) {
     ++*t;
     return TRAX_HAS_FAULTED;
@@ -76,7 +83,7 @@ static bool run_ahead(struct trax_chip *chip, uint64_t *t, uint64_t until) {
   if (!trax_fast_run_alone(tm, *t, transfer < until ? transfer : until))
     return false;
   if (tm->stats->memory_requests != requests)
-    trax_memory_cycle(&chip->memory, chip->tm, &chip->machine->space, tm->now);
+    serve(chip, tm->now);
   *t = tm->now + 1;
   return true;
 }

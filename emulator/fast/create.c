@@ -162,7 +162,7 @@ trax_status trax_chip_create(struct trax_run *run, const struct trax_fast_varian
       trax_fast_program_create(&chip->program, chip->text, &machine->config,
                                machine->observer && machine->observer->stretch, error))
     return TRAX_ERROR;
-  chip->memory.before_increment = trax_fast_increment_outside;
+  chip->memory.increment = trax_fast_increment_outside;
   chip->memory.context = chip;
   chip->transfers.to = machine->transfers;
   if (machine->transfers)

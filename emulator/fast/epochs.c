@@ -2,7 +2,7 @@
 
 #include "fast/chip.h"
 #include "fast/merge.h"
-#include "fast/time/variant.h"
+#include "fast/quanta.h"
 #include "trax/pool.h"
 
 #include <assert.h>
@@ -11,9 +11,9 @@
 
 enum {
   LEAST_EPOCH = 16,             /* cycles; shorter epochs do not pay */
+  LONGEST_EPOCH = 16,           /* in latencies: from a request to its completion, the least one */
   LEAST_SPAN = 512,             /* cycles up to a stop, for which a snapshot pays in observed runs, which stop often */
-  MOST_EARLY = 1024,            /* limit of the cycles whose transfers are started before an epoch */
-  FIRST_SNAPSHOT_INTERVAL = 64, /* in shortest epochs; doubles with each snapshot until a roll back */
+  FIRST_SNAPSHOT_INTERVAL = 64, /* in latencies; doubles with each snapshot until a roll back */
   LONGEST_SNAPSHOT_INTERVAL = 1024,
   MOST_UNDO = 1 << 18,     /* words written to global memory after which a snapshot is taken in any case */
   FIRST_PAUSE = 64,        /* cycles simulated one by one after the epoch of a conflict; doubles with each */
@@ -29,14 +29,15 @@ struct piece {
 struct trax_epochs {
   struct trax_chip *chip;
   struct trax_pool *pool;
-  enum { RUN, SAVE, RESTORE } work; /* of the pool's items: TMs, or as many parts of the snapshot */
+  enum { RUN, CHECK, SAVE, RESTORE } work; /* of the pool's items: TMs, or as many parts of the snapshot */
   struct trax_merge merge;
-  uint64_t length; /* cycles of the shortest epoch: from a request to its completion */
-  uint64_t begin, end; /* of the current epoch */
+  struct trax_quanta *quanta;
+  uint64_t latency; /* cycles */
 
   bool has_snapshot;
   uint64_t snapshot_cycle;
-  unsigned snapshot_interval; /* in shortest epochs */
+  unsigned snapshot_interval; /* in latencies */
+  unsigned epoch_length;      /* in latencies; 1 after a roll back, and doubles with each snapshot */
   struct piece *pieces;       /* [piece_count]: none is within another one */
   size_t piece_count, snapshot_size;
   uint8_t *snapshot; /* what is in the pieces; merge has the words of global memory */
@@ -91,18 +92,12 @@ static void copy_pieces(const struct trax_epochs *epochs, uint32_t part) {
   }
 }
 
-static void run_tm(struct trax_epochs *epochs, struct trax_tm *tm) {
-  if (tm->next_cycle < epochs->begin)
-    tm->next_cycle = epochs->begin;
-  trax_merge_give(&epochs->merge, tm);
-  epochs->chip->variant->run_epoch(tm, epochs->end);
-  trax_merge_take(&epochs->merge, tm);
-}
-
 static void work(void *context, uint32_t item) {
   struct trax_epochs *epochs = context;
   if (epochs->work == RUN)
-    run_tm(epochs, &epochs->chip->tm[item]);
+    trax_quanta_run(epochs->quanta, item);
+  else if (epochs->work == CHECK)
+    trax_merge_check(&epochs->merge, &epochs->chip->tm[item]);
   else
     copy_pieces(epochs, item);
 }
@@ -131,11 +126,14 @@ void trax_epochs_commit(struct trax_epochs *epochs) {
 
 /* --- epochs --- */
 
-/* Begins an epoch from cycle t on, whose end is the first cycle in which a request of it may complete. */
-static void begin_epoch(struct trax_epochs *epochs, uint64_t t, uint64_t until) {
-  epochs->begin = t;
-  const uint64_t served = trax_merge_begin(&epochs->merge, t, until - t < MOST_EARLY ? until : t + MOST_EARLY);
-  epochs->end = until - t < served - t + epochs->length ? until : served + epochs->length;
+/* Simulates an epoch. False: it must be given up. */
+static bool run_epoch(struct trax_epochs *epochs, uint64_t t, uint64_t end) {
+  trax_merge_begin(&epochs->merge);
+  trax_quanta_begin(epochs->quanta, t, end);
+  run_pool(epochs, RUN);
+  if (!trax_merge_has_failed(&epochs->merge))
+    run_pool(epochs, CHECK);
+  return trax_merge_end(&epochs->merge);
 }
 
 bool trax_epochs_advance(struct trax_epochs *epochs, uint64_t *t, uint64_t until) {
@@ -155,17 +153,18 @@ bool trax_epochs_advance(struct trax_epochs *epochs, uint64_t *t, uint64_t until
     take_snapshot(epochs, *t);
   } else if (chip->machine->observer && chip->machine->observer->full) {
     take_snapshot(epochs, *t);
-  } else if (*t - epochs->snapshot_cycle >= epochs->snapshot_interval * epochs->length ||
+  } else if (*t - epochs->snapshot_cycle >= epochs->snapshot_interval * epochs->latency ||
              epochs->merge.undo_count >= MOST_UNDO) {
     if (epochs->snapshot_interval < LONGEST_SNAPSHOT_INTERVAL)
       epochs->snapshot_interval *= 2;
+    if (epochs->epoch_length < LONGEST_EPOCH)
+      epochs->epoch_length *= 2;
     epochs->pause = FIRST_PAUSE;
     take_snapshot(epochs, *t);
   }
-  begin_epoch(epochs, *t, until);
-  run_pool(epochs, RUN);
-  if (trax_merge_end(&epochs->merge, *t, epochs->end)) {
-    *t = epochs->end;
+  const uint64_t longest = epochs->epoch_length * epochs->latency, end = until - *t < longest ? until : *t + longest;
+  if (run_epoch(epochs, *t, end)) {
+    *t = end;
     return true;
   }
   run_pool(epochs, RESTORE);
@@ -173,8 +172,9 @@ bool trax_epochs_advance(struct trax_epochs *epochs, uint64_t *t, uint64_t until
   if (chip->machine->observer)
     chip->machine->observer->go_back(chip->machine->observer->context);
   chip->conflicts++;
+  epochs->epoch_length = 1;   /* another conflict is then less likely, and costs less */
   epochs->cautious_from = *t; /* the epochs up to this one will give the same results again */
-  epochs->cautious_until = epochs->end + epochs->pause;
+  epochs->cautious_until = end + epochs->pause;
   if (epochs->pause < LONGEST_PAUSE)
     epochs->pause *= 2;
   *t = epochs->snapshot_cycle;
@@ -182,21 +182,24 @@ bool trax_epochs_advance(struct trax_epochs *epochs, uint64_t *t, uint64_t until
 }
 
 trax_status trax_epochs_create(struct trax_chip *chip, unsigned threads, trax_error *error) {
-  const uint64_t length = trax_memory_least_latency(&chip->machine->config);
+  const uint64_t latency = trax_memory_least_latency(&chip->machine->config);
   if (!threads)
     threads = trax_host_processors();
   if (threads > chip->tms)
     threads = chip->tms;
-  if (chip->tms < 2 || length < LEAST_EPOCH || (chip->machine->observer && !chip->machine->observer->go_back))
+  if (chip->tms < 2 || latency < LEAST_EPOCH || (chip->machine->observer && !chip->machine->observer->go_back))
     return TRAX_OK;
   struct trax_epochs *epochs = chip->epochs = calloc(1, sizeof *epochs);
   if (!epochs)
     return trax_fail(error, "out of memory");
   epochs->chip = chip;
-  epochs->length = length;
+  epochs->latency = latency;
+  epochs->epoch_length = LONGEST_EPOCH;
   epochs->pause = FIRST_PAUSE;
   if (!trax_merge_create(&epochs->merge, chip) || !list_pieces(epochs) ||
       !(epochs->snapshot = malloc(epochs->snapshot_size)))
+    return trax_fail(error, "out of memory");
+  if (!(epochs->quanta = trax_quanta_create(chip, &epochs->merge, threads, latency)))
     return trax_fail(error, "out of memory");
   epochs->pool = trax_pool_create(threads, chip->tms, work, epochs, error);
   return epochs->pool ? TRAX_OK : TRAX_ERROR;
@@ -206,6 +209,7 @@ void trax_epochs_destroy(struct trax_epochs *epochs) {
   if (!epochs)
     return;
   trax_pool_destroy(epochs->pool);
+  trax_quanta_destroy(epochs->quanta);
   trax_merge_destroy(&epochs->merge);
   free(epochs->pieces);
   free(epochs->snapshot);

@@ -10,13 +10,10 @@
 /* The writer of a word: a TM, or one of these. */
 enum { BY_SEVERAL = TRAX_MAX_TMS, BY_CONTROLLER };
 
-/* Of a writer: the controller incremented the word before the epoch, for a cycle of the epoch. */
-#define EARLY ((uint32_t)1 << 16)
-
 enum { SLOTS = 4096 };
 
 struct trax_merge_undo {
-  uint32_t address, word;
+  uint32_t address, word; /* word: as written in the current epoch; when this is over, as it was before */
   uint32_t writer;
   uint32_t next; /* the number of the next one in its slot, + 1; 0: there is none */
 };
@@ -35,30 +32,18 @@ void trax_merge_destroy(struct trax_merge *merge) {
   free(merge->slots);
   free(merge->order.cycles);
   free(merge->printed);
+  free(merge->increments);
   free(merge->undo);
 }
 
-void trax_merge_keep(struct trax_merge *merge) {
-  if (merge->printed_count)
-    trax_host_print(merge->chip->machine, merge->chip->tm->output, merge->printed, merge->printed_count);
-  merge->printed_count = merge->undo_count = merge->epoch_undo = 0;
-  trax_transfer_log_release(&merge->chip->transfers);
-}
-
-void trax_merge_roll_back(struct trax_merge *merge) {
-  trax_transfer_log_discard(&merge->chip->transfers);
-  merge->printed_count = 0;
-  while (merge->undo_count) {
-    const struct trax_merge_undo *undo = &merge->undo[--merge->undo_count];
-    memcpy(merge->chip->machine->space.bytes + undo->address, &undo->word, sizeof undo->word);
-  }
-  merge->epoch_undo = 0;
+static void give_up(struct trax_merge *merge) {
+  __atomic_store_n(&merge->failed, true, __ATOMIC_RELAXED);
 }
 
 /* --- order --- */
 
-/* Orders the entries of the cycles from `begin` to `end`. False: out of memory. */
-static bool order_all(struct trax_merge *merge, uint64_t begin, uint64_t end) {
+/* Orders the entries of a quantum, the cycles from `begin` to `end`. False: out of memory. */
+static bool order_all(struct trax_merge *merge, unsigned side, uint64_t begin, uint64_t end) {
   struct trax_merge_order *const order = &merge->order;
   order->begin = begin;
   order->word = 0;
@@ -68,7 +53,7 @@ static bool order_all(struct trax_merge *merge, uint64_t begin, uint64_t end) {
   order->tms = order->cycles + order->words;
   memset(order->cycles, 0, 65 * order->words * sizeof *order->cycles);
   for (uint32_t tm = 0; tm < merge->chip->tms; tm++) {
-    const struct trax_store_buffer *buffer = &merge->buffers[tm];
+    const struct trax_store_buffer_side *buffer = &merge->buffers[tm].sides[side];
     for (size_t i = 0; i < buffer->count; i++) {
       const uint64_t at = buffer->entries[i].cycle - begin;
       order->cycles[at / 64] |= (uint64_t)1 << at % 64;
@@ -101,26 +86,19 @@ static inline struct trax_merge_undo *find_written(const struct trax_merge *merg
   return NULL;
 }
 
-/* Begins the write set of the next epoch. */
-static void forget_writers(struct trax_merge *merge) {
-  for (; merge->epoch_undo < merge->undo_count; merge->epoch_undo++)
-    *slot_of(merge, merge->undo[merge->epoch_undo].address) = 0;
-}
-
-/* Records that a TM or the controller is about to write the word at `address`. NULL: out of memory. */
-static const struct trax_merge_undo *record_writer(struct trax_merge *merge, uint32_t address, uint32_t tm) {
-  const uint32_t early = merge->early ? EARLY : 0;
+/* Returns the word of the write set, which a TM or the controller is about to write. NULL: out of memory. */
+static struct trax_merge_undo *record_writer(struct trax_merge *merge, uint32_t address, uint32_t tm) {
   struct trax_merge_undo *undo = find_written(merge, address &= ~3u);
   if (undo) {
-    if ((undo->writer & ~EARLY) != tm)
-      undo->writer = BY_SEVERAL | (undo->writer & EARLY);
+    if (undo->writer != tm)
+      undo->writer = BY_SEVERAL;
     return undo;
   }
   if (!trax_grow((void **)&merge->undo, merge->undo_count, &merge->undo_capacity, sizeof *merge->undo))
     return NULL;
   uint32_t *const slot = slot_of(merge, address);
   undo = &merge->undo[merge->undo_count++];
-  *undo = (struct trax_merge_undo){.address = address, .writer = tm | early, .next = *slot};
+  *undo = (struct trax_merge_undo){.address = address, .writer = tm, .next = *slot};
   memcpy(&undo->word, merge->chip->machine->space.bytes + address, sizeof undo->word);
   *slot = (uint32_t)merge->undo_count;
   return undo;
@@ -133,38 +111,39 @@ static bool hold_character(struct trax_merge *merge, uint32_t character) {
   return true;
 }
 
-/* Performs a store of a TM or holds its output, or prepares the block of an atomic increment. False: the epoch must be
-   given up, since a burst has loaded from the block, or the controller has incremented the word too early, or memory
-   ran out. */
-static bool perform(struct trax_merge *merge, const struct trax_store_buffer_entry *write, uint32_t tm) {
-  struct trax_chip *chip = merge->chip;
-  if (write->bytes == TRAX_PRINT)
-    return hold_character(merge, write->value);
-  if (trax_fast_is_loaded(&chip->blocks, write->address))
+/* Records the issue of an atomic increment. */
+static bool record_issue(struct trax_merge *merge, uint32_t address) {
+  if (!trax_grow((void **)&merge->increments, merge->increment_count, &merge->increment_capacity,
+                 sizeof *merge->increments))
     return false;
-  const bool increments = write->bytes == TRAX_INCREMENT;
-  trax_fast_set_written(&chip->blocks, write->address, increments ? TRAX_BLOCK_SHARED : TRAX_BLOCK_WRITTEN);
-  if (increments)
-    return true;
-  const struct trax_merge_undo *written = record_writer(merge, write->address, tm);
-  if (!written || written->writer & EARLY)
-    return false;
-  memcpy(merge->chip->machine->space.bytes + write->address, &write->value, write->bytes);
+  merge->increments[merge->increment_count++] = address;
   return true;
 }
 
+/* Performs a store of a TM or holds its output. False: out of memory. */
+static bool perform(struct trax_merge *merge, const struct trax_store_buffer_entry *write, uint32_t tm) {
+  if (write->bytes == TRAX_PRINT)
+    return hold_character(merge, write->value);
+  if (write->bytes == TRAX_INCREMENT)
+    return record_issue(merge, write->address);
+  struct trax_merge_undo *const written = record_writer(merge, write->address, tm);
+  if (written)
+    memcpy((uint8_t *)&written->word + (write->address & 3), &write->value, write->bytes);
+  return written;
+}
+
 /* Submits the requests of cycle t and performs its stores, up to which all are done. */
-static bool take_cycle(struct trax_merge *merge, uint64_t t) {
+static bool take_cycle(struct trax_merge *merge, unsigned side, uint64_t t) {
   struct trax_merge_order *const order = &merge->order;
   order->cycles[order->word] &= order->cycles[order->word] - 1;
   for (uint64_t rest = order->tms[t - order->begin]; rest; rest &= rest - 1) {
     const uint32_t tm = trax_first(rest);
-    struct trax_store_buffer *buffer = &merge->buffers[tm];
+    struct trax_store_buffer_side *buffer = &merge->buffers[tm].sides[side];
     const struct trax_store_buffer_entry *entry = &buffer->entries[buffer->done],
                                          *end = buffer->entries + buffer->count;
     do
       if (entry->bytes == TRAX_REQUEST)
-        trax_memory_submit(&merge->chip->memory, &merge->chip->tm[tm]);
+        trax_memory_submit(&merge->chip->memory, &merge->chip->tm[tm], entry->address);
       else if (!perform(merge, entry, tm))
         return false;
     while (++entry < end && entry->cycle == t);
@@ -173,77 +152,135 @@ static bool take_cycle(struct trax_merge *merge, uint64_t t) {
   return true;
 }
 
-/* Called before the controller increments a word. Before an epoch, bursts that have loaded the word roll back, since
-   their issued steps may be executed again in the epoch. */
-static void record_increment(void *context, uint32_t address) {
+/* An increment by the controller. */
+static uint32_t increment(void *context, uint32_t address) {
   struct trax_merge *merge = context;
-  for (uint32_t i = 0; merge->early && i < merge->chip->tms; i++)
-    trax_fast_roll_back_readers(&merge->chip->tm[i], address);
-  merge->failed |= !record_writer(merge, address, BY_CONTROLLER);
+  struct trax_merge_undo *const written = record_writer(merge, address, BY_CONTROLLER);
+  if (!written)
+    give_up(merge);
+  return written ? written->word++ : 0;
 }
 
-/* Performs step 3 of the cycles from t to `end`, except for the transfers that trax_merge_begin has started. */
-static bool run_controller(struct trax_merge *merge, uint64_t t, uint64_t end) {
+void trax_merge_quantum(struct trax_merge *merge, unsigned side, uint64_t t, uint64_t end) {
   struct trax_chip *chip = merge->chip;
   struct trax_memory *memory = &chip->memory;
   uint64_t next = trax_memory_has_waiting(memory) ? t : TRAX_NEVER, next_entry;
-  while ((t = next < (next_entry = next_of(&merge->order)) ? next : next_entry) < end) {
-    if (t == next_entry && !take_cycle(merge, t))
-      return false;
-    trax_memory_cycle(memory, chip->tm, &chip->machine->space, t);
+  memory->side = side;
+  bool good = order_all(merge, side, t, end);
+  while (good && (t = next < (next_entry = next_of(&merge->order)) ? next : next_entry) < end) {
+    good = t != next_entry || take_cycle(merge, side, t);
+    trax_memory_cycle(memory, chip->tm, t);
     next = trax_memory_next_cycle(memory, t);
   }
-  return true;
+  if (!good)
+    give_up(merge);
 }
 
-/* Whether a TM has read a word that another TM or the controller wrote in this epoch. The blocks of such words are
-   SHARED from then on. */
-static bool has_conflict(const struct trax_merge *merge) {
-  bool found = false;
-  for (uint32_t i = 0; merge->epoch_undo < merge->undo_count && i < merge->chip->tms; i++) {
-    const struct trax_store_buffer *buffer = &merge->buffers[i];
-    for (size_t j = 0; j < buffer->read_count; j++) {
-      const struct trax_merge_undo *written = find_written(merge, buffer->reads[j]);
-      if (written && (written->writer & ~EARLY) != i) {
-        trax_fast_set_written(&merge->chip->blocks, buffer->reads[j], TRAX_BLOCK_SHARED);
-        found = true;
-      }
-    }
-  }
-  return found;
-}
+/* --- a TM --- */
 
-/* --- an epoch --- */
-
-uint64_t trax_merge_begin(struct trax_merge *merge, uint64_t t, uint64_t until) {
-  struct trax_chip *chip = merge->chip;
-  merge->failed = false;
-  chip->memory.before_increment = record_increment;
-  chip->memory.context = merge;
-  merge->early = true;
-  const uint64_t served = trax_memory_serve_early(&chip->memory, chip->tm, chip->tms, &chip->machine->space, t, until);
-  merge->early = false;
-  return served;
-}
-
-void trax_merge_give(struct trax_merge *merge, struct trax_tm *tm) {
+void trax_merge_begin_tm(struct trax_merge *merge, struct trax_tm *tm) {
   tm->buffer = &merge->buffers[tm->number];
   trax_store_buffer_begin(tm->buffer);
+  trax_fast_record_readers(tm);
+}
+
+void trax_merge_give(struct trax_merge *merge, struct trax_tm *tm, unsigned side) {
+  tm->buffer = &merge->buffers[tm->number];
+  trax_store_buffer_begin_quantum(tm->buffer, side);
+  trax_tm_receive(tm, side);
 }
 
 void trax_merge_take(struct trax_merge *merge, struct trax_tm *tm) {
   if (tm->buffer->stop || tm->fault.kind)
-    __atomic_store_n(&merge->failed, true, __ATOMIC_RELAXED);
+    give_up(merge);
   tm->buffer = NULL;
 }
 
-bool trax_merge_end(struct trax_merge *merge, uint64_t t, uint64_t end) {
+void trax_merge_check(struct trax_merge *merge, struct trax_tm *tm) {
+  struct trax_chip *const chip = merge->chip;
+  const struct trax_store_buffer *const buffer = &merge->buffers[tm->number];
+  const size_t count = merge->undo_count - merge->epoch_undo;
+  for (unsigned side = 0; side < TRAX_SIDES; side++)
+    trax_tm_receive(tm, side);
+  for (size_t i = 0; count && i < buffer->read_count; i++) {
+    const struct trax_merge_undo *written = find_written(merge, buffer->reads[i]);
+    if (written && written->writer != tm->number) {
+      trax_fast_share(&chip->blocks, buffer->reads[i]);
+      give_up(merge);
+    }
+  }
+  const size_t end = merge->epoch_undo + count * (tm->number + 1) / chip->tms;
+  for (size_t i = merge->epoch_undo + count * tm->number / chip->tms; i < end; i++)
+    if (merge->undo[i].writer != BY_CONTROLLER && trax_fast_is_loaded(&chip->blocks, merge->undo[i].address))
+      give_up(merge);
+}
+
+/* --- an epoch --- */
+
+void trax_merge_begin(struct trax_merge *merge) {
+  struct trax_chip *chip = merge->chip;
+  merge->failed = false;
+  merge->increment_count = 0;
+  chip->memory.increment = increment;
+  chip->memory.context = merge;
+}
+
+/* The blocks of words whose increments were issued are SHARED from now on. False: a burst has loaded from one. */
+static bool share_incremented(struct trax_merge *merge) {
+  for (size_t i = 0; i < merge->increment_count; i++) {
+    if (trax_fast_is_loaded(&merge->chip->blocks, merge->increments[i]))
+      return false;
+    trax_fast_set_written(&merge->chip->blocks, merge->increments[i], TRAX_BLOCK_SHARED);
+  }
+  return true;
+}
+
+/* The words of the write set take effect. */
+static void write_all(struct trax_merge *merge) {
+  struct trax_chip *const chip = merge->chip;
+  for (; merge->epoch_undo < merge->undo_count; merge->epoch_undo++) {
+    struct trax_merge_undo *const undo = &merge->undo[merge->epoch_undo];
+    const uint32_t word = undo->word;
+    memcpy(&undo->word, chip->machine->space.bytes + undo->address, sizeof word);
+    memcpy(chip->machine->space.bytes + undo->address, &word, sizeof word);
+    trax_fast_set_written(&chip->blocks, undo->address, TRAX_BLOCK_WRITTEN);
+    *slot_of(merge, undo->address) = 0;
+  }
+}
+
+/* Forgets the write set. */
+static void forget_all(struct trax_merge *merge) {
+  while (merge->undo_count > merge->epoch_undo)
+    *slot_of(merge, merge->undo[--merge->undo_count].address) = 0;
+}
+
+bool trax_merge_end(struct trax_merge *merge) {
   struct trax_chip *chip = merge->chip;
   const bool goes_on = trax_chip_running(chip); /* the end of the run must be simulated cycle by cycle */
-  const bool good = !merge->failed && goes_on && order_all(merge, t, end) && run_controller(merge, t, end) &&
-                    !merge->failed && !has_conflict(merge);
-  forget_writers(merge);
-  chip->memory.before_increment = trax_fast_increment_outside;
+  const bool good = !merge->failed && goes_on && share_incremented(merge);
+  if (good)
+    write_all(merge);
+  else
+    forget_all(merge);
+  chip->memory.increment = trax_fast_increment_outside;
   chip->memory.context = chip;
+  chip->memory.side = 0;
   return good;
+}
+
+void trax_merge_keep(struct trax_merge *merge) {
+  if (merge->printed_count)
+    trax_host_print(merge->chip->machine, merge->chip->tm->output, merge->printed, merge->printed_count);
+  merge->printed_count = merge->undo_count = merge->epoch_undo = 0;
+  trax_transfer_log_release(&merge->chip->transfers);
+}
+
+void trax_merge_roll_back(struct trax_merge *merge) {
+  trax_transfer_log_discard(&merge->chip->transfers);
+  merge->printed_count = 0;
+  while (merge->undo_count) {
+    const struct trax_merge_undo *undo = &merge->undo[--merge->undo_count];
+    memcpy(merge->chip->machine->space.bytes + undo->address, &undo->word, sizeof undo->word);
+  }
+  merge->epoch_undo = 0;
 }

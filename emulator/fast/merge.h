@@ -1,5 +1,6 @@
-/* The end of an epoch: what is in the TMs' store buffers takes effect, in the order of cycles and TMs, while the memory
-   controller serves their requests cycle by cycle. */
+/* The merge of the TMs' store buffers in an epoch: the requests of a quantum come to the memory controller, in the
+   order of cycles and TMs, while TMs simulate the next quantum. So nothing here touches what they use: increments and
+   stores change the write set, whose words take effect at the end of the epoch. */
 #ifndef TRAX_FAST_MERGE_H
 #define TRAX_FAST_MERGE_H
 
@@ -11,10 +12,10 @@
 struct trax_chip;
 struct trax_tm;
 
-/* Entries of store buffers, in the order of their cycles; those of one cycle in the order of TMs, and of making. */
+/* Entries of a quantum, in the order of their cycles; those of one cycle in the order of TMs, and of making. */
 struct trax_merge_order {
-  uint64_t begin;               /* the epoch's first cycle */
-  uint64_t *cycles;             /* [words]: masks of the epoch's cycles with entries that are not done */
+  uint64_t begin;               /* the quantum's first cycle */
+  uint64_t *cycles;             /* [words]: masks of the quantum's cycles with entries that are not done */
   uint64_t *tms;                /* [64 * words], behind them: for each cycle a mask of the TMs with entries */
   size_t words, word, capacity; /* word: the first one that may have such a cycle */
 };
@@ -22,13 +23,14 @@ struct trax_merge_order {
 struct trax_merge {
   struct trax_chip *chip;
   struct trax_store_buffer *buffers; /* [tms] */
-  bool early;                        /* the controller now serves requests for cycles of the epoch to come */
   bool failed;                       /* the epoch must be given up */
   struct trax_merge_order order;
   char *printed; /* [printed_count]: characters printed since the snapshot */
   size_t printed_count, printed_capacity;
+  uint32_t *increments; /* [increment_count]: words whose increments were issued in the epoch, in blocks not SHARED */
+  size_t increment_count, increment_capacity;
   /* [undo_count]: words of global memory before they were written since the snapshot. Those from epoch_undo on are the
-     write set of the epoch: `slots` are a hash table of them. */
+     write set of the epoch, with the words as written: `slots` are a hash table of them. */
   struct trax_merge_undo *undo;
   size_t undo_count, undo_capacity, epoch_undo;
   uint32_t *slots;
@@ -38,14 +40,27 @@ struct trax_merge {
 bool trax_merge_create(struct trax_merge *merge, struct trax_chip *chip);
 void trax_merge_destroy(struct trax_merge *merge);
 
-/* Starts the transfers of the cycles from t to `until` that do not depend on the requests of the epoch to come.
-   Returns the first cycle whose transfers may depend on these requests. */
-uint64_t trax_merge_begin(struct trax_merge *merge, uint64_t t, uint64_t until);
-/* Gives a TM an empty store buffer; takes it from the TM after its cycles. To be called by the TM's thread. */
-void trax_merge_give(struct trax_merge *merge, struct trax_tm *tm);
+/* Begins an epoch. */
+void trax_merge_begin(struct trax_merge *merge);
+/* Whether the epoch must be given up, as far as is known. */
+static inline bool trax_merge_has_failed(const struct trax_merge *merge) {
+  return __atomic_load_n(&merge->failed, __ATOMIC_RELAXED);
+}
+
+/* To be called by the thread that simulates the TM: before its first quantum of an epoch; before each quantum; after
+ * it. */
+void trax_merge_begin_tm(struct trax_merge *merge, struct trax_tm *tm);
+void trax_merge_give(struct trax_merge *merge, struct trax_tm *tm, unsigned side);
 void trax_merge_take(struct trax_merge *merge, struct trax_tm *tm);
-/* Ends the epoch of the cycles from t to `end`. False: it must be given up. */
-bool trax_merge_end(struct trax_merge *merge, uint64_t t, uint64_t end);
+
+/* Serves the requests of a quantum, the cycles from t to `end`, and merges its stores. */
+void trax_merge_quantum(struct trax_merge *merge, unsigned side, uint64_t t, uint64_t end);
+
+/* After all quanta: prepares the TM for the next epoch, and looks for conflicts of its reads, and of part `tm->number`
+   of the write set with the read set of the run. Threads may do so for several TMs at the same time. */
+void trax_merge_check(struct trax_merge *merge, struct trax_tm *tm);
+/* Ends an epoch: its stores take effect. False: it must be given up. */
+bool trax_merge_end(struct trax_merge *merge);
 
 /* The chip does not go back any more beyond what has taken effect: prints, and tells of transfers. */
 void trax_merge_keep(struct trax_merge *merge);

@@ -6,15 +6,21 @@
 #include <string.h>
 
 void trax_store_buffer_destroy(struct trax_store_buffer *buffer) {
-  free(buffer->entries);
+  for (unsigned i = 0; i < TRAX_SIDES; i++)
+    free(buffer->sides[i].entries);
   free(buffer->reads);
   trax_map_free(&buffer->words);
 }
 
 void trax_store_buffer_begin(struct trax_store_buffer *buffer) {
-  buffer->count = buffer->done = buffer->read_count = 0;
+  buffer->read_count = 0;
   trax_map_empty(&buffer->words, sizeof(struct trax_store_buffer_word));
   buffer->stop = false;
+}
+
+void trax_store_buffer_begin_quantum(struct trax_store_buffer *buffer, unsigned side) {
+  buffer->side = &buffer->sides[side];
+  buffer->side->count = buffer->side->done = 0;
 }
 
 /* Makes room for one more element. False: out of memory; the epoch is then given up. */
@@ -25,8 +31,9 @@ static bool grow(struct trax_store_buffer *buffer, void **array, size_t count, s
 }
 
 void trax_store_buffer_record(struct trax_store_buffer *buffer, struct trax_store_buffer_entry entry) {
-  if (grow(buffer, (void **)&buffer->entries, buffer->count, &buffer->capacity, sizeof *buffer->entries))
-    buffer->entries[buffer->count++] = entry;
+  struct trax_store_buffer_side *const side = buffer->side;
+  if (grow(buffer, (void **)&side->entries, side->count, &side->capacity, sizeof *side->entries))
+    side->entries[side->count++] = entry;
 }
 
 void trax_store_buffer_read(struct trax_store_buffer *buffer, uint32_t address) {

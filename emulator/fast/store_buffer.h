@@ -1,8 +1,10 @@
 /* The store buffer of a TM in an epoch (fast/epochs.c): its stores, the addresses of its loads at issue, and the cycles
-   of its requests. At the end of the epoch the stores take effect, and the memory controller receives the requests. */
+   of its requests. The memory controller receives the requests at the end of each quantum; the stores take effect at
+   the end of the epoch. */
 #ifndef TRAX_FAST_STORE_BUFFER_H
 #define TRAX_FAST_STORE_BUFFER_H
 
+#include "fast/tm/queue.h"
 #include "machine/address_space.h"
 #include "trax/map.h"
 
@@ -17,7 +19,13 @@ struct trax_store_buffer_entry {
 enum {
   TRAX_INCREMENT = 0, /* by the controller, in a block that is not SHARED yet */
   TRAX_PRINT = 8,     /* a character of the output */
-  TRAX_REQUEST = 16   /* the next one in the memory queue */
+  TRAX_REQUEST = 16   /* in the memory queue, at the place `address` */
+};
+
+/* Of a quantum. */
+struct trax_store_buffer_side {
+  struct trax_store_buffer_entry *entries; /* [count], in the order of issue */
+  size_t count, capacity, done;            /* done: those that have been merged */
 };
 
 /* A word of global memory as the TM's own stores have changed it: `mask` has the bits that they wrote. */
@@ -27,8 +35,7 @@ struct trax_store_buffer_word {
 };
 
 struct trax_store_buffer {
-  struct trax_store_buffer_entry *entries; /* [count], in the order of issue */
-  size_t count, capacity, done;            /* done: those that have taken effect */
+  struct trax_store_buffer_side *side, sides[TRAX_SIDES]; /* side: of the quantum that the TM simulates */
   uint32_t *reads; /* [read_count]: the words that loads have read from blocks that are written; docs/fast-engine.md,
                       read set */
   size_t read_count, read_capacity;
@@ -37,8 +44,9 @@ struct trax_store_buffer {
 };
 
 void trax_store_buffer_destroy(struct trax_store_buffer *buffer);
-/* Empties the buffer for a new epoch. */
+/* Empties the buffer for a new epoch; the side for a new quantum. */
 void trax_store_buffer_begin(struct trax_store_buffer *buffer);
+void trax_store_buffer_begin_quantum(struct trax_store_buffer *buffer, unsigned side);
 
 /* Records that the TM has read a word. */
 void trax_store_buffer_read(struct trax_store_buffer *buffer, uint32_t address);

@@ -54,18 +54,17 @@ static void fast_controller(const struct transfers *transfers, uint32_t channels
   const struct trax_config config = config_of(transfers, channels);
   struct trax_memory memory;
   struct trax_memory_stats stats = {0};
-  struct trax_tm tm = {.next_cycle = TRAX_NEVER};
-  struct trax_space space = {0};
+  struct trax_tm tm = {0};
   assert_int_equal(trax_memory_create(&memory, &config, &stats, NULL), TRAX_OK);
   assert_true(trax_queue_create(&tm.queue, REQUESTS, trax_memory_keeps_order(&config)));
   for (unsigned i = 0; i < REQUESTS; i++) { /* all in channel 0 */
-    trax_queue_push(&tm.queue, (struct trax_request){.kind = TRAX_REQUEST_WRITE, .bytes = 64});
-    trax_memory_submit(&memory, &tm);
+    const struct trax_request request = {.kind = TRAX_REQUEST_WRITE, .bytes = 64};
+    trax_memory_submit(&memory, &tm, trax_queue_push(&tm.queue, request));
   }
   uint64_t t = transfers->begin;
   for (unsigned looks = 0; trax_memory_has_waiting(&memory); looks++) {
     assert_true(looks < REQUESTS);
-    trax_memory_cycle(&memory, &tm, &space, t);
+    trax_memory_cycle(&memory, &tm, t);
     t = trax_memory_next_cycle(&memory, t);
   }
   for (unsigned i = 0; i < REQUESTS; i++)

@@ -100,8 +100,7 @@ static void keep(const struct trax_chip *chip, struct moment *moment, uint64_t t
 static void compare(const struct trax_chip *chip, const struct moment *moment) {
   const uint8_t *from = moment->bytes;
   struct trax_memory memory = chip->memory;
-  memory.context =
-      ((const struct trax_memory *)(const void *)from)->context; /* that of before_increment, which is NULL */
+  memory.context = ((const struct trax_memory *)(const void *)from)->context; /* that of `increment`, which is NULL */
   if (memcmp(from, &memory, sizeof memory) != 0)
     fail_msg("cycle %llu: the memory controller differs", (unsigned long long)moment->t);
   from += sizeof chip->memory;

@@ -159,8 +159,14 @@ bool trax_fast_store(struct trax_tm *tm, unsigned number, unsigned load, unsigne
   return true;
 }
 
-void trax_fast_increment_outside(void *chip, uint32_t address) {
+uint32_t trax_fast_increment_outside(void *context, uint32_t address) {
+  struct trax_chip *chip = context;
+  uint32_t word;
   trax_fast_word_written(chip, address, TRAX_BLOCK_SHARED);
+  memcpy(&word, chip->machine->space.bytes + address, sizeof word);
+  const uint32_t incremented = word + 1;
+  memcpy(chip->machine->space.bytes + address, &incremented, sizeof incremented);
+  return word;
 }
 
 void trax_fast_range_written(void *context, uint32_t address, uint32_t bytes) {

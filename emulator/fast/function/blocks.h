@@ -18,7 +18,7 @@ struct trax_fast_blocks {
 };
 
 static inline bool trax_fast_is_loaded(const struct trax_fast_blocks *blocks, uint32_t address) {
-  return blocks->state[address >> TRAX_BLOCK_SHIFT] == TRAX_BLOCK_LOADED ||
+  return __atomic_load_n(&blocks->state[address >> TRAX_BLOCK_SHIFT], __ATOMIC_RELAXED) == TRAX_BLOCK_LOADED ||
          address - blocks->input < blocks->input_bytes;
 }
 
@@ -33,6 +33,12 @@ static inline void trax_fast_set_written(struct trax_fast_blocks *blocks, uint32
   *block = *block < state ? state : *block;
   if (address - blocks->input < blocks->input_bytes)
     blocks->input_bytes = 0;
+}
+
+/* Makes the block SHARED unless it is LOADED. Several threads may do so at the same time. */
+static inline void trax_fast_share(struct trax_fast_blocks *blocks, uint32_t address) {
+  if (!trax_fast_is_loaded(blocks, address))
+    __atomic_store_n(&blocks->state[address >> TRAX_BLOCK_SHIFT], TRAX_BLOCK_SHARED, __ATOMIC_RELAXED);
 }
 
 /* Returns the bit of a word in trax_tp.stored. */
@@ -53,9 +59,10 @@ void trax_fast_word_written(struct trax_chip *chip, uint32_t address, uint8_t st
 /* Performs store `load` of the TP's burst, whose step is issued in cycle t. False: all TPs must roll back for it, so
    that the store must execute at issue after this TP has rolled back. */
 bool trax_fast_store(struct trax_tm *tm, unsigned tp, unsigned load, unsigned bytes, uint64_t t);
-/* The same before an atomic increment of the memory controller; `chip` is a struct trax_chip. */
-void trax_fast_increment_outside(void *chip, uint32_t address);
-/* The same for a range, before a host call writes it. */
+/* An atomic increment of the memory controller outside epochs; `chip` is a struct trax_chip. Returns what the word was.
+ */
+uint32_t trax_fast_increment_outside(void *chip, uint32_t address);
+/* As trax_fast_word_written for a range, before a host call writes it. */
 void trax_fast_range_written(void *chip, uint32_t address, uint32_t bytes);
 /* Rolls back the TPs of a TM whose bursts have loaded the word from a WRITTEN block, before the issue of the load: in
    an epoch, before the TM stores to it. */

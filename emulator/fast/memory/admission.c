@@ -38,14 +38,13 @@ static trax_request_id take_admitted(struct trax_memory *memory, struct trax_tm 
 }
 
 /* Brings requests to the DRAM as long as it has places, and performs atomic increments. */
-static void admit(struct trax_memory *memory, struct trax_tm *tms, struct trax_space *space, unsigned number,
-                  uint64_t t) {
+static void admit(struct trax_memory *memory, struct trax_tm *tms, unsigned number, uint64_t t) {
   trax_request_id id;
   while ((id = take_admitted(memory, tms, number)) != TRAX_NO_REQUEST) {
     struct trax_request *request = trax_memory_request(memory, tms, id);
     if (request->kind == TRAX_REQUEST_ATOMIC) {
       trax_memory_finish(memory, tms, number, id,
-                         trax_memory_increment(memory, number, request, space, t + 1) + memory->latency);
+                         trax_memory_increment(memory, number, request, t + 1) + memory->latency);
       continue;
     }
     trax_memory_notify(memory, number, id, request, t);
@@ -53,13 +52,12 @@ static void admit(struct trax_memory *memory, struct trax_tm *tms, struct trax_s
   }
 }
 
-void trax_memory_serve_dram(struct trax_memory *memory, struct trax_tm *tms, struct trax_space *space, unsigned number,
-                            uint64_t t) {
+void trax_memory_serve_dram(struct trax_memory *memory, struct trax_tm *tms, unsigned number, uint64_t t) {
   struct trax_dram_served served;
-  admit(memory, tms, space, number, t);
+  admit(memory, tms, number, t);
   while (trax_dram_serve(memory->dram, number, t, &served)) {
     trax_memory_count(memory, number, trax_memory_request(memory, tms, served.id)->bytes);
     trax_memory_finish(memory, tms, number, served.id, served.over + memory->latency);
-    admit(memory, tms, space, number, t);
+    admit(memory, tms, number, t);
   }
 }

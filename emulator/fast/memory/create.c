@@ -101,8 +101,11 @@ static uint32_t import_rings(const struct trax_tm *tms, unsigned count, struct t
   uint32_t total = 0;
   waiting->tms = 0;
   for (unsigned i = 0; i < count; i++) {
-    total += tms[i].queue.count - tms[i].queue.started;
-    waiting->tms |= (uint64_t)(tms[i].queue.count != tms[i].queue.started) << i;
+    const struct trax_queue *queue = &tms[i].queue;
+    waiting->ring[i] =
+        (struct trax_ring){(queue->oldest + queue->started) % queue->depth, queue->count - queue->started};
+    total += waiting->ring[i].count;
+    waiting->tms |= (uint64_t)(waiting->ring[i].count > 0) << i;
   }
   return total;
 }

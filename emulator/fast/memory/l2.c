@@ -112,7 +112,7 @@ void trax_l2_set_arrival(struct trax_memory *memory, struct trax_tm *tms, unsign
   if (arrival < l2->next_arrival)
     l2->next_arrival = arrival;
   while (mshr->waiters.first != TRAX_NO_REQUEST)
-    trax_memory_complete(tms, trax_memory_take_first(memory, tms, &mshr->waiters), arrival + l2->latency);
+    trax_memory_complete(memory, tms, trax_memory_take_first(memory, tms, &mshr->waiters), arrival + l2->latency);
   trax_memory_append(memory, tms, &l2->arriving[channel], id);
 }
 
@@ -179,7 +179,7 @@ static void serve_bank(struct trax_memory *memory, struct trax_tm *tms, struct t
     if (mshr && mshr->arrival == TRAX_NEVER)
       trax_memory_append(memory, tms, &mshr->waiters, id);
     else
-      trax_memory_complete(tms, id, (mshr ? mshr->arrival : t) + l2->latency);
+      trax_memory_complete(memory, tms, id, (mshr ? mshr->arrival : t) + l2->latency);
   }
 }
 

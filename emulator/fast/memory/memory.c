@@ -59,17 +59,15 @@ void trax_memory_pass(struct trax_memory *memory, struct trax_tm *tms, trax_requ
   memory->waiting++;
 }
 
-void trax_memory_submit(struct trax_memory *memory, struct trax_tm *tm) {
-  struct trax_queue *queue = &tm->queue;
+void trax_memory_submit(struct trax_memory *memory, struct trax_tm *tm, uint32_t place) {
   if (memory->keeps_order) {
-    queue->submitted++;
+    memory->channel[0].waiting->ring[tm->number].count++;
     memory->channel[0].waiting->tms |= (uint64_t)1 << tm->number;
     memory->waiting++;
     return;
   }
-  const uint32_t place = queue->first_unsubmitted, address = queue->requests[place].address;
+  const uint32_t address = tm->queue.requests[place].address;
   struct trax_waiting *waiting = memory->l2 ? trax_l2_bank(memory->l2, address) : channel_of(memory, address)->waiting;
-  queue->first_unsubmitted = queue->requests[place].next;
   trax_memory_append(memory, tm - tm->number, &waiting->list[tm->number], tm->number << TRAX_REQUEST_BITS | place);
   waiting->tms |= (uint64_t)1 << tm->number;
   *(memory->l2 ? &memory->l2->waiting : &memory->waiting) += 1;
@@ -77,17 +75,10 @@ void trax_memory_submit(struct trax_memory *memory, struct trax_tm *tm) {
 
 /* --- transfers --- */
 
-static void increment(const struct trax_memory *memory, struct trax_request *request, struct trax_space *space) {
-  memory->before_increment(memory->context, request->address);
-  memcpy(&request->value, space->bytes + request->address, sizeof request->value);
-  const uint32_t incremented = request->value + 1;
-  memcpy(space->bytes + request->address, &incremented, sizeof incremented);
-}
-
 uint64_t trax_memory_increment(struct trax_memory *memory, unsigned number, struct trax_request *request,
-                               struct trax_space *space, uint64_t over) {
+                               uint64_t over) {
   struct trax_channel *channel = &memory->channel[number];
-  increment(memory, request, space);
+  request->value = memory->increment(memory->context, request->address);
   if (channel->unit_free_from > over)
     over = channel->unit_free_from;
   channel->unit_free_from = over + memory->unit_interval;
@@ -108,8 +99,7 @@ void trax_memory_count(const struct trax_memory *memory, unsigned number, uint32
 }
 
 /* Begins the transfer of the request's bytes. Returns ceil(f) + memory.latency_cycles. */
-static inline uint64_t transfer(struct trax_memory *memory, unsigned number, struct trax_request *request,
-                                struct trax_space *space, uint64_t t) {
+static inline uint64_t transfer(struct trax_memory *memory, unsigned number, struct trax_request *request, uint64_t t) {
   struct trax_channel *channel = &memory->channel[number];
   const bool busy = channel->free_from.cycle >= t;
   const uint64_t units = (busy ? channel->free_from.units : 0) + request->bytes * memory->units_per_byte;
@@ -118,17 +108,19 @@ static inline uint64_t transfer(struct trax_memory *memory, unsigned number, str
   trax_memory_count(memory, number, request->bytes);
   uint64_t over = ceiling(channel->free_from);
   if (request->kind == TRAX_REQUEST_ATOMIC)
-    over = trax_memory_increment(memory, number, request, space, over);
+    over = trax_memory_increment(memory, number, request, over);
   return over + memory->latency;
 }
 
-void trax_memory_complete(struct trax_tm *tms, trax_request_id id, uint64_t completion) {
-  struct trax_tm *tm = &tms[id >> TRAX_REQUEST_BITS];
+void trax_memory_complete(const struct trax_memory *memory, struct trax_tm *tms, trax_request_id id,
+                          uint64_t completion) {
+  struct trax_queue *const queue = &tms[id >> TRAX_REQUEST_BITS].queue;
+  struct trax_served *const served = &queue->served[memory->side];
   const uint32_t place = id & ((1u << TRAX_REQUEST_BITS) - 1);
-  tm->queue.requests[place].completion = completion;
-  trax_queue_start(&tm->queue, place);
-  if (completion < tm->next_cycle)
-    tm->next_cycle = completion;
+  queue->requests[place].completion = completion;
+  queue->requests[place].next = served->first;
+  served->first = place;
+  served->count++;
 }
 
 /* Whether the bus is free before the end of cycle t. */
@@ -144,7 +136,8 @@ void trax_memory_finish(struct trax_memory *memory, struct trax_tm *tms, unsigne
     return;
   }
   const bool atomic = trax_memory_request(memory, tms, id)->kind == TRAX_REQUEST_ATOMIC;
-  trax_memory_complete(tms, id, back + (memory->l2 ? memory->l2->latency : 0) + (atomic ? memory->atomic_latency : 0));
+  trax_memory_complete(memory, tms, id,
+                       back + (memory->l2 ? memory->l2->latency : 0) + (atomic ? memory->atomic_latency : 0));
 }
 
 static bool has_waiting(const struct trax_channel *channel) {
@@ -152,79 +145,54 @@ static bool has_waiting(const struct trax_channel *channel) {
 }
 
 /* A channel whose bus is free serves one of the requests that wait for it. */
-static void serve(struct trax_memory *memory, struct trax_tm *tms, struct trax_space *space, unsigned number,
-                  uint64_t t) {
+static void serve(struct trax_memory *memory, struct trax_tm *tms, unsigned number, uint64_t t) {
   struct trax_channel *channel = &memory->channel[number];
   struct trax_waiting *waiting = channel->waiting;
   const trax_request_id id = waiting ? trax_waiting_take(memory, tms, waiting, trax_waiting_arbitrate(waiting))
                                      : trax_memory_take_first(memory, tms, &channel->passed);
   struct trax_request *request = trax_memory_request(memory, tms, id);
   trax_memory_notify(memory, number, id, request, t);
-  trax_memory_finish(memory, tms, number, id, transfer(memory, number, request, space, t));
+  trax_memory_finish(memory, tms, number, id, transfer(memory, number, request, t));
 }
 
 /* The same if the TMs' queues are rings. */
-static inline void serve_ring(struct trax_memory *memory, struct trax_tm *tms, struct trax_space *space, uint64_t t) {
+static inline void serve_ring(struct trax_memory *memory, struct trax_tm *tms, uint64_t t) {
   struct trax_waiting *waiting = memory->channel[0].waiting;
-  struct trax_tm *tm = &tms[trax_waiting_arbitrate(waiting)];
-  struct trax_request *request = trax_queue_first_waiting(&tm->queue);
-  waiting->tms &= ~((uint64_t)(++tm->queue.started == tm->queue.submitted) << tm->number);
+  const unsigned number = trax_waiting_arbitrate(waiting);
+  struct trax_ring *const ring = &waiting->ring[number];
+  struct trax_queue *const queue = &tms[number].queue;
+  struct trax_request *request = &queue->requests[ring->oldest];
+  ring->oldest = ring->oldest + 1 < queue->depth ? ring->oldest + 1 : 0;
+  waiting->tms &= ~((uint64_t)(!--ring->count) << number);
   memory->waiting--;
-  trax_memory_notify(memory, 0, tm->number << TRAX_REQUEST_BITS, request, t);
-  request->completion = transfer(memory, 0, request, space, t);
-  if (request->completion < tm->next_cycle)
-    tm->next_cycle = request->completion;
+  trax_memory_notify(memory, 0, number << TRAX_REQUEST_BITS, request, t);
+  request->completion = transfer(memory, 0, request, t);
+  queue->served[memory->side].count++;
 }
 
 /* The same as long as requests wait and the bus is free. */
-static void serve_rings(struct trax_memory *memory, struct trax_tm *tms, struct trax_space *space, uint64_t t) {
+static void serve_rings(struct trax_memory *memory, struct trax_tm *tms, uint64_t t) {
   while (memory->waiting && is_free(&memory->channel[0], t))
-    serve_ring(memory, tms, space, t);
+    serve_ring(memory, tms, t);
 }
 
-static inline void serve_channel(struct trax_memory *memory, struct trax_tm *tms, struct trax_space *space,
-                                 unsigned number, uint64_t t) {
+static inline void serve_channel(struct trax_memory *memory, struct trax_tm *tms, unsigned number, uint64_t t) {
   while (has_waiting(&memory->channel[number]) && is_free(&memory->channel[number], t))
-    serve(memory, tms, space, number, t);
+    serve(memory, tms, number, t);
 }
 
-/* Whether a TM without a waiting request, which the arbiter would prefer to the next TM with one, may make a request by
-   cycle t. */
-static bool may_be_overtaken(const struct trax_memory *memory, const struct trax_tm *tms, unsigned count, uint64_t t) {
-  const struct trax_waiting *waiting = memory->channel[0].waiting;
-  const unsigned next = trax_arbiter_peek(waiting->arbiter, waiting->tms);
-  for (unsigned number = waiting->arbiter < count ? waiting->arbiter : 0; number != next;
-       number = number + 1 < count ? number + 1 : 0)
-    if (tms[number].next_cycle <= t)
-      return true;
-  return false;
-}
-
-uint64_t trax_memory_serve_early(struct trax_memory *memory, struct trax_tm *tms, unsigned count,
-                                 struct trax_space *space, uint64_t t, uint64_t end) {
-  while (memory->keeps_order) {
-    const uint64_t free_cycle = memory->channel[0].free_from.cycle; /* the bus frees during it */
-    if (free_cycle > t)
-      t = free_cycle;
-    if (t >= end || !memory->waiting || may_be_overtaken(memory, tms, count, t))
-      break;
-    serve_ring(memory, tms, space, t);
-  }
-  return t;
-}
-
-void trax_memory_cycle(struct trax_memory *memory, struct trax_tm *tms, struct trax_space *space, uint64_t t) {
+void trax_memory_cycle(struct trax_memory *memory, struct trax_tm *tms, uint64_t t) {
   if (memory->keeps_order) {
-    serve_rings(memory, tms, space, t);
+    serve_rings(memory, tms, t);
     return;
   }
   if (memory->l2 && memory->l2->waiting)
     trax_l2_cycle(memory, tms, t);
   for (unsigned i = 0; i < memory->channels && memory->waiting; i++)
     if (memory->dram)
-      trax_memory_serve_dram(memory, tms, space, i, t);
+      trax_memory_serve_dram(memory, tms, i, t);
     else
-      serve_channel(memory, tms, space, i, t);
+      serve_channel(memory, tms, i, t);
 }
 
 bool trax_memory_has_waiting(const struct trax_memory *memory) {

@@ -12,7 +12,6 @@
 #include "machine/stats.h"
 
 struct trax_tm;
-struct trax_space;
 struct trax_l2;
 
 /* Identifies a request in a list: TM << TRAX_REQUEST_BITS | place in the TM's queue. The requests of the second-level
@@ -36,7 +35,11 @@ static const struct trax_request_list trax_empty_list = {.first = TRAX_NO_REQUES
   X(S, struct trax_request_list, list, [TRAX_MAX_TMS])
 struct trax_waiting {
   TRAX_WAITING_STATE(TRAX_FIELD, )
-  uint64_t tms; /* mask of the TMs whose list is not empty */
+  uint64_t tms; /* mask of the TMs with waiting requests */
+  /* If the TMs' queues are rings: the place of the oldest request that waits, and how many do. */
+  struct trax_ring {
+    uint32_t oldest, count;
+  } ring[TRAX_MAX_TMS];
 };
 
 /* An instant: whole cycles, and units of the next cycle, fewer than units_per_cycle. A number of units alone would
@@ -71,8 +74,9 @@ struct trax_memory {
   struct trax_l2 *l2;     /* NULL: there is none */
   struct trax_dram *dram; /* NULL unless memory.model is dram */
   struct trax_memory_stats *stats;
-  struct trax_transfer_log *transfers;                       /* NULL: nobody listens */
-  void (*before_increment)(void *context, uint32_t address); /* called before an atomic increment */
+  struct trax_transfer_log *transfers;                    /* NULL: nobody listens */
+  unsigned side;                                          /* of trax_queue.served, for requests that are served now */
+  uint32_t (*increment)(void *context, uint32_t address); /* increments a word, and returns what it was */
   void *context;
 };
 
@@ -89,17 +93,12 @@ void trax_memory_destroy(struct trax_memory *memory);
 /* Makes what follows from the lists and from the queues of the `count` TMs. */
 void trax_memory_import(struct trax_memory *memory, struct trax_tm *tm, unsigned count);
 
-/* Submits the TM's oldest unsubmitted request, which waits from now on. */
-void trax_memory_submit(struct trax_memory *memory, struct trax_tm *tm);
+/* Submits the TM's request in a place of its queue, which waits from now on. Those of a TM are submitted in the order
+   in which they are made. */
+void trax_memory_submit(struct trax_memory *memory, struct trax_tm *tm, uint32_t place);
 
-/* Step 3 of cycle t: serves requests and starts transfers. Lowers tm[].next_cycle to the completions of requests. */
-void trax_memory_cycle(struct trax_memory *memory, struct trax_tm *tm, struct trax_space *space, uint64_t t);
-
-/* Before cycle t, starts the transfers of the cycles from t to `end` that do not depend on requests made from now on by
-   the `count` TMs, each of which is idle until its next_cycle. Returns the first cycle whose transfers may depend on
-   them; `end` or a later cycle if none do. */
-uint64_t trax_memory_serve_early(struct trax_memory *memory, struct trax_tm *tm, unsigned count,
-                                 struct trax_space *space, uint64_t t, uint64_t end);
+/* Step 3 of cycle t: serves requests and starts transfers. TMs have to receive what has been served. */
+void trax_memory_cycle(struct trax_memory *memory, struct trax_tm *tm, uint64_t t);
 
 /* Returns the first cycle after t in which a transfer can start if no request is added; UINT64_MAX if none waits. */
 uint64_t trax_memory_next_cycle(const struct trax_memory *memory, uint64_t t);
@@ -130,7 +129,8 @@ trax_request_id trax_waiting_take(struct trax_memory *memory, struct trax_tm *tm
 /* Passes a request to the channel of its address. */
 void trax_memory_pass(struct trax_memory *memory, struct trax_tm *tm, trax_request_id id);
 /* Sets the completion of a TM's request. */
-void trax_memory_complete(struct trax_tm *tm, trax_request_id id, uint64_t completion);
+void trax_memory_complete(const struct trax_memory *memory, struct trax_tm *tm, trax_request_id id,
+                          uint64_t completion);
 /* Tells who listens that a channel takes a request in cycle t. */
 void trax_memory_notify(struct trax_memory *memory, unsigned channel, trax_request_id id,
                         const struct trax_request *request, uint64_t t);
@@ -139,12 +139,11 @@ void trax_memory_count(const struct trax_memory *memory, unsigned channel, uint3
 /* Performs an atomic increment whose transfer is over in cycle `over`. Returns the cycle in which the channel's unit
    has done it. */
 uint64_t trax_memory_increment(struct trax_memory *memory, unsigned channel, struct trax_request *request,
-                               struct trax_space *space, uint64_t over);
+                               uint64_t over);
 /* A request has been served; `back`: the cycle in which its transfer is over, and memory.latency_cycles. */
 void trax_memory_finish(struct trax_memory *memory, struct trax_tm *tm, unsigned channel, trax_request_id id,
                         uint64_t back);
 /* Serves requests of a channel of DRAM in cycle t. */
-void trax_memory_serve_dram(struct trax_memory *memory, struct trax_tm *tm, struct trax_space *space, unsigned channel,
-                            uint64_t t);
+void trax_memory_serve_dram(struct trax_memory *memory, struct trax_tm *tm, unsigned channel, uint64_t t);
 
 #endif

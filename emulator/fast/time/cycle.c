@@ -238,7 +238,6 @@ static void run_cycle(struct trax_tm *tm, uint64_t t) {
 }
 
 static void run_epoch(struct trax_tm *tm, uint64_t end) {
-  trax_fast_record_readers(tm);
   while (tm->next_cycle < end && !tm->buffer->stop && !tm->fault.kind)
     if (!trax_tm_has_one_awake(tm) || !trax_fast_run_alone(tm, tm->next_cycle, end))
       run_cycle(tm, tm->next_cycle);

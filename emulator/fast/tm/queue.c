@@ -11,7 +11,6 @@ bool trax_queue_create(struct trax_queue *queue, uint32_t depth, bool keeps_orde
     return queue->requests;
   queue->heap = calloc(depth, sizeof *queue->heap);
   queue->places = calloc(depth, sizeof *queue->places);
-  queue->first_unsubmitted = TRAX_NO_REQUEST;
   for (uint32_t i = 0; queue->places && i < depth; i++)
     queue->places[i] = (uint16_t)i;
   return queue->requests && queue->heap && queue->places;
@@ -23,16 +22,11 @@ void trax_queue_destroy(struct trax_queue *queue) {
   free(queue->places);
 }
 
-void trax_queue_push_unsubmitted(struct trax_queue *queue, struct trax_request request) {
-  const uint32_t index = queue->places[queue->count++];
-  request.next = TRAX_NO_REQUEST;
+uint32_t trax_queue_add(struct trax_queue *queue, struct trax_request request) {
+  const uint32_t place = queue->places[queue->count++];
   request.number = queue->made++;
-  queue->requests[index] = request;
-  if (queue->first_unsubmitted == TRAX_NO_REQUEST)
-    queue->first_unsubmitted = index;
-  else
-    queue->requests[queue->last_unsubmitted].next = index;
-  queue->last_unsubmitted = index;
+  queue->requests[place] = request;
+  return place;
 }
 
 /* Whether request a arrives before b; requests of one cycle arrive in the order in which they were made. */
@@ -41,7 +35,8 @@ static bool is_before(const struct trax_queue *queue, uint32_t a, uint32_t b) {
   return x->completion != y->completion ? x->completion < y->completion : x->number < y->number;
 }
 
-void trax_queue_start(struct trax_queue *queue, uint32_t index) {
+/* Enters a request, whose completion has become known, into the heap. */
+static void start(struct trax_queue *queue, uint32_t index) {
   uint32_t at = queue->started++;
   for (; at && is_before(queue, index, queue->heap[(at - 1) / 2]); at = (at - 1) / 2)
     queue->heap[at] = queue->heap[(at - 1) / 2];
@@ -49,9 +44,19 @@ void trax_queue_start(struct trax_queue *queue, uint32_t index) {
   queue->oldest = queue->heap[0];
 }
 
+void trax_queue_receive(struct trax_queue *queue, unsigned side) {
+  struct trax_served *const served = &queue->served[side];
+  if (!queue->heap)
+    queue->started += served->count;
+  for (; queue->heap && served->count; served->count--) {
+    const uint32_t place = served->first;
+    served->first = queue->requests[place].next;
+    start(queue, place);
+  }
+  served->count = 0;
+}
+
 void trax_queue_import(struct trax_queue *queue) {
-  queue->submitted = queue->count;
-  queue->first_unsubmitted = TRAX_NO_REQUEST;
   if (!queue->heap)
     return;
   queue->count = queue->depth;
@@ -60,7 +65,7 @@ void trax_queue_import(struct trax_queue *queue) {
     if (!trax_queue_is_taken(queue, i))
       queue->places[--queue->count] = (uint16_t)i;
     else if (trax_queue_is_started(queue, i))
-      trax_queue_start(queue, i);
+      start(queue, i);
 }
 
 void trax_queue_pop_heap(struct trax_queue *queue) {

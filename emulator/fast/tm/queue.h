@@ -1,9 +1,12 @@
 /* A TM's memory queue: a place for each request that has not completed (docs/timing-memory.md, "Memory queue").
 
    If all requests of a TM complete in the order in which they were made (trax_memory_keeps_order), the places are a
-   ring: the oldest `started` requests have been served, and the others wait. Otherwise a request is first in the list
-   of unsubmitted ones, then in a list of the memory, and when its completion is known, in a heap with the next arrival
-   on top. In both cases `started` requests have a known completion, and `oldest` is the next to arrive. */
+   ring: the oldest `started` requests have been served, and the others wait. Otherwise a request that waits is in a
+   list of the memory, and when its completion is known, in a heap with the next arrival on top. In both cases `started`
+   requests have a known completion, and `oldest` is the next to arrive.
+
+   In an epoch the memory serves requests while the TM goes on. It writes to the places of waiting requests and to
+   `served`; the TM uses the others, and receives what has been served between two quanta. */
 #ifndef TRAX_FAST_QUEUE_H
 #define TRAX_FAST_QUEUE_H
 
@@ -12,6 +15,9 @@
 #include <stdbool.h>
 
 #define TRAX_NO_REQUEST UINT32_MAX
+
+/* One side is used by the TM while the memory uses the other (epochs.h). */
+enum { TRAX_SIDES = 2 };
 
 typedef enum trax_request_kind {
   TRAX_REQUEST_INSTRUCTION_LINE,
@@ -45,51 +51,51 @@ struct trax_request {
   X(S, uint64_t, made, ) /* number of requests so far; not in a ring */
 struct trax_queue {
   TRAX_QUEUE_STATE(TRAX_FIELD, )
-  uint32_t submitted; /* of a ring: the number of requests that the memory has received; all, except in an epoch */
-  uint32_t first_unsubmitted, last_unsubmitted;
   uint32_t depth;
   struct trax_request *requests; /* [depth] */
   uint16_t *heap;                /* [depth]; NULL: the places are a ring */
   uint16_t *places;              /* [depth]: from `count` on, the free places */
+  /* Requests whose completion is known, and which the TM has not received: a list, linked by trax_request.next; of a
+     ring their number. Outside epochs [0] alone is used. */
+  struct trax_served {
+    uint32_t first, count;
+  } served[TRAX_SIDES];
 };
 
 /* False: out of memory. The queue must be destroyed in either case. */
 bool trax_queue_create(struct trax_queue *queue, uint32_t depth, bool keeps_order);
 void trax_queue_destroy(struct trax_queue *queue);
 
-/* Adds an unsubmitted request to a queue that is no ring. */
-void trax_queue_push_unsubmitted(struct trax_queue *queue, struct trax_request request);
-/* Makes what follows from the requests, none of which is unsubmitted. */
+/* Adds a request to a queue that is no ring, and returns its place. */
+uint32_t trax_queue_add(struct trax_queue *queue, struct trax_request request);
+/* Makes what follows from the requests. */
 void trax_queue_import(struct trax_queue *queue);
-/* Enters a request, whose completion has become known, into the heap. */
-void trax_queue_start(struct trax_queue *queue, uint32_t index);
+/* Starts the requests that the memory has served. */
+void trax_queue_receive(struct trax_queue *queue, unsigned side);
 void trax_queue_pop_heap(struct trax_queue *queue);
 
 static inline bool trax_queue_has_place(const struct trax_queue *queue) {
   return queue->count < queue->depth;
 }
 
-static inline void trax_queue_push(struct trax_queue *queue, struct trax_request request) {
+/* Adds a request and returns its place. */
+static inline uint32_t trax_queue_push(struct trax_queue *queue, struct trax_request request) {
+  uint32_t place = queue->oldest + queue->count;
   if (queue->heap) {
-    trax_queue_push_unsubmitted(queue, request);
+    place = trax_queue_add(queue, request);
   } else {
-    const uint32_t index = queue->oldest + queue->count;
-    queue->requests[index < queue->depth ? index : index - queue->depth] = request;
+    place -= place < queue->depth ? 0 : queue->depth;
+    queue->requests[place] = request;
     queue->count++;
   }
   if (queue->count > queue->peak)
     queue->peak = queue->count;
+  return place;
 }
 
 /* Returns the next request to arrive, if any is started. */
 static inline struct trax_request *trax_queue_oldest(const struct trax_queue *queue) {
   return &queue->requests[queue->oldest];
-}
-
-/* Returns the oldest request of a ring that has not been served. */
-static inline struct trax_request *trax_queue_first_waiting(const struct trax_queue *queue) {
-  const uint32_t index = queue->oldest + queue->started;
-  return &queue->requests[index < queue->depth ? index : index - queue->depth];
 }
 
 /* Whether place `index` of a ring is one of the first `count` from the oldest one on. */
@@ -115,7 +121,6 @@ static inline void trax_queue_pop(struct trax_queue *queue) {
   }
   queue->oldest = queue->oldest + 1 < queue->depth ? queue->oldest + 1 : 0;
   queue->count--;
-  queue->submitted--;
   queue->started--;
 }
 

@@ -96,6 +96,14 @@ void trax_tm_wake_sleepers(struct trax_tm *tm, uint64_t t) {
 
 /* --- the memory queue --- */
 
+void trax_tm_receive(struct trax_tm *tm, unsigned side) {
+  if (!tm->queue.served[side].count)
+    return;
+  trax_queue_receive(&tm->queue, side);
+  if (trax_queue_oldest(&tm->queue)->completion < tm->next_cycle)
+    tm->next_cycle = trax_queue_oldest(&tm->queue)->completion;
+}
+
 void trax_tm_request(struct trax_tm *tm, struct trax_request request) {
   struct trax_tm_stats *stats = tm->stats;
   uint64_t *const bytes[] = {[TRAX_REQUEST_INSTRUCTION_LINE] = &stats->instruction_read_bytes,
@@ -114,11 +122,11 @@ void trax_tm_request(struct trax_tm *tm, struct trax_request request) {
   tm->tp[request.tp].writes += writes;
   tm->tp[request.tp].increments += increments;
   stats->memory_requests++;
-  trax_queue_push(&tm->queue, request);
+  const uint32_t place = trax_queue_push(&tm->queue, request);
   if (tm->buffer)
-    trax_store_buffer_record(tm->buffer, (struct trax_store_buffer_entry){tm->now, 0, 0, TRAX_REQUEST});
+    trax_store_buffer_record(tm->buffer, (struct trax_store_buffer_entry){tm->now, place, 0, TRAX_REQUEST});
   else
-    trax_memory_submit(&tm->chip->memory, tm);
+    trax_memory_submit(&tm->chip->memory, tm, place);
 }
 
 static bool request_and_advance(struct trax_tm *tm, unsigned tp, struct trax_request request) {

@@ -141,6 +141,8 @@ void trax_tm_fault(struct trax_tm *tm, unsigned tp, uint64_t t, trax_fault_kind 
 /* Makes register rd of TP `tp` usable in cycle t, and wakes the TP if it waits for it. */
 void trax_tm_data_arrival(struct trax_tm *tm, unsigned tp, unsigned rd, uint64_t t);
 
+/* Receives what the memory has served: lowers next_cycle to the completions. */
+void trax_tm_receive(struct trax_tm *tm, unsigned side);
 /* Handles a request that completes in cycle t. */
 void trax_tm_complete(struct trax_tm *tm, const struct trax_request *request, uint64_t t);
 /* Wakes the TPs in the wheel's slot of cycle t. */

@@ -8,6 +8,13 @@
 
 struct trax_pool;
 
+/* To be called by a thread that polls. */
+static inline void trax_pause(void) {
+#if defined(__x86_64__) || defined(__i386__)
+  __builtin_ia32_pause();
+#endif
+}
+
 /* Creates a pool of `threads` threads, the caller included. Each round calls work(context, i) once for every i below
    `items`. In every round, an item is processed by the same thread unless that is late, so that the thread's caches
    keep the item's data. NULL: an error. */
