@@ -51,7 +51,7 @@ static void simulate(struct trax_quanta *quanta, struct trax_tm *tm, unsigned qu
     trax_merge_begin_tm(quanta->merge, tm);
   }
   trax_merge_give(quanta->merge, tm, side);
-  quanta->chip->variant->run_epoch(tm, begin_of(quanta, quantum + 1));
+  quanta->chip->variant->run_quantum(tm, begin_of(quanta, quantum + 1));
   trax_merge_take(quanta->merge, tm);
   atomic_store(&quanta->progress[tm->number].at, 2 * (quantum + 1));
   atomic_fetch_add(&quanta->complete[side], 1);

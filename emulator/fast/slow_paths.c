@@ -9,7 +9,7 @@ static const char *fetch_reason(const struct trax_config *config) {
                                            : "icache.tps_per_cache is not 16";
 }
 
-/* Epochs are as long as the latency of what a request reaches first: the second-level cache, if there is one. */
+/* Quanta are as long as the latency of what a request reaches first: the second-level cache, if there is one. */
 static const char *epochs_reason(const struct trax_config *config) {
   return config->l2.bytes ? "the second-level cache's latency is too short for epochs (l2.latency_cycles)"
                           : "the memory latency is too short for epochs (memory.latency_cycles)";

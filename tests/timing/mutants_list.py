@@ -402,7 +402,7 @@ MUTANTS = [
      "i = tm->heads.load[number] + 1u; tm->watched"),
     ("fast/function/blocks.c", "  for (uint32_t i = 0; i < chip->tms; i++)\n    trax_fast_roll_back_readers",
      "  for (uint32_t i = 0; i < 1; i++)\n    trax_fast_roll_back_readers"),
-    ("fast/time/cycle.c", "  trax_fast_record_readers(tm);\n", ""),
+    ("fast/merge.c", "  trax_fast_record_readers(tm);\n", ""),
     # Stores of bursts: their words are not loaded again; at their issue they take effect, in order; others roll back.
     ("fast/function/burst.c", "if (has_stored(tp, address, load))", "if (has_stored(tp, address, load) && 0)"),
     ("fast/function/burst.c", "!((tp->burst.access[i].address ^ address) & ~3u)",
@@ -452,19 +452,23 @@ MUTANTS = [
     ("fast/function/program.c", "decoded->imm == TRAX_SR_CYCLE || decoded->imm == TRAX_SR_CYCLEH",
      "decoded->imm == TRAX_SR_CYCLEH"),
     # A TM that has read too early goes back.
-    ("fast/merge.c", "if (written && (written->writer & ~EARLY) != i) {",
-     "if (written && (written->writer & ~EARLY) != i && (written->writer & ~EARLY) < 64) {"),
+    ("fast/merge.c", "if (written && written->writer != tm->number) {",
+     "if (written && written->writer != tm->number && written->writer < 64) {"),
     # A word that several wrote conflicts.
-    ("fast/merge.c", "undo->writer = BY_SEVERAL |",
-     "undo->writer = tm |"),
-    # What was loaded ahead and is written is loaded again.
-    ("fast/merge.c", "  if (trax_fast_is_loaded(&chip->blocks, write->address))\n    return false;",
-     "  if (trax_fast_is_loaded(&chip->blocks, write->address) && write->bytes)\n    return false;"),
+    ("fast/merge.c", "undo->writer = BY_SEVERAL;", "undo->writer = tm;"),
+    # What was loaded ahead and is written or incremented is loaded again.
+    ("fast/merge.c", "if (merge->undo[i].writer != BY_CONTROLLER && trax_fast_is_loaded(",
+     "if (merge->undo[i].writer == BY_SEVERAL && trax_fast_is_loaded("),
+    ("fast/merge.c", "    if (trax_fast_is_loaded(&merge->chip->blocks, merge->increments[i]))\n      return false;\n", ""),
+    # What is being incremented is not loaded ahead.
+    ("fast/merge.c", "    trax_fast_set_written(&merge->chip->blocks, merge->increments[i], TRAX_BLOCK_SHARED);\n", ""),
+    # A block from which bursts have loaded is not shared without their going back.
+    ("fast/function/blocks.h", "  if (!trax_fast_is_loaded(blocks, address))\n    __atomic_store_n", "  __atomic_store_n"),
     # Stores of a cycle in the TMs' order.
-    ("fast/merge.c", "const uint32_t tm = trax_first(rest);\n    struct trax_store_buffer *buffer",
+    ("fast/merge.c", "const uint32_t tm = trax_first(rest);\n    struct trax_store_buffer_side *buffer",
      "const uint32_t first = trax_first(rest);\n"
      "    const uint32_t tm = first ^ (order->tms[t - order->begin] >> (first ^ 1) & 1);\n"
-     "    struct trax_store_buffer *buffer"),
+     "    struct trax_store_buffer_side *buffer"),
     # Memory is restored.
     ("fast/merge.c", "memcpy(merge->chip->machine->space.bytes + undo->address, &undo->word, sizeof undo->word);",
      "memcpy(merge->chip->machine->space.bytes + undo->address, &undo->word, 1);"),
@@ -473,16 +477,34 @@ MUTANTS = [
     # The controller is restored.
     ("fast/state.c", "VISIT_DERIVED(memory, 1);", "VISIT_DERIVED(memory, 0);"),
     # Increments are noted as writes.
-    ("fast/merge.c", "merge->failed |= !record_writer(merge, address, BY_CONTROLLER);",
-     "(void)address; (void)merge;"),
+    ("fast/merge.c", "record_writer(merge, address, BY_CONTROLLER);", "record_writer(merge, address, 0);"),
     # Requests are shown in their cycle.
-    ("fast/merge.c", "&chip->machine->space, t);\n    next =", "&chip->machine->space, t + 1);\n    next ="),
+    ("fast/merge.c", "trax_memory_cycle(memory, chip->tm, t);", "trax_memory_cycle(memory, chip->tm, t + 1);"),
     # An epoch in which a TM stops is given up.
     ("fast/merge.c", "if (tm->buffer->stop || tm->fault.kind)", "if (tm->fault.kind)"),
     # Bursts do not load what others may increment.
     ("fast/function/blocks.h", "__ATOMIC_RELAXED) == TRAX_BLOCK_SHARED", "__ATOMIC_RELAXED) <= TRAX_BLOCK_SHARED"),
     # The write set is that of one epoch.
-    ("fast/merge.c", "    *slot_of(merge, merge->undo[merge->epoch_undo].address) = 0;", "    ;"),
+    ("fast/merge.c", "    *slot_of(merge, undo->address) = 0;\n", ""),
+    # An epoch that is given up has written nothing.
+    ("fast/merge.c", "while (merge->undo_count > merge->epoch_undo)", "while (false)"),
+    # Stores take effect at its end, and are seen by their TM before, also in later quanta.
+    ("fast/merge.c", "&word, sizeof word);\n    trax_fast_set", "&word, 1);\n    trax_fast_set"),
+    ("fast/store_buffer.c", "  buffer->side = &buffer->sides[side];",
+     "  trax_map_empty(&buffer->words, sizeof(struct trax_store_buffer_word));\n  buffer->side = &buffer->sides[side];"),
+    # Reads of all quanta count.
+    ("fast/store_buffer.c", "  buffer->side = &buffer->sides[side];",
+     "  buffer->read_count = 0;\n  buffer->side = &buffer->sides[side];"),
+    # A quantum ahead is of half a latency.
+    ("fast/quanta.c", "quantum * quanta->latency / (quanta->ahead + 1)", "quantum * quanta->latency"),
+    ("fast/quanta.c", "quantum <= served + quanta->ahead", "quantum <= served + quanta->ahead + 1"),
+    # A TM receives what was served, in its quantum, and at the end of the epoch, and wakes for it.
+    ("fast/merge.c", "  trax_store_buffer_begin_quantum(tm->buffer, side);\n  trax_tm_receive(tm, side);",
+     "  trax_store_buffer_begin_quantum(tm->buffer, side);\n  trax_tm_receive(tm, 0);"),
+    ("fast/merge.c", "  for (unsigned side = 0; side < TRAX_SIDES; side++)\n    trax_tm_receive(tm, side);\n", ""),
+    ("fast/tm/tm.c", "    tm->next_cycle = trax_queue_oldest(&tm->queue)->completion;", "    ;"),
+    # The oldest request of a ring waits first, also after an import.
+    ("fast/memory/create.c", "(queue->oldest + queue->started) % queue->depth", "queue->oldest % queue->depth"),
     # Every part of the snapshot is copied.
     ("fast/epochs.c", "piece_count * (part + 1) / parts;",
      "piece_count * (part + 1) / parts - part;"),
@@ -522,8 +544,8 @@ MUTANTS = [
     ("machine/dram_mapping.c", "(address + bytes - 1) / burst - address / burst + 1",
      "(bytes + burst - 1) / burst + 0 * address"),
     ("fast/memory/admission.c", "admitted &= ~((uint64_t)1 << tm);", "(void)tm;"),
-    ("fast/memory/admission.c", "trax_memory_increment(memory, number, request, space, t + 1)",
-     "trax_memory_increment(memory, number, request, space, t)"),
+    ("fast/memory/admission.c", "trax_memory_increment(memory, number, request, t + 1)",
+     "trax_memory_increment(memory, number, request, t)"),
     ("fast/memory/memory.c", "channel->unit_free_from = over + memory->unit_interval;",
      "channel->unit_free_from = over;"),
     ("fast/memory/create.c", "return 1 + config->memory.latency_cycles;", "return 2 + config->memory.latency_cycles;"),

@@ -237,7 +237,7 @@ static void run_cycle(struct trax_tm *tm, uint64_t t) {
     simulate(tm, false, t);
 }
 
-static void run_epoch(struct trax_tm *tm, uint64_t end) {
+static void run_quantum(struct trax_tm *tm, uint64_t end) {
   while (tm->next_cycle < end && !tm->buffer->stop && !tm->fault.kind)
     if (!trax_tm_has_one_awake(tm) || !trax_fast_run_alone(tm, tm->next_cycle, end))
       run_cycle(tm, tm->next_cycle);
@@ -246,4 +246,4 @@ static void run_epoch(struct trax_tm *tm, uint64_t end) {
 #ifndef TRAX_FAST_VARIANT
 #define TRAX_FAST_VARIANT trax_fast_variant
 #endif
-const struct trax_fast_variant TRAX_FAST_VARIANT = {run_cycle, run_epoch, trax_fast_count_log};
+const struct trax_fast_variant TRAX_FAST_VARIANT = {run_cycle, run_quantum, trax_fast_count_log};
