@@ -12,6 +12,7 @@
 enum {
   LEAST_EPOCH = 16,             /* cycles; shorter epochs do not pay */
   LONGEST_EPOCH = 16,           /* in latencies: from a request to its completion, the least one */
+  QUIET = 4,                    /* so many times as long as an epoch there has been no conflict */
   LEAST_SPAN = 512,             /* cycles up to a stop, for which a snapshot pays in observed runs, which stop often */
   FIRST_SNAPSHOT_INTERVAL = 64, /* in latencies; doubles with each snapshot until a roll back */
   LONGEST_SNAPSHOT_INTERVAL = 1024,
@@ -37,7 +38,6 @@ struct trax_epochs {
   bool has_snapshot;
   uint64_t snapshot_cycle;
   unsigned snapshot_interval; /* in latencies */
-  unsigned epoch_length;      /* in latencies; 1 after a roll back, and doubles with each snapshot */
   struct piece *pieces;       /* [piece_count]: none is within another one */
   size_t piece_count, snapshot_size;
   uint8_t *snapshot; /* what is in the pieces; merge has the words of global memory */
@@ -126,6 +126,14 @@ void trax_epochs_commit(struct trax_epochs *epochs) {
 
 /* --- epochs --- */
 
+/* Returns the cycles of an epoch from t on: soon after a conflict another one is likely, and costs less if the epoch is
+   short. They are whole latencies, so an epoch that is repeated has no cycles of two. */
+static uint64_t longest_epoch(const struct trax_epochs *epochs, uint64_t t) {
+  const uint64_t quiet = t > epochs->cautious_until ? t - epochs->cautious_until : 0;
+  const uint64_t latencies = quiet / (QUIET * epochs->latency);
+  return (latencies < 1 ? 1 : latencies < LONGEST_EPOCH ? latencies : LONGEST_EPOCH) * epochs->latency;
+}
+
 /* Simulates an epoch. False: it must be given up. */
 static bool run_epoch(struct trax_epochs *epochs, uint64_t t, uint64_t end) {
   trax_merge_begin(&epochs->merge);
@@ -157,12 +165,10 @@ bool trax_epochs_advance(struct trax_epochs *epochs, uint64_t *t, uint64_t until
              epochs->merge.undo_count >= MOST_UNDO) {
     if (epochs->snapshot_interval < LONGEST_SNAPSHOT_INTERVAL)
       epochs->snapshot_interval *= 2;
-    if (epochs->epoch_length < LONGEST_EPOCH)
-      epochs->epoch_length *= 2;
     epochs->pause = FIRST_PAUSE;
     take_snapshot(epochs, *t);
   }
-  const uint64_t longest = epochs->epoch_length * epochs->latency, end = until - *t < longest ? until : *t + longest;
+  const uint64_t longest = longest_epoch(epochs, *t), end = until - *t < longest ? until : *t + longest;
   if (run_epoch(epochs, *t, end)) {
     *t = end;
     return true;
@@ -172,7 +178,6 @@ bool trax_epochs_advance(struct trax_epochs *epochs, uint64_t *t, uint64_t until
   if (chip->machine->observer)
     chip->machine->observer->go_back(chip->machine->observer->context);
   chip->conflicts++;
-  epochs->epoch_length = 1;   /* another conflict is then less likely, and costs less */
   epochs->cautious_from = *t; /* the epochs up to this one will give the same results again */
   epochs->cautious_until = end + epochs->pause;
   if (epochs->pause < LONGEST_PAUSE)
@@ -194,7 +199,6 @@ trax_status trax_epochs_create(struct trax_chip *chip, unsigned threads, trax_er
     return trax_fail(error, "out of memory");
   epochs->chip = chip;
   epochs->latency = latency;
-  epochs->epoch_length = LONGEST_EPOCH;
   epochs->pause = FIRST_PAUSE;
   if (!trax_merge_create(&epochs->merge, chip) || !list_pieces(epochs) ||
       !(epochs->snapshot = malloc(epochs->snapshot_size)))
