@@ -110,6 +110,9 @@ class SpaceTest(unittest.TestCase):
         for name, value in (("all", True), ("mode", "quick"), ("prepare", True)):
             with self.assertRaisesRegex(Problem, f"--{name}"):
                 self.explore(Made(0), **{name: value})
+        for name, value in (("scene", "forests"), ("variant", "none")):
+            with self.assertRaisesRegex(Problem, f"--{name} {value}: the sweep has"):
+                self.explore(Made(0), **{name: [value]})
         made = Made(0)
         self.assertEqual(self.explore(made, dry_run=True), (0, ""))
         self.assertEqual(len(made.asked), 1)

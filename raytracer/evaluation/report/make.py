@@ -5,7 +5,6 @@
 The page holds all that it shows, pictures and figures included, and asks no network for anything; only its links lead
 to the runs' files. The same results give the same bytes."""
 
-import argparse
 import base64
 import os
 import pathlib
@@ -303,7 +302,6 @@ def new_parser():
                         help="the page (default: report.html beside the results)")
     parser.add_argument("--paper", type=pathlib.Path, default=HERE.parent / "paper", metavar="DIR",
                         help="the paper's tables (default: those that come with trax)")
-    parser.add_argument("--gnuplot", help=argparse.SUPPRESS)
     return parser
 
 
@@ -313,11 +311,8 @@ def main(arguments=None):
     try:
         options = new_parser().parse_args(arguments)
         output = pathlib.Path(options.output or output)
-        if options.output == "" or not options.results.name:
-            raise Problem(
-                "--output: the value is empty" if options.results.name else "the name of the results is empty")
-        if options.gnuplot is not None:
-            raise Problem("--gnuplot is no longer an option: trax-eval draws the figures itself")
+        if not options.results.name:
+            raise Problem("the name of the results is empty")
         if not options.output:
             output = options.results.with_name("report.html")
         check_files([options.results], [output])

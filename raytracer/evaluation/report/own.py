@@ -91,7 +91,7 @@ def groups(runs):
 
 
 def front(runs, cost):
-    """The runs that no other has both more rays and less cost than; the least cost first."""
+    """The runs that no other run beats or equals in rays at no higher cost, by increasing cost."""
     known = [run for run in runs if run.get(cost) is not None]
     best, chosen = None, []
     for run in sorted(known, key=lambda run: (run.get(cost), -run.get("mrps"))):
