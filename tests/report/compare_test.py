@@ -38,7 +38,7 @@ from compare.difference import compare, flat  # noqa: E402
 from compare.figures import SECTIONS, Figures  # noqa: E402
 from compare.page import without  # noqa: E402
 from compare.runs import HOST, Run, read_folded  # noqa: E402
-from compare.text import is_empty, print_comparison  # noqa: E402
+from compare.text import is_empty, percent, print_comparison  # noqa: E402
 from trax_eval.pictures import png, rows_of  # noqa: E402
 from trax_eval.tools import Tools  # noqa: E402
 from trax_eval.util import Problem  # noqa: E402
@@ -585,7 +585,8 @@ class Page(PageTests, Scratch):
         self.load("two")
         for name in ("causes", "functions", "lines"):
             rows = self.cells(f"{name}-table")
-            self.assertEqual([row[0] for row in rows], [row["name"] for row in found[name]])
+            self.assertEqual([(row[0], row[5].replace("\u2212", "-")) for row in rows],
+                             [(row["name"], percent(row["difference"] / found["cycles"]["a"])) for row in found[name]])
         self.assertEqual(self.cells("configuration-table"),
                          [["chip.tms", "1", "2"], ["dcache.bytes", "16,384", "32,768"]])
         self.assertEqual(self.browser.run("document.querySelectorAll('#pictures img').length"), 1)

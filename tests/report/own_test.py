@@ -100,7 +100,20 @@ class OwnTest(unittest.TestCase):
         names = own.short([own.name_of(run, []) for run in self.results.runs])
         self.assertEqual(names[:2], ["rebuilt, at=0.0", "refitted from t…, at=0.0"])
         self.assertEqual(own.short(["1x32, memory.queue_entries=4"]), ["1x32, queue_entries=4"])
+        for values in ((50, 200), (8.5, 16.25)):
+            names = [f"{chip}, memory.latency_cycles={value}" for chip in ("1x32", "4x32") for value in values]
+            found = own.short(names)
+            self.assertEqual(len(set(found)), 4, found)
+            self.assertTrue(all(name[:4] == one[:4] and len(one) <= 24 for name, one in zip(names, found)), found)
+            self.assertTrue(all(name[-3:] == one[-3:] for name, one in zip(names, found)), found)
         self.assertEqual(make.some_of({None: 0, 3: 0, -1: 0}), [None, -1, 3])
+
+    def test_columns_of_runs(self):
+        """The table of runs has no column without data, and keeps the one with links alone."""
+        heads = re.findall('<th.*?>(?:<button.*?>)?(.*?)<', self.make(mine()).partition('id="runs"')[2])
+        self.assertEqual([one in heads for one in ("run", "MRPS", "files", "configuration", "against the paper")],
+                         [True, True, True, True, False], heads)
+        self.assertIn("against the paper", self.make(example.complete()).partition('id="runs"')[2])
 
     def test_sweeps_of_trax(self):
         """With a sweep that comes with trax the page is about the paper."""

@@ -203,7 +203,7 @@ class Page:
             yield "pictures", "Pictures", [pictures(self.results, self.base)]
         listed, of_run = configurations(self.results)
         runs = tables.run_table(self.results, self.paper, linker(self.base, self.folder), of_run)
-        yield "all-runs", "Runs", [table(runs)]
+        yield "all-runs", "Runs", [table(runs.without_empty() if self.own else runs)]
         yield "configurations", "Configurations", [listed]
 
     def kinds_sections(self):

@@ -26,7 +26,7 @@ LABELS = {
 # What a rate costs: identity, statistic, title.
 COSTS = [("area", "values.area_units", "Rays and area"), ("power", "energy.average_power", "Rays and power"),
          ("bandwidth", "memory.bandwidth_gbps", "Rays and off-chip bandwidth in use")]
-MOST_BARS, MOST_LETTERS = 40, 24
+MOST_BARS, MOST_LETTERS, LEAST_LETTERS = 40, 24, 5
 
 
 def sweeps(results):
@@ -114,7 +114,7 @@ def front_figures(runs):
             named = ", ".join(part for part in group[:2] if part)
             series.append(Series(named, style, points, mark, line=False))
             best = [(run.get(cost), run.get("mrps"), name_of(run, axes)) for run in front(some, cost)]
-            series.append(Series(f"front of {named}", style, best, mark, dashed=True))
+            series.append(Series(f"front of {named} (dashed)", style, best, mark, dashed=True))
         if series:
             yield Lines(f"front-{identity}", heading, label(cost), LABELS["mrps"], series)
 
@@ -161,8 +161,13 @@ def short(names):
         keys = ", ".join(part for part in some if "=" in part and part not in same)
         first = ", ".join(part for part in own_words if part not in in_all(plain))
         room = MOST_LETTERS - len(keys) - 2 if keys else MOST_LETTERS
-        first = cut(first, room) if room > 4 else ""
-        found.append(cut(", ".join(part for part in (first, keys) if part) or name, MOST_LETTERS))
+        if len(first) > room:
+            first = cut(first, max(room, LEAST_LETTERS))
+        text = ", ".join(part for part in (first, keys) if part) or name
+        # A key may lose its beginning, which bars have in common, but not its value.
+        begin = len(first) + 2 if first and keys else 0
+        found.append(text if len(text) <= MOST_LETTERS else
+                     f"{text[:begin]}…{text[begin + 1 - MOST_LETTERS:]}" if keys else cut(text, MOST_LETTERS))
     return found
 
 
