@@ -493,6 +493,10 @@ def test_refusals(evaluation, scratch):
     check(
         sorted(one["status"] for one in evaluation.results("partly")["runs"]) == ["done", "failed"],
         "the other scene was not run")
+    # What keeps several inputs from being made is said once.
+    run = evaluation.run({"name": "x", "scenes": [{"name": "bunny", "meshes": [BUNNY], "view": "none"}],
+                          "chips": ["1x32", "2x32"], "programs": "ours", "size": "8x8"}, "unseen")
+    check(run.returncode == 1 and run.stderr.count("trax comes with no such view") == 1, f"no view: {run.stderr}")
 
 
 READING = {"trax-scene": ("tree", "tree-triangles", "tree-boxes", "refit"),

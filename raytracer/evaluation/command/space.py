@@ -59,6 +59,8 @@ def explore(options, files, runs_of):
         return status
     estimated = {key: point for _, keys in plans for point, (key, _) in keys.items() if key}
     wanted = {dataclasses.replace(estimated[key], mode="exact") for key in front_keys(Results(value), estimated)}
+    if not wanted:
+        return status
     exact.points = [point for point in exact.points if point in wanted]
     print(f"{len(exact.points)} of {len(estimated)} runs may be on the front, and are made exactly", flush=True)
     return max(status, runs_of(exact)[0])
