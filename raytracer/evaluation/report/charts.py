@@ -12,7 +12,7 @@ PAPER = (0, "circle")
 OF_PROGRAMS = [(1, "square"), (2, "dot"), (3, "triangle"), (4, "diamond"), (5, "circle"), (6, "square")]
 STYLES = OF_PROGRAMS[2:] + OF_PROGRAMS[:2]
 
-# Causes of docs/timing.md, together where the same hardware is behind them.
+# Causes of docs/trax-sim.md, together where the same hardware is behind them.
 CAUSES = [
     (10, "issued", ["issued"]),
     (11, "instruction fetch", ["icache_bank_conflict", "icache_miss"]),

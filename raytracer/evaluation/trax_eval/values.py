@@ -91,7 +91,7 @@ def values_of(result, areas):
     return values | values_of_rays(result, statistics)
 
 
-# Causes of docs/timing.md, grouped by the unit that they wait for.
+# Causes of docs/trax-sim.md, grouped by the unit that they wait for.
 STALLS = {
     "fetch": ("icache_bank_conflict", "icache_miss"),
     "memory": ("wait_memory", "memory_queue_full"),
