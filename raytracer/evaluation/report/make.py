@@ -187,8 +187,9 @@ class Page:
         return [table(make(self.results, self.paper, program)) for program in self.programs]
 
     def own_figures(self):
+        results = own.one_of_each(self.results)
         for sweep in self.own:
-            drawn = sweep_figure(self.results, self.paper, sweep, f"sweep-{self.results.sweeps.index(sweep)}")
+            drawn = sweep_figure(results, self.paper, sweep, f"sweep-{results.sweeps.index(sweep)}")
             if drawn:
                 yield own.renamed(drawn, sweep)
 

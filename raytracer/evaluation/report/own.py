@@ -1,5 +1,6 @@
 """The page of sweeps that do not come with trax: their own questions, what the figures cost, and why runs failed."""
 
+import copy
 import pathlib
 import re
 
@@ -7,7 +8,7 @@ from . import tables
 from .charts import CAUSES, STYLES, shares
 from .markup import el, join, table
 from .plots import Bars, Lines, Series, draw
-from .results import ratio
+from .results import Results, ratio
 from .sweeps import TITLES, interval_text
 from .table import Cell, Table, figure, words
 
@@ -81,11 +82,25 @@ def design(run):
     return run.scene, run.workload, run.size, run.program, run.config, run.variant, repr(sorted(run.set.items()))
 
 
-def groups(runs):
-    """Runs that render the same: by scene, workload and size. Of a design the exact run, where there is one."""
-    found, exact = {}, {design(run) for run in runs if not run.is_estimate()}
+def best_known(runs):
+    """Of each design the exact run, or its estimate until there is one."""
+    exact = {design(run) for run in runs if run.done and not run.is_estimate()}
+    return [run for run in runs if not (run.is_estimate() and design(run) in exact)]
+
+
+def one_of_each(results):
+    """The results of the runs that are best known. Their mode tells no runs apart."""
+    runs = [copy.copy(run) for run in best_known(results.runs)]
     for run in runs:
-        if run.get("mrps") is not None and not (run.is_estimate() and design(run) in exact):
+        run.mode = ""
+    return Results(results.document, runs)
+
+
+def groups(runs):
+    """The runs that are best known and render the same: by scene, workload and size."""
+    found = {}
+    for run in best_known(runs):
+        if run.get("mrps") is not None:
             found.setdefault((run.scene, run.workload, run.size), []).append(run)
     return found
 
@@ -173,7 +188,7 @@ def short(names):
 
 def time_figures(own, results):
     for place, sweep in enumerate(own):
-        runs = [run for run in results.of_sweep(sweep["name"]) if run.done]
+        runs = best_known([run for run in results.of_sweep(sweep["name"]) if run.done])
         axes = varying(runs)
         shown = [(name_of(run, axes), parts) for run in runs[:MOST_BARS] if (parts := shares(run))]
         bars = list(zip(short([name for name, _ in shown]), (parts for _, parts in shown))) if shown else []
