@@ -1,4 +1,4 @@
-#define _POSIX_C_SOURCE 200809L /* open_memstream, strdup */
+#define _POSIX_C_SOURCE 200809L /* open_memstream */
 /* Profiles as text: tables by function and line, folded stacks. */
 #include "explain/profile.h"
 #include "explain/texts.h"

@@ -13,12 +13,6 @@
 
 enum { KINDS = TRAX_RAY_KIND_COUNT + 1 };
 
-const char *const trax_ray_kind_names[TRAX_RAY_KIND_COUNT] = {
-#define NAME(X, ID, NAME, NUMBER, MEANING) [NUMBER] = #NAME,
-    TRAX_RAY_KINDS(NAME, )
-#undef NAME
-};
-
 struct ray_kinds {
   struct trax_reader reader;
   struct trax_tm_stats kinds[KINDS];
@@ -219,8 +213,7 @@ static trax_status put_table(void *self, FILE *out, trax_error *error) {
     const double joules = trax_energy_of(&row, config).total;
     trax_counters_add(&rest, &row.total, sizeof rest, -1);
     rest_energy -= joules;
-    write_row(rays, out, kind == TRAX_NO_RAY ? "none" : trax_ray_kind_names[kind], &row.total,
-              kind == TRAX_NO_RAY ? 0 : counted[kind], joules);
+    write_row(rays, out, trax_ray_kind_names[kind], &row.total, kind == TRAX_NO_RAY ? 0 : counted[kind], joules);
   }
   write_row(rays, out, "rest", &rest, 0, rest_energy);
   write_row(rays, out, "all", total, total->rays, all);

@@ -7,8 +7,6 @@
 #include "machine/ray_cycles.h"
 #include "trax/abi.h"
 
-extern const char *const trax_ray_kind_names[TRAX_RAY_KIND_COUNT];
-
 /* The kind of the rays that the passage's trap counts; TRAX_NO_RAY if it counts no rays, or several kinds. */
 static inline unsigned trax_counted_kind(const struct trax_passage *passage) {
   return passage->inst.op == TRAX_OP_TRAP ? trax_ray_kind_of(passage->inst.imm, passage->result) : TRAX_NO_RAY;

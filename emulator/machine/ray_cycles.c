@@ -2,6 +2,12 @@
 
 #include <stdlib.h>
 
+const char *const trax_ray_kind_names[TRAX_RAY_ROWS] = {
+#define NAME(X, ID, NAME, NUMBER, MEANING) [NUMBER] = #NAME,
+    TRAX_RAY_KINDS(NAME, )
+#undef NAME
+        [TRAX_NO_RAY] = "none"};
+
 trax_status trax_ray_cycles_create(struct trax_machine *machine, trax_error *error) {
   struct trax_ray_cycles *rays = machine->ray_cycles = calloc(1, sizeof *rays);
   if (rays) {

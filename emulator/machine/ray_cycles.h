@@ -12,6 +12,8 @@ enum {
   TRAX_RAY_ROWS
 };
 
+extern const char *const trax_ray_kind_names[TRAX_RAY_ROWS];
+
 typedef uint64_t trax_ray_counts[TRAX_RAY_ROWS][TRAX_CAUSE_COUNT]; /* thread-cycles */
 
 struct trax_thread_rays {

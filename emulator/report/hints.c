@@ -56,9 +56,9 @@ static struct figures figures_of(const struct trax_stats *S, const struct trax_c
   H(F.memory >= 0.9, "docs/timing-memory.md, \"Memory controller\"",                                                                     \
     "Off-chip memory is busy for %.0f %% of the time: more threads or units cannot make this run faster, fewer bytes can.",              \
     PERCENT(F.memory))                                                                                                                   \
-  H(CAUSE(MEMORY_QUEUE) >= 0.1, "docs/timing-memory.md, \"Memory queue\"",                                                                 \
+  H(CAUSE(MEMORY_QUEUE) >= 0.1, "docs/timing-memory.md, \"Memory queue\"",                                                               \
     "For %.0f %% of the thread-cycles no miss register or place in the memory queue is free (dcache.mshrs, memory.queue_depth).",        \
-    PERCENT(CAUSE(MEMORY_QUEUE)))                                                                                                          \
+    PERCENT(CAUSE(MEMORY_QUEUE)))                                                                                                        \
   H(CAUSE(ICACHE_MISS) >= 0.1, "docs/timing.md, \"Fetch\"",                                                                              \
     "For %.0f %% of the thread-cycles an instruction's line is on its way: the code that runs does not stay in the instruction\n"        \
     "    caches of %u bytes.", PERCENT(CAUSE(ICACHE_MISS)), (unsigned)C->icache.bytes)                                                   \

@@ -5,18 +5,12 @@
 
 #include <inttypes.h>
 
-static const char *const kind_names[] = {
-#define NAME(X, ID, NAME, NUMBER, MEANING) [NUMBER] = #NAME,
-    TRAX_RAY_KINDS(NAME, )
-#undef NAME
-        [TRAX_NO_RAY] = "none"};
-
 static void write_rows(FILE *out, const char *part, double weight, trax_ray_counts counts, const uint64_t *rays) {
   for (unsigned kind = 0; kind < TRAX_RAY_ROWS; kind++) {
     uint64_t sum = 0;
     for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
       sum += counts[kind][cause];
-    fprintf(out, "%s,%.9g,%s,%" PRIu64 ",%" PRIu64, part, weight, kind_names[kind],
+    fprintf(out, "%s,%.9g,%s,%" PRIu64 ",%" PRIu64, part, weight, trax_ray_kind_names[kind],
             kind != TRAX_NO_RAY ? rays[kind] : 0, sum);
     for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
       fprintf(out, ",%" PRIu64, counts[kind][cause]);

@@ -8,7 +8,7 @@
 #include <dirent.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
+#include <sys/stat.h>
 
 static const char folder[] = "share/trax/views", ending[] = ".view", camera_prefix[] = "file:";
 
@@ -103,8 +103,14 @@ bool is_camera(const char *view, const char **camera) {
   return true;
 }
 
+/* A folder is no view: `--prepare bunny --view bunny` twice is to give the same. */
+static bool is_file(const char *path) {
+  struct stat status;
+  return stat(path, &status) == 0 && !S_ISDIR(status.st_mode);
+}
+
 trax_status find_view(char path[TRAX_PATH_SIZE], const char *view, trax_error *error) {
-  if (access(view, F_OK) != 0 && !strchr(view, '/')) {
+  if (!is_file(view) && !strchr(view, '/')) {
     if (installed_file(path, folder, view, ending))
       return TRAX_OK;
     struct names list;

@@ -29,6 +29,7 @@ struct target {
   char *name;
   bool is_mesh;
   uint32_t part;        /* of a mesh */
+  float min[3], max[3]; /* its box */
   uint32_t first, last; /* of the group's places; NONE: there are none */
   uint64_t instances;   /* below it */
   unsigned levels;      /* of groups below it */
@@ -84,6 +85,17 @@ static trax_status add_target(struct reader *reader, char *name, struct target *
 
 /* --- statements --- */
 
+static void find_box(struct target *target, const struct trax_mesh *mesh) {
+  for (int axis = 0; axis < 3; axis++) {
+    target->min[axis] = INFINITY, target->max[axis] = -INFINITY;
+    for (size_t i = 0; i < 3 * (size_t)mesh->triangle_count; i++) {
+      const float value = mesh->vertices[mesh->triangles[i / 3].vertices[i % 3]][axis];
+      target->min[axis] = fminf(target->min[axis], value);
+      target->max[axis] = fmaxf(target->max[axis], value);
+    }
+  }
+}
+
 static trax_status import_mesh(struct reader *reader, const char *at, const char *path) {
   struct trax_import_options options = *reader->options;
   struct trax_import_report report = {0};
@@ -102,6 +114,7 @@ static trax_status import_mesh(struct reader *reader, const char *at, const char
   if (mesh.triangle_count == 0)
     result = fail_at(reader, at, "a mesh without triangles:", path);
   if (result == TRAX_OK) {
+    find_box(&reader->targets[reader->target_count - 1], &mesh);
     struct trax_mesh_part *part = malloc(sizeof *part);
     if (part)
       *part = (struct trax_mesh_part){0, mesh.triangle_count, (uint32_t)report.source_triangles};
@@ -128,7 +141,8 @@ static trax_status read_mesh(struct reader *reader, char *rest) {
   target->is_mesh = true;
   target->part = reader->mesh->part_count;
   target->instances = 1;
-  char *path = trax_mesh_is_generated(file) ? strdup(file) : scene_referred_path(reader->path, file);
+  const bool is_whole = trax_mesh_is_generated(file) || file[0] == '/';
+  char *path = is_whole ? strdup(file) : scene_referred_path(reader->path, file);
   result = path ? import_mesh(reader, file, path) : scene_out_of_memory(reader->error, reader->path);
   free(path);
   return result;
@@ -291,6 +305,23 @@ static trax_status refuse_instance(const struct reader *reader, const struct cha
                    reason);
 }
 
+/* Why the mesh cannot be placed so; NULL: it can. */
+static const char *misplaced(const struct target *mesh, const double transform[3][4]) {
+  struct trax_instance placed = {0};
+  const char *wrong = scene_place_instance(&placed, transform);
+  for (int row = 0; row < 3 && !wrong; row++) {
+    double low = transform[row][3], high = low;
+    for (int column = 0; column < 3; column++) {
+      const double a = transform[row][column] * (double)mesh->min[column],
+                   b = transform[row][column] * (double)mesh->max[column];
+      low += fmin(a, b), high += fmax(a, b);
+    }
+    if (!(low >= -SCENE_MAX_COORDINATE && high <= SCENE_MAX_COORDINATE))
+      wrong = "a coordinate of its box is too large";
+  }
+  return wrong;
+}
+
 static trax_status expand(struct reader *reader, const struct target *group, const double above[3][4],
                           uint32_t material, const struct chain *outer) {
   for (uint32_t i = group->first; i != NONE; i = reader->places[i].next) {
@@ -304,9 +335,7 @@ static trax_status expand(struct reader *reader, const struct target *group, con
       struct trax_mesh_instance *out = &reader->mesh->instances[reader->mesh->instance_count++];
       *out = (struct trax_mesh_instance){.part = target->part, .material = own};
       memcpy(out->transform, transform, sizeof transform);
-      struct trax_instance placed = {0};
-      const char *wrong =
-          reader->options->flatten ? NULL : scene_place_instance(&placed, (const double(*)[4])transform);
+      const char *wrong = reader->options->flatten ? NULL : misplaced(target, (const double(*)[4])transform);
       if (wrong)
         return refuse_instance(reader, &chain, wrong);
     } else if (expand(reader, target, (const double(*)[4])transform, own, &chain) != TRAX_OK) {

@@ -121,14 +121,17 @@ def evaluation_completion():
     script = printed("trax-eval", "--help-completion")
     check((BIN.parent / "share/bash-completion/completions/trax-eval").read_text() == script,
           "the installed completion is not what trax-eval prints")
-    options = set(re.findall(r"^ +(?:-\w, )?--([a-z-]+)", printed("trax-eval", "--help"), re.MULTILINE))
+    told = printed("trax-eval", "--help")
+    options = set(re.findall(r"^ +(?:-\w, )?--([a-z-]+)", told, re.MULTILINE))
+    commands = set(re.findall(r"^ +trax-eval ([a-z][a-z-]*) ", told, re.MULTILINE))
     check({word[2:] for word in completed("trax-eval", "--")} == options and len(options) >= 16,
           "options of trax-eval:", completed("trax-eval", "--"))
     experiments = stems("sweeps")
     for words in ([""], ["--quick", ""]):
         found = completed("trax-eval", *words)
-        check(experiments | {"report", "docs", "index.md"} <= found and len(experiments) >= 30, "experiments:",
-              sorted(experiments - found))
+        wanted = experiments | commands | {"compare", "job", "index.md"}
+        check(wanted <= found and len(experiments) >= 30 and len(commands) >= 4, "experiments and commands:",
+              sorted(wanted - found))
     check(completed("trax-eval", "table2", "table") == {"table1", "table2", "table3"}, "an experiment that is begun")
     for words, expected in ((["--mode", ""], {"exact", "quick"}), (["--mode", "=", "q"], {"quick"}),
                             (["--size", "1"], set()),
@@ -136,7 +139,8 @@ def evaluation_completion():
                             (["--program", "pap"], {"paper"}),
                             (["--scene", "sibenik,cryt"], {"sibenik,crytek-sponza"}), (["--scene", "ind"], set()),
                             (["--chip", "ind"], {"index.md"}), (["-o", "resu"], {"results"}), (["-o", "inde"], set()),
-                            (["docs", "--"], {"--anew", "--check", "--help"}), (["report", "--o"], {"--output"}),
+                            (["docs", "--"], {"--anew", "--check", "--help"}),
+                            (["report", "--"], {"--help", "--output", "--paper"}),
                             (["report", "inde"], {"index.md"})):
         check(completed("trax-eval", *words) == expected, *words, completed("trax-eval", *words))
     check(stems("programs") <= completed("trax-eval", "--program", ""), "programs of trax-eval")

@@ -5,6 +5,7 @@ bytes.
     tests/evaluation/evaluation_test.py --bin build/bin [--only NAME] [--kills N]"""
 
 import argparse
+import fnmatch
 import importlib
 import json
 import math
@@ -68,7 +69,13 @@ class Evaluation:
         return self.inside(*self.command(sweep, out, *options)[1:])
 
     def results(self, out):
-        return json.loads((self.scratch / out / "results.json").read_text())
+        """The results, whose figures are all known to sweeps."""
+        from trax_eval.names import own_figures
+        found, known = json.loads((self.scratch / out / "results.json").read_text()), own_figures()
+        names = {f"values.{name}" for run in found["runs"] for name in run.get("values") or ()}
+        unknown = [name for name in names if not any(fnmatch.fnmatchcase(name, pattern) for pattern in known)]
+        check(not unknown, f"{out}: a sweep cannot name", *unknown)
+        return found
 
 
 def same_bytes(scratch, one, other):
@@ -410,6 +417,11 @@ REFUSED = [
     ('{"name": "x", "x": "icache.bank"}', "did you mean icache.banks?"),
     ('{"name": "x", "y": "mrsp"}', 'y: "mrsp" is no statistic of trax-sim --help-stats'),
     ('{"name": "x", "y_per": "area"}', 'y_per: "area" is no statistic'),
+    ('{"name": "x", "y": "values.bytes_per_rey"}', "did you mean values.bytes_per_ray?"),
+    ('{"name": "x", "y": "kind.mrsp"}', "did you mean kind.mrps?"),
+    ('{"name": "x", "y": "values.rays.primry.mrps"}', "did you mean values.rays.primary.mrps?"),
+    ('{"name": "x", "y_per": "host.seconds"}', 'y_per: "host.seconds" is no statistic'),
+    ('{"name": "x", "table": {"values": "configuration.icache.bytez"}}', "did you mean configuration.icache.bytes?"),
     ('{"name": "x", "table": {"rows": "foo"}}', 'table.rows: "foo" is no axis'),
     ('{"name": "x", "table": [{}, {"columns": ["scene", "varient"]}]}',
      'table[1].columns: "varient" is no axis: neither a key of trax-sim --help-config nor one of program, scene, '
@@ -481,6 +493,10 @@ def test_refusals(evaluation, scratch):
     check(
         sorted(one["status"] for one in evaluation.results("partly")["runs"]) == ["done", "failed"],
         "the other scene was not run")
+    # What keeps several inputs from being made is said once.
+    run = evaluation.run({"name": "x", "scenes": [{"name": "bunny", "meshes": [BUNNY], "view": "none"}],
+                          "chips": ["1x32", "2x32"], "programs": "ours", "size": "8x8"}, "unseen")
+    check(run.returncode == 1 and run.stderr.count("trax comes with no such view") == 1, f"no view: {run.stderr}")
 
 
 READING = {"trax-scene": ("tree", "tree-triangles", "tree-boxes", "refit"),

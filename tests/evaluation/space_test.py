@@ -106,10 +106,25 @@ class SpaceTest(unittest.TestCase):
         self.assertEqual(len(some), 24)
         self.assertEqual(sum(run.mode == "exact" for run in some), len(made.asked[1]))
 
+    def test_no_run(self):
+        """If no estimate could be made, nothing is made exactly."""
+        asked = []
+
+        def runs_of(sweep):
+            asked.append(sweep)
+            document = {"format": "trax-eval-results", "version": 2, "runs": []}
+            return 1, document, [(sweep, {point: (None, "no scene") for point in sweep.points})]
+
+        self.assertEqual(self.explore(types.SimpleNamespace(runs_of=runs_of)), (1, ""))
+        self.assertEqual(len(asked), 1)
+
     def test_refused(self):
         for name, value in (("all", True), ("mode", "quick"), ("prepare", True)):
             with self.assertRaisesRegex(Problem, f"--{name}"):
                 self.explore(Made(0), **{name: value})
+        for name, value in (("scene", "forests"), ("variant", "none")):
+            with self.assertRaisesRegex(Problem, f"--{name} {value}: the sweep has"):
+                self.explore(Made(0), **{name: [value]})
         made = Made(0)
         self.assertEqual(self.explore(made, dry_run=True), (0, ""))
         self.assertEqual(len(made.asked), 1)

@@ -116,6 +116,10 @@ done
 refuse 'view missing.view: there is no such file, and trax comes with no such view' "$render" "$box" -o x.png --view missing.view
 refuse 'nowhere/a.view: ' "$render" "$box" -o x.png --view nowhere/a.view
 refuse 'did you mean bunny? (--views lists them)' "$render" "$box" -o x.png --view buny
+# A folder of that name, as --prepare bunny makes it, hides no view.
+mkdir bunny
+accept "$render" "$box" -o view.png --engine native --size 8x8 --view bunny
+rmdir bunny
 "$render" --views >views.txt
 grep -q '^bunny  *The Stanford bunny of glmark2 (bunny.obj, .* a little above$' views.txt || fail "--views has no line about bunny"
 grep -q '^forest  *The generated forest (generate:forest, 174,117 triangles), from .* into the clearing$' views.txt || fail "--views: $(grep forest views.txt)"

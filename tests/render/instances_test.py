@@ -204,11 +204,15 @@ BAD = [
     ("mesh a solid.obj\ngroup g\nplace a 1e200 0 0 0  0 1e200 0 0  0 0 1e200 0\nend\ngroup h\nplace g\nend\n"
      "place h 1e200 0 0 0  0 1e200 0 0  0 0 1e200 0\n", "bad.instances:3: instance 0 (from 0), in the group that is "
      "placed by line 6, 8: a number is not finite"),
+    ("mesh a solid.obj\ngroup g\nplace a 131072 0 0 0  0 131072 0 0  0 0 131072 0\nend\n"
+     "place g 1 0 0 0  0 1 0 1729382256910270464  0 0 1 0\n", "bad.instances:3: instance 0 (from 0), in the group that "
+     "is placed by line 5: a coordinate of its box is too large"),
     ("mesh a solid.obj\nplace a material blue", "2:18: no material has this name"),
     ("mesh a solid.obj\nplace a material", "2:17: expected the material's name"),
     ("mesh a solid.obj\nmaterial red purple", "2:14: neither a kind of material nor R,G,B: 'purple'"),
     ("mesh a solid.obj\nmesh a floor.obj", "2:6: there is a mesh or a group of this name already: 'a'"),
     ("mesh a none.obj", "1:8: none.obj: "),
+    ("mesh a /none/solid.obj", "1:8: /none/solid.obj: cannot be read"),
     ("mesh a bad.instances", "1:8: a mesh cannot be a file of instances"),
     ("mesh a solid.obj\ngroup g\nplace g\nend", "3:7: no mesh and no group has this name before here: 'g'"),
     ("mesh a solid.obj\ngroup g\nend", "3:1: a group without a place: 'g'"),
@@ -252,6 +256,16 @@ def check_unplaced():
     check(pathlib.Path("with.trax").read_bytes() == pathlib.Path("without.trax").read_bytes(), "an unplaced lamp")
 
 
+def check_absolute():
+    """A mesh whose name begins with / is that file, wherever the file of instances is."""
+    os.makedirs("away", exist_ok=True)
+    for name, mesh in ("beside", "solid.obj"), ("away/absolute", os.path.abspath("solid.obj")):
+        write(f"{name}.instances", f"mesh solid {mesh}\nplace solid\n")
+        call("trax-scene", f"{name}.instances", "-q", "-o", f"{name}.trax")
+    same = pathlib.Path("beside.trax").read_bytes() == pathlib.Path("away/absolute.trax").read_bytes()
+    check(same, "an absolute name")
+
+
 def check_empty():
     """A file with an instance of a mesh that is not there, and no triangle."""
     sections = struct.pack("<4I", 256, 128, 1, 128) + struct.pack("<4I", 384, 64, 1, 64) + bytes(32)
@@ -277,6 +291,7 @@ def main():
         check_gltf()
         check_bad()
         check_unplaced()
+        check_absolute()
         check_empty()
         os.chdir("/")
     sys.exit(checking.failures > 0)

@@ -38,7 +38,8 @@ from compare.difference import compare, flat  # noqa: E402
 from compare.figures import SECTIONS, Figures  # noqa: E402
 from compare.page import without  # noqa: E402
 from compare.runs import HOST, Run, read_folded  # noqa: E402
-from compare.text import is_empty, print_comparison  # noqa: E402
+from compare.text import is_empty, percent, print_comparison  # noqa: E402
+from trax_eval.pictures import png, rows_of  # noqa: E402
 from trax_eval.tools import Tools  # noqa: E402
 from trax_eval.util import Problem  # noqa: E402
 
@@ -342,6 +343,31 @@ class Files(Scratch):
         b.picture = width, height - 1, pixels
         self.assertEqual(compare(a, b, FIGURES)[0]["pictures"], {"sizes": [[width, height], [width, height - 1]]})
 
+    def test_pictures_as_files(self):
+        """A picture of no difference is transparent, and the page is written beside it. Pictures that cannot be
+        compared leave no file."""
+        page, pixels, costs = (self.place / name for name in ("x.html", "d.png", "c.png"))
+        self.command("a.json", "b.json", "--html", page, "--picture", pixels, "--cost-picture", costs)
+        self.assertTrue(page.is_file())
+        for path, is_equal in ((pixels, True), (costs, False)):
+            alphas = set(b"".join(rows_of(path.read_bytes())[1])[3::4])
+            self.assertEqual(alphas == {0}, is_equal, path)
+            path.unlink()
+        page.unlink()
+        for name, size in (("p", (2, 1)), ("q", (1, 1)), ("r", None)):
+            shutil.copy(self.folder / "a.json", self.place / f"{name}.json")
+            if size:
+                (self.place / f"{name}.png").write_bytes(
+                    png({"width": size[0], "height": size[1], "layout": "rgba uint8"}, bytes(4 * size[0] * size[1])))
+        kept = sorted(self.place.iterdir())
+        for words, said in ((("p.json", "q.json", "--picture", "d.png"), "the runs' are of 2x1 and 1x1 pixels"),
+                            (("p.json", "r.json", "--picture", "d.png"), "B has none (--explore FILE.html, or a PNG)"),
+                            (("p.json", "p.json", "--cost-picture", "d.png"),
+                             "A and B have none (--explore FILE.html)")):
+            run = self.command(*words, "--html", "x.html", status=1, folder=self.place)
+            self.assertEqual(run.stderr, f"trax-sim: error: d.png: no picture of differences: {said}\n")
+            self.assertEqual(sorted(self.place.iterdir()), kept)
+
     def test_sampled(self):
         def sampled(cycles, low, high):
             stats = copy.deepcopy(self.runs["a"].stats)
@@ -448,7 +474,6 @@ class Files(Scratch):
                             ((a, "none.json"), "none.json: No such file"), ((a, self.folder), "one is a folder"),
                             ((a, b, "--html", a), "is an input and the output"), ((a, b, "--jsn"), "unrecognized"),
                             ((a, b, "--html", self.folder / "a.html"), "is an input and the output"),
-                            ((a, b, "--picture", "d.png"), "they do not differ"),
                             ((a, b, "--html", "none/x.html"), "none/x.html: No such file"),
                             ((self.place, self.place), "has no run")):
             run = self.command(*words, status=1, folder=self.place)
@@ -560,7 +585,8 @@ class Page(PageTests, Scratch):
         self.load("two")
         for name in ("causes", "functions", "lines"):
             rows = self.cells(f"{name}-table")
-            self.assertEqual([row[0] for row in rows], [row["name"] for row in found[name]])
+            self.assertEqual([(row[0], row[5].replace("\u2212", "-")) for row in rows],
+                             [(row["name"], percent(row["difference"] / found["cycles"]["a"])) for row in found[name]])
         self.assertEqual(self.cells("configuration-table"),
                          [["chip.tms", "1", "2"], ["dcache.bytes", "16,384", "32,768"]])
         self.assertEqual(self.browser.run("document.querySelectorAll('#pictures img').length"), 1)

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The page of sweeps of one's own: own_test.py RAYTRACER/EVALUATION"""
 
+import copy
 import html
 import itertools
 import json
@@ -46,6 +47,9 @@ class OwnTest(unittest.TestCase):
         self.assertEqual(make.main([str(source)]), 0)
         self.results = read_results(source)
         return source.with_name("report.html").read_text()
+
+    def figure(self, text, identity):
+        return text.partition(f'<figure id="{identity}">')[2].partition("</figure>")[0]
 
     def headings(self, text):
         return [html.unescape(one) for one in re.findall("<h2>(.*?)</h2>", text)]
@@ -100,7 +104,43 @@ class OwnTest(unittest.TestCase):
         names = own.short([own.name_of(run, []) for run in self.results.runs])
         self.assertEqual(names[:2], ["rebuilt, at=0.0", "refitted from t…, at=0.0"])
         self.assertEqual(own.short(["1x32, memory.queue_entries=4"]), ["1x32, queue_entries=4"])
+        for values in ((50, 200), (8.5, 16.25)):
+            names = [f"{chip}, memory.latency_cycles={value}" for chip in ("1x32", "4x32") for value in values]
+            found = own.short(names)
+            self.assertEqual(len(set(found)), 4, found)
+            self.assertTrue(all(name[:4] == one[:4] and len(one) <= 24 for name, one in zip(names, found)), found)
+            self.assertTrue(all(name[-3:] == one[-3:] for name, one in zip(names, found)), found)
         self.assertEqual(make.some_of({None: 0, 3: 0, -1: 0}), [None, -1, 3])
+
+    def test_estimates_beside_exact_runs(self):
+        """Figures have one mark for each design, whose exact run is in place of its estimate; tables have both."""
+        made = mine()
+        names = "sweep-0", "time-0", "front-area"
+        known = [self.figure(self.make(made), name) for name in names]
+        for record in made["runs"][:2] + made["runs"][3:4]:
+            estimate = copy.deepcopy(record)
+            estimate.update(key=record["key"] + "-quick", mode="quick")
+            estimate["stats"]["mrps"] *= 1.5
+            estimate["values"].update(mrps_low=1.0, mrps_high=99.0)
+            made["runs"].append(estimate)
+        text = self.make(made)
+        self.assertEqual([self.figure(text, name) for name in names], known)
+        self.assertEqual(text.count(">quick<"), 2 * 3)  # in the sweep's table and in that of runs
+
+    def test_many_series(self):
+        """Each has a colour and mark of its own."""
+        runs = [example.run("ours", "forest", chip, {"memory.queue_depth": places}, experiments=("queues", ))
+                for places in range(1, 10) for chip in ("1x32", "4x32")]
+        text = self.make(example.document(runs, [{"name": "queues", "x": "threads", "file": "mine.json"}]))
+        key = self.figure(text, "sweep-0").partition('<ul class="key">')[2]
+        self.assertEqual(len(set(re.findall('href="(#mark-.*?)".*? class="(s[0-9]+)"', key))), 9, key)
+
+    def test_columns_of_runs(self):
+        """The table of runs has no column without data, and keeps the one with links alone."""
+        heads = re.findall('<th.*?>(?:<button.*?>)?(.*?)<', self.make(mine()).partition('id="runs"')[2])
+        self.assertEqual([one in heads for one in ("run", "MRPS", "files", "configuration", "against the paper")],
+                         [True, True, True, True, False], heads)
+        self.assertIn("against the paper", self.make(example.complete()).partition('id="runs"')[2])
 
     def test_sweeps_of_trax(self):
         """With a sweep that comes with trax the page is about the paper."""

@@ -523,7 +523,6 @@ class ReportTest(unittest.TestCase):
             bad["runs"][1][key] = value
             self.refused(json.dumps(bad), rf"runs\[1\]\.{key} {message}")
         self.refused("[" * 100000, "is nested too deeply")
-        self.refused(json.dumps(good), "draws the figures itself", "--gnuplot", "gnuplot")
         self.refused(json.dumps(good), "table1.csv: cannot be read", "--paper", self.folder)
         for name in ("table1", "table2", "table3"):
             (self.folder / f"{name}.csv").write_text((FOLDER / "paper" / f"{name}.csv").read_text())

@@ -74,4 +74,4 @@ def script(data, experiments):
     """experiments: their names."""
     return SCRIPT % ("\n".join(of_command(*command) for command in COMMANDS.items()), "\n".join(
         value_of(option, data) for option in OPTIONS if option.argument), words(
-            f"--{option.name}" for option in OPTIONS), f"{words([*experiments, *COMMANDS])}; {files('f')}")
+            f"--{option.name}" for option in OPTIONS), f"{words([*experiments, 'space', *COMMANDS])}; {files('f')}")

@@ -4,6 +4,7 @@ import dataclasses
 
 from report import own
 from report.results import Results
+from trax_eval.planner import check_names
 from trax_eval.sweep import read_sweep
 from trax_eval.util import Problem
 
@@ -44,6 +45,7 @@ def check(options, files):
 def explore(options, files, runs_of):
     """runs_of(sweep) makes a sweep's runs: (status, value of results.json, [(sweep, keys of its points)])."""
     check(options, files)
+    check_names(options, [read_sweep(files[0], programs=options.programs)])
     chosen = {
         "programs": options.programs, "chips": options.chip, "only_scenes": options.scene,
         "only_variants": options.variant
@@ -57,6 +59,8 @@ def explore(options, files, runs_of):
         return status
     estimated = {key: point for _, keys in plans for point, (key, _) in keys.items() if key}
     wanted = {dataclasses.replace(estimated[key], mode="exact") for key in front_keys(Results(value), estimated)}
+    if not wanted:
+        return status
     exact.points = [point for point in exact.points if point in wanted]
     print(f"{len(exact.points)} of {len(estimated)} runs may be on the front, and are made exactly", flush=True)
     return max(status, runs_of(exact)[0])

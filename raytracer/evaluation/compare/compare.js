@@ -4,8 +4,10 @@
 const at = (id) => byId(prefix + id);
 const signed = (value, text = whole) => typeof value !== "number" ? "" : (value > 0 ? "+" : value < 0 ? "\u2212" : "") + text(Math.abs(value));
 const cyclesText = (value) => typeof value !== "number" ? "" : Math.abs(value) < 10 ? digits(value) : whole(value);
-const shareText = (share) => typeof share !== "number" ? "" : signed(share, percent);
+const finePercent = (share) => `${(100 * share).toFixed(2)} %`;
+const shareText = (share) => typeof share !== "number" ? "" : Math.abs(share) < 10 ? signed(share, finePercent) : `\u00d7 ${digits(1 + share)}`;
 const shownValue = (value, unit = "") => value === undefined || value === null ? "" : valueText(value, unit);
+const shownChange = (value, unit) => signed(value, unit === "fraction" ? finePercent : (size) => shownValue(size, unit));
 const relativeOf = ({ a, b }) => typeof a === "number" && typeof b === "number" && a ? (b - a) / Math.abs(a) : undefined;
 
 // Of a share from -1 to 1.
@@ -62,7 +64,7 @@ function drawFigures({ sections }, titles) {
                     : box);
     fillTable(table.id, titles[name], [["name"], ["A", "n"], ["B", "n"], ["difference", "n"], ["relative", "n"], ["meaning"]],
       rows.map((row) => [[element("code", {}, row.name), row.name], [shownValue(row.a, row.unit), row.a], [shownValue(row.b, row.unit), row.b],
-        [signed(row.difference, (value) => shownValue(value, row.unit)), row.difference ?? 0],
+        [shownChange(row.difference, row.unit), row.difference ?? 0],
         [row.only_in ? `only ${row.only_in.toUpperCase()}` : shareText(relativeOf(row)), relativeOf(row) ?? 0],
         [row.unit && !["J", "W", "s", "fraction"].includes(row.unit) ? row.unit : "", row.meaning].filter((text) => text).join(": ")]));
   }

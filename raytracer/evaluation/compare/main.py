@@ -1,5 +1,6 @@
 """trax-sim compare: what differs between two runs (docs/compare.md)."""
 
+import itertools
 import json
 import math
 import os
@@ -9,7 +10,7 @@ import sys
 from trax_eval.outputs import IsInput, write_output
 from trax_eval.util import Once, Parser, Problem, check_files
 
-from .difference import compare
+from .difference import compare, shaded
 from .figures import Figures
 from .page import add_to_page, page
 from .runs import Run, runs_of
@@ -102,6 +103,18 @@ def add(options, result, pictures, data):
         raise Problem(f"{options.b}: {error.strerror}") from error
 
 
+def picture_of(name, path, run, result, pictures):
+    """The picture of the differences of `name`: where nothing differs it is transparent."""
+    missing = [result["missing"][part] for part in ("picture", *(["costs"] if name == "cost" else []))
+               if part in result["missing"]]
+    if "sizes" in result.get("pictures", {}):
+        missing.append("the runs' are of {}x{} and {}x{} pixels".format(*itertools.chain(*result["pictures"]["sizes"])))
+    if missing:
+        raise Problem(f"{path}: no picture of differences: {missing[0]}")
+    width, height, _ = run.picture
+    return pictures.get(name) or shaded([0] * (width * height), width, height)
+
+
 def main(arguments, tools, data):
     if "--help" in arguments or "-h" in arguments:
         print(HELP, end="")
@@ -111,25 +124,23 @@ def main(arguments, tools, data):
     if pathlib.Path(options.a).is_dir() != pathlib.Path(options.b).is_dir():
         raise Problem(f"{options.a} and {options.b}: one is a folder, and the other is none")
     folders = pathlib.Path(options.a).is_dir()
+    asked = {name: path for name, path in (("pixels", options.picture), ("cost", options.cost_picture)) if path}
     if folders:
-        result, pictures = compare_folders(options, figures)
-        if options.picture or options.cost_picture:
+        if asked:
             raise Problem("--picture and --cost-picture are for two runs, not for folders")
+        result, pictures = compare_folders(options, figures)
     else:
-        result, pictures = compare(Run(options.a), Run(options.b), figures)
+        run = Run(options.a)
+        result, pictures = compare(run, Run(options.b), figures)
     if options.add:
         add(options, result, pictures, data)
         return 0
-    for path, name in ((options.picture, "pixels"), (options.cost_picture, "cost")):
-        if path is not None and name not in pictures:
-            reason = result["missing"].get("picture" if name == "pixels" else "costs", "they do not differ")
-            raise Problem(f"{path}: no picture of differences: {reason}")
+    outputs = [(path, picture_of(name, path, run, result, pictures)) for name, path in asked.items()]
     if options.html is not None:
-        write(options.html, page(result if folders else {"runs": {"": result}}, pictures if folders else {"": pictures},
-                                 data))
-    for path, name in ((options.picture, "pixels"), (options.cost_picture, "cost")):
-        if path is not None:
-            write(path, pictures[name])
+        outputs.append((options.html, page(result if folders else {"runs": {"": result}},
+                                           pictures if folders else {"": pictures}, data)))
+    for output in outputs:
+        write(*output)
     if options.json:
         json.dump(result, sys.stdout, indent=1, allow_nan=False)
         print()

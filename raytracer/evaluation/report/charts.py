@@ -40,7 +40,8 @@ def _styles(results, groups, by_scene):
     marks = [(program, others[0]) for program in programs]
     marks += dict.fromkeys(group[1:] for group in groups if group[2] != others[0])
     for scene, program, rest in groups:
-        other = STYLES[others.index(rest) % len(STYLES)]
+        rounds, place = divmod(others.index(rest), len(STYLES))  # a colour that comes again has another mark
+        other = STYLES[place][0], STYLES[(place + rounds) % len(STYLES)][1]
         own = style_of(programs.index(program)) if several else other
         if by_scene:
             mark = style_of(marks.index((program, rest)))[1] if several else other[1]

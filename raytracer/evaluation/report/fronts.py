@@ -63,5 +63,5 @@ def figures(results, paper):
 
     if known:
         series = [Series("the paper's chips", style, points(known), mark, line=False),
-                  Series("front", style, points(front(known, cost)), mark, dashed=True)]
+                  Series("front (dashed)", style, points(front(known, cost)), mark, dashed=True)]
     yield Lines("chips-front", "The paper's chips: rays and area", LABELS[cost], LABELS["mrps"], series)

@@ -5,7 +5,6 @@
 The page holds all that it shows, pictures and figures included, and asks no network for anything; only its links lead
 to the runs' files. The same results give the same bytes."""
 
-import argparse
 import base64
 import os
 import pathlib
@@ -188,8 +187,9 @@ class Page:
         return [table(make(self.results, self.paper, program)) for program in self.programs]
 
     def own_figures(self):
+        results = own.one_of_each(self.results)
         for sweep in self.own:
-            drawn = sweep_figure(self.results, self.paper, sweep, f"sweep-{self.results.sweeps.index(sweep)}")
+            drawn = sweep_figure(results, self.paper, sweep, f"sweep-{results.sweeps.index(sweep)}")
             if drawn:
                 yield own.renamed(drawn, sweep)
 
@@ -204,7 +204,7 @@ class Page:
             yield "pictures", "Pictures", [pictures(self.results, self.base)]
         listed, of_run = configurations(self.results)
         runs = tables.run_table(self.results, self.paper, linker(self.base, self.folder), of_run)
-        yield "all-runs", "Runs", [table(runs)]
+        yield "all-runs", "Runs", [table(runs.without_empty() if self.own else runs)]
         yield "configurations", "Configurations", [listed]
 
     def kinds_sections(self):
@@ -303,7 +303,6 @@ def new_parser():
                         help="the page (default: report.html beside the results)")
     parser.add_argument("--paper", type=pathlib.Path, default=HERE.parent / "paper", metavar="DIR",
                         help="the paper's tables (default: those that come with trax)")
-    parser.add_argument("--gnuplot", help=argparse.SUPPRESS)
     return parser
 
 
@@ -313,11 +312,8 @@ def main(arguments=None):
     try:
         options = new_parser().parse_args(arguments)
         output = pathlib.Path(options.output or output)
-        if options.output == "" or not options.results.name:
-            raise Problem(
-                "--output: the value is empty" if options.results.name else "the name of the results is empty")
-        if options.gnuplot is not None:
-            raise Problem("--gnuplot is no longer an option: trax-eval draws the figures itself")
+        if not options.results.name:
+            raise Problem("the name of the results is empty")
         if not options.output:
             output = options.results.with_name("report.html")
         check_files([options.results], [output])

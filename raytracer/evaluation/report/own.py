@@ -1,5 +1,6 @@
 """The page of sweeps that do not come with trax: their own questions, what the figures cost, and why runs failed."""
 
+import copy
 import pathlib
 import re
 
@@ -7,7 +8,7 @@ from . import tables
 from .charts import CAUSES, STYLES, shares
 from .markup import el, join, table
 from .plots import Bars, Lines, Series, draw
-from .results import ratio
+from .results import Results, ratio
 from .sweeps import TITLES, interval_text
 from .table import Cell, Table, figure, words
 
@@ -26,7 +27,7 @@ LABELS = {
 # What a rate costs: identity, statistic, title.
 COSTS = [("area", "values.area_units", "Rays and area"), ("power", "energy.average_power", "Rays and power"),
          ("bandwidth", "memory.bandwidth_gbps", "Rays and off-chip bandwidth in use")]
-MOST_BARS, MOST_LETTERS = 40, 24
+MOST_BARS, MOST_LETTERS, LEAST_LETTERS = 40, 24, 5
 
 
 def sweeps(results):
@@ -81,17 +82,31 @@ def design(run):
     return run.scene, run.workload, run.size, run.program, run.config, run.variant, repr(sorted(run.set.items()))
 
 
-def groups(runs):
-    """Runs that render the same: by scene, workload and size. Of a design the exact run, where there is one."""
-    found, exact = {}, {design(run) for run in runs if not run.is_estimate()}
+def best_known(runs):
+    """Of each design the exact run, or its estimate until there is one."""
+    exact = {design(run) for run in runs if run.done and not run.is_estimate()}
+    return [run for run in runs if not (run.is_estimate() and design(run) in exact)]
+
+
+def one_of_each(results):
+    """The results of the runs that are best known. Their mode tells no runs apart."""
+    runs = [copy.copy(run) for run in best_known(results.runs)]
     for run in runs:
-        if run.get("mrps") is not None and not (run.is_estimate() and design(run) in exact):
+        run.mode = ""
+    return Results(results.document, runs)
+
+
+def groups(runs):
+    """The runs that are best known and render the same: by scene, workload and size."""
+    found = {}
+    for run in best_known(runs):
+        if run.get("mrps") is not None:
             found.setdefault((run.scene, run.workload, run.size), []).append(run)
     return found
 
 
 def front(runs, cost):
-    """The runs that no other has both more rays and less cost than; the least cost first."""
+    """The runs that no other run beats or equals in rays at no higher cost, by increasing cost."""
     known = [run for run in runs if run.get(cost) is not None]
     best, chosen = None, []
     for run in sorted(known, key=lambda run: (run.get(cost), -run.get("mrps"))):
@@ -114,7 +129,7 @@ def front_figures(runs):
             named = ", ".join(part for part in group[:2] if part)
             series.append(Series(named, style, points, mark, line=False))
             best = [(run.get(cost), run.get("mrps"), name_of(run, axes)) for run in front(some, cost)]
-            series.append(Series(f"front of {named}", style, best, mark, dashed=True))
+            series.append(Series(f"front of {named} (dashed)", style, best, mark, dashed=True))
         if series:
             yield Lines(f"front-{identity}", heading, label(cost), LABELS["mrps"], series)
 
@@ -161,14 +176,19 @@ def short(names):
         keys = ", ".join(part for part in some if "=" in part and part not in same)
         first = ", ".join(part for part in own_words if part not in in_all(plain))
         room = MOST_LETTERS - len(keys) - 2 if keys else MOST_LETTERS
-        first = cut(first, room) if room > 4 else ""
-        found.append(cut(", ".join(part for part in (first, keys) if part) or name, MOST_LETTERS))
+        if len(first) > room:
+            first = cut(first, max(room, LEAST_LETTERS))
+        text = ", ".join(part for part in (first, keys) if part) or name
+        # A key may lose its beginning, which bars have in common, but not its value.
+        begin = len(first) + 2 if first and keys else 0
+        found.append(text if len(text) <= MOST_LETTERS else
+                     f"{text[:begin]}…{text[begin + 1 - MOST_LETTERS:]}" if keys else cut(text, MOST_LETTERS))
     return found
 
 
 def time_figures(own, results):
     for place, sweep in enumerate(own):
-        runs = [run for run in results.of_sweep(sweep["name"]) if run.done]
+        runs = best_known([run for run in results.of_sweep(sweep["name"]) if run.done])
         axes = varying(runs)
         shown = [(name_of(run, axes), parts) for run in runs[:MOST_BARS] if (parts := shares(run))]
         bars = list(zip(short([name for name, _ in shown]), (parts for _, parts in shown))) if shown else []

@@ -300,17 +300,9 @@ def _build(results, paper, sweep, spec, runs, identity, title):
 
 
 def default_table(sweep, runs):
-    """The table of a sweep that describes none: by kind of ray or by lanes where runs have them."""
-    lanes = {int(key.split(".")[1]) for run in runs for key in run.values
-             if key.startswith("simd_utilisation.") and key.split(".")[1].isdecimal()} - {1}
-    kinds = {kind for run in runs for kind in run.kinds()}
-    if kinds:
-        widths = [width for width in (4, 8, 16, 32)
-                  if any(f"rays.{kind}.lanes.{width}" in run.values for run in runs for kind in kinds)]
-        return {"mean": ["scene"], "values": OF_KINDS + [f"kind.lanes.{width}" for width in widths]}
-    if lanes:
-        values = [f"values.simd_{what}.{width}" for width in sorted(lanes) for what in ("utilisation", "bound")]
-        return {"rows": ["program", "scene"], "values": values}
+    """The table of a sweep that describes none: by kind of ray where runs have kinds."""
+    if any(run.kinds() for run in runs):
+        return {"mean": ["scene"], "values": OF_KINDS}
     for axis in ("variant", "program"):
         if sweep.get("reference") in {run.axis(axis) for run in runs} - {""}:
             return {"relative": {axis: sweep["reference"]}}

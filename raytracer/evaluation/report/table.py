@@ -90,7 +90,8 @@ class Table:
 
     def without_empty(self):
         """Returns the table without columns in which nothing was measured."""
-        kept = [place for place in range(len(self.columns)) if any(row[place].shown for row in self.rows)]
+        kept = [place for place in range(len(self.columns))
+                if any(row[place].shown or row[place].links for row in self.rows)]
         return Table(self.identity, self.title, [self.columns[place] for place in kept],
                      [[row[place] for place in kept] for row in self.rows], self.note, self.notes)
 

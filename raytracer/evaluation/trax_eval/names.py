@@ -5,23 +5,32 @@ import fnmatch
 from .sweep import option_of
 from .table_spec import descriptions
 from .util import Problem, nearest
+from .values import OF_RAYS, OF_RUNS, OF_SOME_RUNS
+from .workloads import KINDS
 
 AXES = ("program", "scene", "workload", "kind", "variant", "chip", "size", "mode", "threads")
-# Figures whose names depend on the run: of trax-eval, of the host, of the scene, of the machine.
-OPEN = ("values.*", "kind.*", "host.*", "scene.*", "configuration.*", "configuration")
+
+
+def own_figures():
+    """The names of the figures that trax-eval adds to the statistics; patterns where a part of them is a run's own."""
+    of_rays = [*OF_RAYS, *(f"{name}_half" for name in OF_RAYS)]
+    return ["host.processor_seconds", *(f"values.{name}" for name in (*OF_RUNS, *OF_SOME_RUNS)),
+            *(f"values.rays.{kind}.{name}" for kind in (*KINDS, "none") for name in of_rays),
+            *(f"kind.{name}" for name in of_rays)]
 
 
 class Names:
-    """What the sweep's report knows: the keys that trax-sim describes and those that the sweep sets; statistics."""
+    """What the sweep's report knows: the keys that trax-sim describes and those that the sweep sets; figures."""
     def __init__(self, sweep, tools):
-        self.sweep = sweep
+        self.sweep, described = sweep, tools.described("--help-config")
         keys = {key for point in sweep.points for key, _ in (*point.settings, *point.program.settings)}
-        self.axes = dict.fromkeys((*AXES, *sorted(keys), *tools.described("--help-config")))
-        self.figures = dict.fromkeys(tools.described("--help-stats"))
+        self.axes = dict.fromkeys((*AXES, *sorted(keys), *described))
+        self.figures = dict.fromkeys([*tools.described("--help-stats"), *own_figures(),
+                                      *(f"configuration.{key}" for key in described)])
 
     def check(self, place, name, known, what):
         name = str(name)
-        if not option_of(name) and not any(fnmatch.fnmatchcase(name, pattern) for pattern in (*known, *OPEN)):
+        if not option_of(name) and not any(fnmatch.fnmatchcase(name, pattern) for pattern in known):
             raise Problem(f'{self.sweep.file}: {place}: "{name}" is no {what}{nearest(name, known)}')
 
     def axis(self, place, name):
@@ -29,7 +38,8 @@ class Names:
                    f"axis: neither a key of trax-sim --help-config nor one of {', '.join(AXES)}")
 
     def figure(self, place, name):
-        self.check(place, name, self.figures, "statistic of trax-sim --help-stats, nor values.NAME or kind.NAME")
+        self.check(place, name, self.figures,
+                   "statistic of trax-sim --help-stats, and no values.NAME or kind.NAME of trax-eval")
 
     def table(self, place, spec):
         for member in ("each", "rows", "columns", "mean"):

@@ -78,8 +78,10 @@ class Planner:
             try:
                 self.made[what] = function(), None
             except Problem as problem:
-                print(f"trax-eval: {problem}", file=sys.stderr)
-                self.made[what] = None, str(problem)
+                reason = str(problem)
+                if (None, reason) not in self.made.values():  # several inputs may fail by one
+                    print(f"trax-eval: {reason}", file=sys.stderr)
+                self.made[what] = None, reason
         value, reason = self.made[what]
         if reason:
             raise Problem(reason)

@@ -61,19 +61,25 @@ class Areas:
         return configuration["chip"]["tms"] * area
 
 
+# Of every run: name -> figure(statistics, area).
+OF_RUNS = {
+    "bytes_per_ray": lambda stats, _: ratio(stats["memory"]["bytes"], stats["rays"]),
+    "data_bytes_per_ray": lambda stats, _: ratio(stats["memory"]["data_read_bytes"], stats["rays"]),
+    "flops_per_ray": lambda stats, _: ratio(stats["flops"], stats["rays"]),
+    "frames_per_second": lambda stats, _: ratio(1e6 * stats["mrps"] * stats["items"], stats["rays"] * FRAME),
+    "area_units": lambda _, area: area,
+    "mrps_per_mm2": lambda stats, area: ratio(stats["mrps"], area),
+    "flop_utilisation": lambda stats, _: ratio(stats["gflops"], stats["peak_gflops"]),
+}
+# Of some runs, beside those of kinds of rays. What others compute has names of theirs.
+OF_SOME_RUNS = ("mrps_low", "mrps_high", "scene_bytes", "picture.pixels_that_differ", "counters.*", "error.*", "hits.*",
+                "code.*", "scene.*")
+
+
 def values_of(result, areas):
     statistics = result["statistics"]
-    rays, memory = statistics["rays"], statistics["memory"]
     area = areas.chip(statistics["configuration"])
-    values = {
-        "bytes_per_ray": ratio(memory["bytes"], rays),
-        "data_bytes_per_ray": ratio(memory["data_read_bytes"], rays),
-        "flops_per_ray": ratio(statistics["flops"], rays),
-        "frames_per_second": ratio(1e6 * statistics["mrps"] * statistics["items"], rays * FRAME),
-        "area_units": area,
-        "mrps_per_mm2": ratio(statistics["mrps"], area),
-        "flop_utilisation": ratio(statistics["gflops"], statistics["peak_gflops"]),
-    }
+    values = {name: figure(statistics, area) for name, figure in OF_RUNS.items()}
     sampled = statistics.get("sampled")
     if sampled and sampled["cycles_low"]:
         values["mrps_low"] = statistics["mrps"] * statistics["cycles"] / sampled["cycles_high"]
@@ -92,6 +98,7 @@ STALLS = {
     "dcache": ("dcache_bank_conflict", "wait_dcache_hit"),
     "units": ("fp_add_conflict", "fp_mul_conflict", "int_mul_conflict", "special_conflict", "wait_special"),
 }
+OF_RAYS = ("count", "mrps", "bytes_per_ray", "energy_per_ray", "share", "utilisation", *STALLS, "rest")
 
 
 def rows_of_rays(result, statistics):
@@ -110,10 +117,9 @@ def rows_of_rays(result, statistics):
 
 
 def values_of_rays(result, statistics):
-    """Returns values by kind of ray, with `none` for work for no ray: rays.KIND.count, mrps, bytes_per_ray,
-    energy_per_ray (nJ), share (of the thread-cycles before the threads' ends), utilisation, one of STALLS and rest
-    (shares of the kind's thread-cycles), and lanes.WIDTH. Of a sampled run also half the width of a figure's interval,
-    NAME_half."""
+    """Returns values by kind of ray, with `none` for work for no ray: rays.KIND.NAME with the names OF_RAYS. Energies
+    are in nJ; `share` is of the thread-cycles before the threads' ends, and utilisation, stalls and rest are shares of
+    the kind's. Of a sampled run also half the width of a figure's interval, NAME_half."""
     rows = rows_of_rays(result, statistics)
     live = statistics["thread_cycles"] - statistics["causes"]["halted"]
     values = {}
