@@ -1,4 +1,4 @@
-/* Private to the PLY reader: what ply_header.c, ply_values.c and ply_reader.c share. */
+/* Shared by ply_header.c, ply_values.c and ply_reader.c. */
 #ifndef SCENE_PLY_H
 #define SCENE_PLY_H
 
