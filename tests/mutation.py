@@ -62,12 +62,20 @@ def link_as(build, output, made, objects, without=()):
 
 
 def relinked(folder, build, target, source, text, tests):
-    """Programs like these tests, with the text in the place of the source of the target's library."""
-    changed, made = folder / source.name, folder / f"{source.name}.o"
-    changed.write_text(text)
-    compile_as(build, f"{target}/{source.name}.o", source, changed, made, f"-I{source.parent}")
+    """Programs like these tests, with the text in the place of the source of the target's library, or of a header of
+    some of its sources."""
+    (folder / source.name).write_text(text)
+    units, made = [source], []
+    if source.suffix == ".h":
+        units = [unit for unit in source.parent.glob("*.c") if f'#include "{source.name}"' in unit.read_text()]
+    for unit in units:
+        changed = folder / unit.name  # beside a changed header
+        if unit != source:
+            changed.write_text(unit.read_text())
+        made.append(folder / f"{unit.name}.o")
+        compile_as(build, f"{target}/{unit.name}.o", unit, changed, made[-1], f"-I{source.parent}")
     for test in tests:
-        link_as(build, f"tests/bin/{test}", folder / test, [made])
+        link_as(build, f"tests/bin/{test}", folder / test, made)
     return [folder / test for test in tests]
 
 

@@ -64,7 +64,7 @@ static inline bool environment_arrives(struct arrival *arrival, const struct tra
   return true;
 }
 
-/* What a ray that hits nothing brings. pdf: pi times that of its direction; 0: a mirror, glass or the eye. */
+/* The light of a ray that hits nothing. pdf: pi times that of its direction; 0: a mirror, glass or the eye. */
 static inline struct vector environment_found(const struct trax_render_params *run, struct vector direction,
                                               float pdf) {
   float other;

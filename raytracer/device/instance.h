@@ -1,4 +1,4 @@
-/* The traversal of a scene with instances (struct trax_instance), and where the triangles of an instance are.
+/* The traversal of a scene with instances (struct trax_instance), and the shading of an instance's triangles.
    traverse.h includes this file in programs that are compiled with TRAX_INSTANCES, and in the twin; its functions then
    replace those of the same name.
 
@@ -95,8 +95,7 @@ static inline __attribute__((always_inline)) void place_triangle(struct trax_tri
   }
 }
 
-/* A surface's start moves as much farther away as the instance's place is uncertain. The distance is of its corners
-   from the instance's origin. */
+/* find_surface moves the start farther away by the uncertainty of the instance's place (bound_of_place). */
 static inline __attribute__((always_inline)) void find_placed_surface(struct surface *surface, const struct hit *hit,
                                                                       struct vector eye, struct vector direction) {
   if (!HAS_INSTANCES) {
@@ -111,7 +110,7 @@ static inline __attribute__((always_inline)) void find_placed_surface(struct sur
   surface->turned ^= (instance->flags & TRAX_INSTANCE_MIRRORED) != 0;
 }
 
-/* The inverse's transpose turns normals. A power of two brings them near length 1. */
+/* Normals are turned by the inverse's transpose, and scaled to about length 1 by a power of two. */
 static inline __attribute__((always_inline)) void smooth_placed_surface(struct surface *surface, const struct hit *hit,
                                                                         uint32_t normals_distance) {
   if (!HAS_INSTANCES) {

@@ -1,4 +1,4 @@
-/* What all layouts of nodes (layouts/) have in common. The layout is a constant in code that is compiled for one, so
+/* The common part of all layouts of nodes (layouts/). The layout is a constant in code that is compiled for one, so
    that nothing is left of the others. */
 #ifndef TRAX_DEVICE_NODES_H
 #define TRAX_DEVICE_NODES_H

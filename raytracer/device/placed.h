@@ -1,4 +1,4 @@
-/* Where an instance's triangles are (struct trax_instance). Only for programs compiled with TRAX_INSTANCES. */
+/* The places of an instance's triangles (struct trax_instance). Only for programs compiled with TRAX_INSTANCES. */
 #ifndef TRAX_DEVICE_PLACED_H
 #define TRAX_DEVICE_PLACED_H
 

@@ -11,7 +11,7 @@
 #define LAYOUT_FILE "planes.h"
 #include "layouts/table.def"
 
-/* From a plane of a box to that of the next axis. */
+/* The distance in a node from a plane of a box to that of the next axis. */
 static inline int plane_bytes(uint32_t layout) {
 #define OF(kind)
 #define OWN(kind)                                                                                                      \

@@ -48,7 +48,7 @@ extern struct trax_buffer scene, params, image;
 #define LOOPS_FOR_BOTH_SIGNS 0
 #endif
 
-/* How the scene's nodes are laid out (enum trax_node_layout). */
+/* The layout of the scene's nodes (enum trax_node_layout). */
 #ifdef TRAX_NODE_LAYOUT
 #define RUN_LAYOUT(run) TRAX_NODE_LAYOUT
 #else

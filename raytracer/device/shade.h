@@ -20,7 +20,7 @@ struct surface {
   bool turned;          /* the viewer sees v0, v1, v2 clockwise */
 };
 
-/* How far the shadow ray's origin is moved along the normal, so that rounding cannot put it behind its own triangle: a
+/* The shadow ray's origin is moved along the normal so far that rounding cannot put it behind its own triangle: by a
    bound on all errors off the triangle's plane, in terms of M, the greatest magnitude among v0's coordinates, and E,
    that among the edges' components. With u = 2^-24:
    - the point relative to v0, a sum of the edges (errors of the weights lie in the plane): 5u E a coordinate;
@@ -82,7 +82,7 @@ static inline __attribute__((always_inline)) void find_surface(struct surface *s
   surface->inverse_length = inverse_length;
 }
 
-/* The smooth surface's, as the triangle has it. */
+/* The interpolated normal of the vertices, in the mesh. */
 static inline __attribute__((always_inline)) struct vector stored_normal(const struct hit *hit,
                                                                          uint32_t normals_distance) {
   const float *n0 = (const float *)(const void *)(hit->triangle + normals_distance), *n1 = n0 + 3, *n2 = n0 + 6;
@@ -91,7 +91,7 @@ static inline __attribute__((always_inline)) struct vector stored_normal(const s
                           times(hit->weight2, minus(load_vector(n2), first))));
 }
 
-/* Replaces the normal by the smooth surface's, on the same side of the triangle. */
+/* Replaces the normal by the smooth one, on the same side of the triangle. */
 static inline __attribute__((always_inline)) void set_smooth_normal(struct surface *surface, struct vector n) {
   int32_t side = float_bits(dot(n, surface->normal)) & SIGN_BIT;
   n = (struct vector){bits_float(float_bits(n.x) ^ side), bits_float(float_bits(n.y) ^ side),

@@ -18,7 +18,7 @@
 #define MOST_TREELETS (1u << 15)
 #define TOP_DEPTH 16 /* of the tree above the treelets. A treelet that begins there may be larger */
 
-/* Numbers of nodes above the treelets, and of treelets, with the kind in the lowest bits. */
+/* A number of a node above the treelets or of a treelet has its kind in the lowest bits. */
 enum { TOP_NODE = 0, TREELET = 1, LEAF = 3 /* a treelet that is a leaf */ };
 #define NO_TREELET 0xFFFFFFFFu
 #define ANY_TRIANGLE ((const struct trax_triangle *)1) /* the hit of a ray to the light */
@@ -163,7 +163,7 @@ static __attribute__((noinline)) void advance(const struct state *state, unsigne
   if (path.lit && hit.triangle)
     return;
   for (;;) {
-    struct ray ray = make_ray(&frame->grid, path.origin, path.direction);
+    struct ray ray = make_ray(frame, path.origin, path.direction);
     number = next_treelet(&rays[i], &ray, hit.distance, number);
     if (number != NO_TREELET) {
       unsigned place = trax_atomic_inc(&queued[state->round % 3]);
@@ -228,8 +228,10 @@ static __attribute__((noinline)) void trace_treelets(struct state *state, unsign
     struct hit hit;
     load_once(&path, &waiting->path, sizeof path);
     load_once(&hit, &waiting->hit, sizeof hit);
-    struct ray ray = make_ray(&state->frame->grid, path.origin, path.direction);
-    bool any = path.lit != 0, found = trace(&ray, treelets[trax_load_nt(&order[i].treelet)], any, &hit);
+    struct ray ray = make_ray(state->frame, path.origin, path.direction);
+    bool any = path.lit != 0;
+    const trax_scene_ref root = treelets[trax_load_nt(&order[i].treelet)];
+    bool found = trace_below(&root, &ray, any, &hit);
     if (found)
       waiting->hit = any ? (struct hit){0, ANY_TRIANGLE} : hit;
   }

@@ -53,10 +53,11 @@ static inline __attribute__((always_inline)) bool trace_queued(const struct wave
                                                                bool any, struct hit *hit) {
   struct queued_ray now;
   load_once(&now, queued, sizeof now);
-  struct ray ray = make_ray(&wave->frame->grid, now.origin, now.direction);
+  struct ray ray = make_ray(wave->frame, now.origin, now.direction);
   *hit = (struct hit){now.distance, NULL};
   trax_count_rays(1);
-  return trace(&ray, ((const struct trax_scene_header *)scene.data)->root, any, hit);
+  const trax_scene_ref root = ((const struct trax_scene_header *)scene.data)->root;
+  return trace_below(&root, &ray, any, hit);
 }
 
 static __attribute__((noinline)) void trace_eye_rays(struct wave *wave) {

@@ -5,15 +5,16 @@
 
 #include "picture.h"
 
-#define UNITS_OF_DOUBT 2 /* by which the product may be rounded otherwise than the quotient, in its last place */
+#define UNITS_OF_DOUBT 2 /* units of the last place by which the rounded product and quotient may differ */
 
 struct hit {
   float distance;
   const triangle_record *triangle; /* NULL: nothing was hit */
 };
 
-/* "Fast, Minimum Storage Ray/Triangle Intersection" (Journal of Graphics Tools 2(1), 1997), for both sides. What
-   is compared is the distance times the determinant; only a nearer hit is divided, and none if any hit will do. */
+/* Moeller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection" (Journal of Graphics Tools 2(1), 1997), for
+   both sides. Distances times the determinant are compared, so only a nearer hit takes a division, and an any-hit ray
+   takes none. */
 static inline bool hit_triangle(const struct vector *origin, const struct vector *direction,
                                 const triangle_record *triangle, bool any, struct hit *hit) {
   struct vector corner = load(triangle->v0);

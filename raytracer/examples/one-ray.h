@@ -1,13 +1,13 @@
-/* One ray and one pixel, for steps 9 and 10, which differ from step 7 in what the threads do when. The arithmetic is
-   that of step 7, but a ray can begin below the root of the tree. */
+/* The parts of a pixel's work that steps 9 and 10 share. The arithmetic is that of step 7; only the order of work
+   differs. */
 #ifndef TRAX_EXAMPLES_ONE_RAY_H
 #define TRAX_EXAMPLES_ONE_RAY_H
 
-#include "quantised.h"
+#include "traversal.h"
 
 struct trax_buffer scene, params, image;
 
-/* Copies words past the data cache, where what is used once would displace the scene. */
+/* Copies words past the data cache, so that data of a single use do not displace the scene. */
 typedef unsigned __attribute__((may_alias)) word;
 static inline void load_once(void *to, const void *from, unsigned bytes) {
   for (unsigned i = 0; i < bytes / sizeof(word); i++)
@@ -16,43 +16,6 @@ static inline void load_once(void *to, const void *from, unsigned bytes) {
 static inline void store_once(void *to, const void *from, unsigned bytes) {
   for (unsigned i = 0; i < bytes / sizeof(word); i++)
     __builtin_nontemporal_store(((const word *)from)[i], (word *)to + i);
-}
-
-/* Traces through the subtree at `reference`. Returns whether the ray has a hit there or had one before. */
-static inline __attribute__((always_inline)) bool trace(const struct ray *ray, trax_scene_ref reference, bool any,
-                                                        struct hit *hit) {
-  const char *bytes = scene.data;
-  trax_scene_ref stack[TRAX_SCENE_DEFAULT_DEPTH];
-  unsigned top = 0;
-  for (;;) {
-    unsigned count = TRAX_SCENE_REF_COUNT(reference);
-    if (__builtin_expect(count == 0, 1)) {
-      const struct trax_quantised_node *node = (const void *)(bytes + reference);
-      int enter0, enter1, nearest = in_units_of_boxes(hit->distance);
-      if (hit_box(ray, node->box[0].min, nearest, &enter0)) {
-        if (hit_box(ray, node->box[1].min, nearest, &enter1)) {
-          bool second = enter1 < enter0;
-          stack[top++] = node->child[!second];
-          reference = node->child[second];
-        } else {
-          reference = node->child[0];
-        }
-        continue;
-      }
-      if (hit_box(ray, node->box[1].min, nearest, &enter1)) {
-        reference = node->child[1];
-        continue;
-      }
-    } else {
-      const struct trax_triangle *triangle = (const void *)(bytes + TRAX_SCENE_REF_OFFSET(reference));
-      for (const struct trax_triangle *end = triangle + count; triangle != end; triangle++)
-        if (hit_triangle(&ray->origin, &ray->direction, triangle, any, hit) && any)
-          return true;
-    }
-    if (top == 0)
-      return hit->triangle != NULL;
-    reference = stack[--top];
-  }
 }
 
 /* False: the slot is beyond the picture's edge. */
@@ -74,7 +37,7 @@ struct surface {
   struct vector origin, direction;
   float distance;   /* to the light */
   float light;      /* that the surface reflects in shadow */
-  float from_light; /* what the light adds; 0: the surface does not face it */
+  float from_light; /* added if the light is visible; 0: the surface does not face it */
   unsigned material;
 };
 

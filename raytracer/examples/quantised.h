@@ -13,8 +13,8 @@ struct ray {
   int near_x, near_y, near_z; /* bytes from a box's minima to its nearer planes: 0, or 6 if the direction is negative */
 };
 
-/* The bits of the distance along the ray to a plane. The number of 16 bits is not converted: taken for a float it is a
-   subnormal, the number times 2^-149, which the machine multiplies as any other. */
+/* The bits of the distance along the ray to a plane. The number of 16 bits is used as a float without a conversion: a
+   subnormal, the number times 2^-149, which the machine multiplies like any other. */
 static inline int plane_bits(const char *plane, float factor, float start) {
   return bits(value(*(const uint16_t *)plane) * factor - start);
 }
@@ -40,7 +40,7 @@ static inline bool hit_box(const struct ray *ray, const uint16_t *box, int neare
          clip(min + 4 + ray->near_z, max + 4 - ray->near_z, ray->factor.z, ray->start.z, enter, &leave);
 }
 
-/* A distance in the units of boxes, as bits: what is divided by 2^64 has 64 less in its exponent. */
+/* The bits of a distance in the units of boxes, 2^64: the exponent is 64 less. */
 static inline int in_units_of_boxes(float distance) {
   return larger(bits(distance) - (64 << 23), bits(0x1p-126f));
 }
@@ -49,9 +49,11 @@ static inline int far_first(float component) {
   return component < 0 ? 6 : 0;
 }
 
-/* 2^149 makes numbers of what was taken for subnormals, and distances are divided by 2^64, which keeps all of this
-   within the range of floats. */
-static inline struct ray make_ray(const struct trax_ray_grid *grid, struct vector origin, struct vector direction) {
+/* The factor contains 2^149, since planes are subnormals. Distances are divided by 2^64, so that all values stay within
+   the range of floats. */
+static inline struct ray make_ray(const struct trax_render_params *frame, struct vector origin,
+                                  struct vector direction) {
+  const struct trax_ray_grid *grid = &frame->grid;
   float x = direction.x, y = direction.y, z = direction.z, product = x * y * z;
   if ((bits(product) & ~SIGN_BIT) < bits(0x1p-30f)) { /* along an axis or a plane of two, or nearly so: rarely */
     x = away_from_zero(x), y = away_from_zero(y), z = away_from_zero(z);

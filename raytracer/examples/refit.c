@@ -49,7 +49,7 @@ static struct box leaf_box(trax_scene_ref ref) {
   return box;
 }
 
-/* Where the children of each node are, once for a topology. */
+/* Finds the place of each node in its parent, once for a topology. */
 static void link_nodes(unsigned begin, unsigned end, void *unused) {
   (void)unused;
   for (unsigned i = begin; i < end; i++)

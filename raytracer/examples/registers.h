@@ -12,7 +12,7 @@ static inline unsigned render(const struct trax_render_params *frame, unsigned x
   const struct trax_triangle *seen = NULL;
   float light = 0, from_light = 0;
   for (;;) {
-    struct ray ray = make_ray(&frame->grid, origin, direction);
+    struct ray ray = make_ray(frame, origin, direction);
     bool found = trace(&ray, seen != NULL, &hit);
     trax_count_rays(1);
     if (seen) {

@@ -1,4 +1,4 @@
-/* Stages, for steps 9 and 10: what all threads do before any of them goes on, and a counting sort of stages. */
+/* Stages, for steps 9 and 10: all threads finish one before any thread begins the next. A counting sort of stages. */
 #ifndef TRAX_EXAMPLES_STAGES_H
 #define TRAX_EXAMPLES_STAGES_H
 
@@ -15,8 +15,8 @@
 
 static unsigned arrived, taken[3][QUEUES], sums[MOST_THREADS];
 
-/* Waits for all threads, and makes their stores visible. Polls take bandwidth from those that still work, so pauses
-   double. `stage` counts barriers. The counters of the next stage are cleared. */
+/* Waits for all threads, and makes their stores visible. Pauses double, since polls take bandwidth from threads that
+   still work. `stage` counts barriers. The counters of the next stage are cleared. */
 static __attribute__((noinline)) void barrier(unsigned *stage) {
   const unsigned goal = ++*stage * trax_threads();
   __atomic_thread_fence(__ATOMIC_RELEASE);
@@ -29,7 +29,8 @@ static __attribute__((noinline)) void barrier(unsigned *stage) {
     taken[(*stage + 1) % 3][queue] = 0;
 }
 
-/* Takes a number below `count`. A TM has every QUEUES-th tile of numbers; without any left it helps the next TM. */
+/* Takes a number below `count`. A TM owns every QUEUES-th tile of numbers. When its tiles are done it helps the next
+   TM. */
 static inline bool take(unsigned stage, unsigned count, unsigned *turn, unsigned *index) {
   for (; *turn < QUEUES; ++*turn) {
     unsigned queue = (trax_tm() + *turn) % QUEUES, number = trax_atomic_inc(&taken[stage % 3][queue]);
@@ -40,11 +41,11 @@ static inline bool take(unsigned stage, unsigned count, unsigned *turn, unsigned
   return false;
 }
 
-/* Once in a stage. */
+/* Distributes the numbers below `count` over all threads. Allowed once in a stage. */
 #define FOR_ALL(i, stage, count) for (unsigned turn = 0, i; take(stage, count, &turn, &i);)
 
-/* Replaces each of `size` counts by the sum of those before it. A thread adds a part of them, then the sums of the
-   threads before it, and clears its part of `next`. Takes two stages. */
+/* Replaces each of `size` counts by the sum of those before it (an exclusive prefix sum), in two stages: each thread
+   sums a part, then adds the sums of the threads before it. It also clears its part of `next`. */
 static __attribute__((noinline)) void sum_counts(unsigned *counts, unsigned *next, unsigned size, unsigned *stage) {
   unsigned part = size / trax_threads() + 1, begin = part * trax_thread(), sum = 0;
   unsigned end = begin + part < size ? begin + part : size;

@@ -29,4 +29,4 @@ def node(number):
 
 
 node(0)
-write_tree(rows, boxes, array.array("I", pathlib.Path(sys.argv[2]).read_bytes()))
+write_tree(rows, array.array("I", pathlib.Path(sys.argv[2]).read_bytes()), boxes)

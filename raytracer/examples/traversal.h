@@ -1,13 +1,15 @@
-/* The traversal of steps 6 and 7: all in registers, and the second child's test in two places. */
+/* The traversal of steps 6, 7, 9 and 10: all in registers, and the second child's test in two places. */
 #ifndef TRAX_EXAMPLES_TRAVERSAL_H
 #define TRAX_EXAMPLES_TRAVERSAL_H
 
 #include "quantised.h"
 
-/* The nearest hit before hit->distance; or, if any hit will do, whether there is one. */
-static inline __attribute__((always_inline)) bool trace(const struct ray *ray, bool any, struct hit *hit) {
+/* Finds the nearest hit before hit->distance in the subtree to which *root refers, or, if any hit suffices, whether
+   there is one. */
+static inline __attribute__((always_inline)) bool trace_below(const trax_scene_ref *root, const struct ray *ray,
+                                                              bool any, struct hit *hit) {
   const char *bytes = scene.data; /* references are offsets from its beginning */
-  trax_scene_ref stack[TRAX_SCENE_DEFAULT_DEPTH], reference = ((const struct trax_scene_header *)bytes)->root;
+  trax_scene_ref stack[TRAX_SCENE_DEFAULT_DEPTH], reference = *root;
   unsigned top = 0;
   for (;;) {
     unsigned count = TRAX_SCENE_REF_COUNT(reference);
@@ -38,6 +40,10 @@ static inline __attribute__((always_inline)) bool trace(const struct ray *ray, b
       return hit->triangle != NULL;
     reference = stack[--top];
   }
+}
+
+static inline __attribute__((always_inline)) bool trace(const struct ray *ray, bool any, struct hit *hit) {
+  return trace_below(&((const struct trax_scene_header *)scene.data)->root, ray, any, hit);
 }
 
 #endif

@@ -41,7 +41,7 @@ static inline struct scene_box scene_join_boxes(const struct scene_box *a, const
   return both;
 }
 
-/* What both boxes have in common. */
+/* The intersection of two boxes. */
 static inline struct scene_box scene_box_within(const struct scene_box *a, const struct scene_box *b) {
   struct scene_box box;
   for (int axis = 0; axis < 3; axis++) {

@@ -74,7 +74,7 @@ struct scene_box scene_box_in_node(const struct trax_scene *scene, uint32_t numb
 /* The least box that contains all children. */
 struct scene_box scene_box_around(const struct scene_node *node);
 void scene_node_of(struct scene_node *node, const struct trax_scene *scene, uint32_t number);
-/* The stack's entries below a node with `above` above it. *most: so far at once. */
+/* The entries on the stack below a node that has `above` of them above it. *most becomes at least as many. */
 uint32_t scene_stack_entries(enum trax_node_layout layout, uint32_t above, uint32_t children, uint32_t *most);
 
 static inline void trax_scale_floats(float *values, size_t count, int exponent) {
@@ -129,8 +129,8 @@ struct scene_wide {
 
 /* Makes them from a binary tree. False when out of memory. */
 bool scene_widen(struct scene_wide *wide, const struct scene_tree *tree, enum trax_node_layout layout);
-/* Decides on their places, unless the layout has. position: of the tree's inner nodes (struct scene_order), whose order
-   the wide nodes keep. */
+/* Chooses the places of wide nodes, unless the layout has chosen. They keep the order of the tree's inner nodes, whose
+   places are `position` (struct scene_order). */
 void scene_place_wide(struct scene_wide *wide, const struct scene_tree *tree, const uint32_t *position);
 void scene_wide_release(struct scene_wide *wide);
 

@@ -1,5 +1,5 @@
 /* A node of two children, or a pair of children of a wider one: two boxes of six planes, the three least ones first,
-   and the children's references. Of the device. */
+   and the children's references. For the device. */
 #ifndef TRAX_LAYOUTS_PAIRS_H
 #define TRAX_LAYOUTS_PAIRS_H
 

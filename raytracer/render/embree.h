@@ -80,7 +80,7 @@ double embree_emitter_density(const struct embree *embree, const struct trax_tri
 struct double3 embree_environment(const struct embree *embree, struct double3 direction, double *density);
 /* The direction of a shadow ray into the environment; pick chooses its texel, x and y the place in it. */
 struct double3 embree_pick_environment(const struct embree *embree, uint32_t pick, double x, double y);
-/* What a ray that hits nothing brings. density: with which the surface before chose the direction; 0: there was no
+/* The light of a ray that hits nothing. density: with which the surface before chose the direction; 0: there was no
    choice. */
 struct double3 embree_far_light(const struct embree *embree, struct double3 direction, double density);
 /* Sets the direction to a point; returns its distance, 0 if it is too near to have one. */

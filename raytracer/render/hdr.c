@@ -100,13 +100,23 @@ static trax_status take_header(double *exposure, uint32_t *width, uint32_t *heig
   return TRAX_OK;
 }
 
+/* Whether a file of so many bytes may have so many pixels. Packed rows have at most 64 a byte; plain pixels that repeat
+   may have more, and a small file of them would take gigabytes. */
+static bool has_room(size_t bytes, uint32_t width, uint32_t height) {
+  return (uint64_t)width * height / 256 <= bytes || width > TRAX_RENDER_MAX_SIDE || height > TRAX_RENDER_MAX_SIDE;
+}
+
 trax_status trax_hdr_decode(struct trax_picture *picture, const uint8_t *bytes, size_t size, const char *name,
                             trax_error *error) {
   struct reader reader = {bytes, bytes + size};
   uint32_t width = 0, height = 0;
   double exposure;
-  if (take_header(&exposure, &width, &height, &reader, name, error) != TRAX_OK ||
-      trax_radiance_allocate(picture, width, height, name, error) != TRAX_OK)
+  if (take_header(&exposure, &width, &height, &reader, name, error) != TRAX_OK)
+    return TRAX_ERROR;
+  if (!has_room(size, width, height))
+    return trax_fail(error, "%s: an HDR picture of %u x %u pixels in %zu bytes is cut off or damaged", name, width,
+                     height, size);
+  if (trax_radiance_allocate(picture, width, height, name, error) != TRAX_OK)
     return TRAX_ERROR;
   uint8_t *row = malloc(4 * (size_t)width);
   trax_status status = row ? TRAX_OK : trax_fail(error, "%s: out of memory", name);

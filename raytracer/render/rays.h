@@ -38,8 +38,8 @@ trax_status trax_rays_bind(trax_machine *machine, const struct trax_rays *rays, 
 /* Takes the hits after the run. */
 trax_status trax_rays_take(struct trax_rays *rays, trax_machine *machine, trax_error *error);
 
-/* How many rays have another result than in the file, and the first of them. Of shadow and occlusion rays only `hit`
-   counts, of others every bit. */
+/* Counts the rays that have another result than in the file, and finds the first. Of shadow and occlusion rays only
+   `hit` is compared, of others every bit. */
 uint32_t trax_rays_unequal(const struct trax_rays *rays, const struct trax_scene *scene, uint32_t *first);
 /* Writes the file's rays with the run's results. */
 trax_status trax_rays_write(const struct trax_rays *rays, const struct trax_scene *scene, const char *path,

@@ -91,7 +91,7 @@ static uint32_t measure(struct tree *tree, trax_scene_ref reference) {
   return tree->bytes[number];
 }
 
-/* Where a ray enters a box; infinity: nowhere. */
+/* The distance at which a ray enters a box; infinity: it misses. */
 static double enter(const struct trax_ray_record *ray, const double min[3], const double max[3]) {
   double near = 0, far = ray->end;
   for (int axis = 0; axis < 3; axis++) {

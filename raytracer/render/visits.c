@@ -51,7 +51,7 @@ static int compare_numbers(const void *a, const void *b) {
   return *left < *right ? -1 : *left > *right;
 }
 
-/* Where the triangles of each instance begin, in the order in which they were placed. In the file they are in the
+/* The first triangle's number of each instance, in the order in which they were placed; in the file they are in the
    tree's order. To be freed. */
 static uint32_t *sort_instances(const struct trax_scene *scene) {
   uint32_t *begins = malloc((scene->instance_count + (size_t)1) * sizeof *begins);

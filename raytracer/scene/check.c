@@ -65,7 +65,7 @@ static trax_status check_header(const struct checker *checker, const struct trax
   return TRAX_OK;
 }
 
-/* Those of the header, and behind them those of a file with instances. */
+/* The sections of the header, and then those of a file with instances. */
 enum { ALL_SECTIONS = TRAX_SCENE_SECTIONS + TRAX_SCENE_MORE_SECTIONS };
 
 static struct trax_scene_section section_of(const struct trax_scene_header *header, unsigned kind) {

@@ -187,7 +187,7 @@ static trax_status check_subtree(struct checker *checker, trax_scene_ref ref, un
   return TRAX_OK;
 }
 
-/* With room for the notes of each node and triangle. */
+/* Has room for the notes of each node and triangle. */
 static trax_status check_whole_tree(struct checker *checker) {
   struct scene_box root;
   if (format_of(checker)->code->arrange && TRAX_SCENE_REF_COUNT(checker->view->header->root))

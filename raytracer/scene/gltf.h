@@ -92,7 +92,7 @@ void gltf_transform(double m[3][4], const struct gltf_pose *pose);
 trax_status gltf_find_poses(struct gltf *gltf, const uint32_t *parents);
 void gltf_release_poses(struct gltf *gltf);
 
-/* How a node's mesh differs from the file's vertices. */
+/* The differences of a node's mesh from the file's vertices. */
 struct gltf_deform {
   double *weights; /* of morph targets */
   uint32_t weight_count, joint_count;

@@ -31,7 +31,8 @@ static trax_status find_attribute(struct gltf_accessor *accessor, bool *found, s
   return TRAX_OK;
 }
 
-/* What an animation moves vertices by. Their normals are computed: those of the file would have to be moved, too. */
+/* Finds the joints, weights and targets by which an animation moves vertices. Normals are computed then: the file's
+   would have to be moved, too. */
 static trax_status find_deformed(struct primitive *primitive, struct gltf *gltf, const json_t *attributes,
                                  const json_t *item) {
   const uint32_t count = primitive->positions.count;

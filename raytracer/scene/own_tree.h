@@ -1,4 +1,4 @@
-/* What the files that read a tree of another builder have in common. */
+/* Shared by the files that read a tree of another builder. */
 #ifndef TRAX_SCENE_OWN_TREE_H
 #define TRAX_SCENE_OWN_TREE_H
 

@@ -4,10 +4,10 @@
 
 #include "internal.h"
 
-/* Sets what follows from to_world and origin, but stretch. NULL, or why there is no such instance. */
+/* Derives all members but stretch from to_world and origin. NULL, or why there is no such instance. */
 const char *scene_derive_instance(struct trax_instance *instance);
 
-/* Sets to_world and origin, and what follows from them. NULL, or why there is no such instance. */
+/* Sets to_world and origin, and derives the others. NULL, or why there is no such instance. */
 const char *scene_place_instance(struct trax_instance *instance, const double transform[3][4]);
 
 /* The stretch of an instance in a scene with these bounds. */

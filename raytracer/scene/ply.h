@@ -1,4 +1,4 @@
-/* Private to the PLY reader: what ply_header.c, ply_values.c and ply_reader.c share. */
+/* Shared by ply_header.c, ply_values.c and ply_reader.c. */
 #ifndef SCENE_PLY_H
 #define SCENE_PLY_H
 
@@ -69,10 +69,19 @@ static inline bool ply_is_space(unsigned char c) {
   return c == ' ' || (c >= '\t' && c <= '\r');
 }
 
+/* Whether there are properties of all these roles. */
+static inline bool ply_has_roles(unsigned roles, enum role first, enum role last) {
+  for (enum role role = first; role <= last; role++)
+    if (!(roles >> role & 1))
+      return false;
+  return true;
+}
+
 /* FILE:LINE: in text, FILE: ELEMENT NUMBER: in binary data. */
 trax_status scene_ply_fail(const struct ply_reader *reader, const char *reason);
 
-/* Reads the header: elements, properties and the texture's name. Moves to the first byte after it. */
+/* Reads the header: elements, properties and the texture's name. Moves to the first byte after it. Checks that there
+   are vertices and faces, and that the file is long enough for them. */
 trax_status scene_ply_header(struct ply_reader *reader);
 
 /* The next value of the data, ASCII or binary. */

@@ -161,6 +161,32 @@ static void read_comment(struct ply_reader *reader) {
   }
 }
 
+/* Checks the header's counts before memory is allocated for them. */
+static trax_status check_elements(struct ply_reader *reader) {
+  unsigned vertices = 0, roles = 0;
+  for (unsigned e = 0; e < reader->element_count; e++) {
+    const struct element *element = &reader->elements[e];
+    uint64_t least = 0; /* bytes of a record */
+    for (unsigned i = 0; i < element->property_count; i++) {
+      const struct property *property = &reader->properties[element->first_property + i];
+      least += reader->format == ascii ? 1 : type_sizes[property->list_count ? property->list_count : property->type];
+      roles |= 1u << property->role;
+    }
+    vertices += element->is_vertex;
+    if (element->count * least > (uint64_t)(reader->end - reader->at))
+      return trax_fail(reader->error, "%s: cut off: too short for the %llu records of '%s' that its header tells of",
+                       reader->path, (unsigned long long)element->count, element->name);
+  }
+  if (vertices > 1)
+    return trax_fail(reader->error, "%s: more than one element 'vertex'", reader->path);
+  reader->roles = roles;
+  if (vertices == 0 || !ply_has_roles(roles, coordinate_x, coordinate_z))
+    return trax_fail(reader->error, "%s: no vertices with x, y and z", reader->path);
+  if (!(roles & 1u << indices))
+    return trax_fail(reader->error, "%s: no faces: neither 'face' nor 'tristrips' has vertex indices", reader->path);
+  return TRAX_OK;
+}
+
 trax_status scene_ply_header(struct ply_reader *reader) {
   char word[max_name];
   bool has_format = false;
@@ -193,5 +219,5 @@ trax_status scene_ply_header(struct ply_reader *reader) {
   if (!has_format)
     return scene_ply_fail(reader, "the header has no format");
   end_line(reader);
-  return TRAX_OK;
+  return check_elements(reader);
 }

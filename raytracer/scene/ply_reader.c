@@ -8,13 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool has_roles(unsigned roles, enum role first, enum role last) {
-  for (enum role role = first; role <= last; role++)
-    if (!(roles >> role & 1))
-      return false;
-  return true;
-}
-
 static trax_status add_triangle(struct ply_reader *reader, uint32_t a, uint32_t b, uint32_t c) {
   struct trax_mesh *mesh = reader->mesh;
   if (!scene_grow(&mesh->triangles, sizeof *mesh->triangles, mesh->triangle_count, &reader->triangle_capacity))
@@ -186,32 +179,6 @@ static trax_status read_record(struct ply_reader *reader, const struct element *
   return TRAX_OK;
 }
 
-/* Checks the header's counts before memory is allocated for them. */
-static trax_status check_elements(struct ply_reader *reader) {
-  unsigned vertices = 0, roles = 0;
-  for (unsigned e = 0; e < reader->element_count; e++) {
-    const struct element *element = &reader->elements[e];
-    uint64_t least = 0; /* bytes of a record */
-    for (unsigned i = 0; i < element->property_count; i++) {
-      const struct property *property = &reader->properties[element->first_property + i];
-      least += reader->format == ascii ? 1 : type_sizes[property->list_count ? property->list_count : property->type];
-      roles |= 1u << property->role;
-    }
-    vertices += element->is_vertex;
-    if (element->count * least > (uint64_t)(reader->end - reader->at))
-      return trax_fail(reader->error, "%s: cut off: too short for the %llu records of '%s' that its header tells of",
-                       reader->path, (unsigned long long)element->count, element->name);
-  }
-  if (vertices > 1)
-    return trax_fail(reader->error, "%s: more than one element 'vertex'", reader->path);
-  reader->roles = roles;
-  if (vertices == 0 || !has_roles(roles, coordinate_x, coordinate_z))
-    return trax_fail(reader->error, "%s: no vertices with x, y and z", reader->path);
-  if (!(roles & 1u << indices))
-    return trax_fail(reader->error, "%s: no faces: neither 'face' nor 'tristrips' has vertex indices", reader->path);
-  return TRAX_OK;
-}
-
 static trax_status read_elements(struct ply_reader *reader) {
   for (unsigned e = 0; e < reader->element_count; e++) {
     const struct element *element = &reader->elements[e];
@@ -238,8 +205,8 @@ static trax_status prepare(struct ply_reader *reader, const struct trax_import_o
                            struct trax_import_report *report) {
   struct trax_mesh *mesh = reader->mesh;
   const size_t count = (size_t)reader->vertex_count + 1;
-  const bool normals = has_roles(reader->roles, normal_x, normal_z),
-             uvs = has_roles(reader->roles, texture_u, texture_v);
+  const bool normals = ply_has_roles(reader->roles, normal_x, normal_z),
+             uvs = ply_has_roles(reader->roles, texture_u, texture_v);
   uint64_t faces = 0;
   for (unsigned e = 0; e < reader->element_count; e++)
     for (unsigned i = 0; i < reader->elements[e].property_count; i++)
@@ -290,8 +257,6 @@ trax_status scene_read_ply(struct trax_mesh *mesh, const char *path, const struc
   reader->start = reader->at = file.data;
   reader->end = file.data + file.size;
   result = scene_ply_header(reader);
-  if (result == TRAX_OK)
-    result = check_elements(reader);
   if (result == TRAX_OK)
     result = prepare(reader, options, report);
   if (result == TRAX_OK)

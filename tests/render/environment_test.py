@@ -189,7 +189,9 @@ def test_hdr():
                               "of another format"), ("turned", plain.replace(b"-Y 2 +X 10",
                                                                              b"+X 10 -Y 2"), "do not go down"),
                              ("huge", plain.replace(b"-Y 2 +X 10", b"-Y 2 +X 99999"),
-                              "must be 1 to"), ("head", b"#?RADIANCE\nFORMAT=32-bit", "does not end")):
+                              "must be 1 to"),
+                             ("bomb", hdr([], size=(16384, 16384)) + 16384 * b"\x09\x09\x09\x82\1\1\1\xff\1\1\1\x3f",
+                              "16384 x 16384 pixels in 196"), ("head", b"#?RADIANCE\nFORMAT=32-bit", "does not end")):
         pathlib.Path(f"{name}.hdr").write_bytes(data)
         done = call("trax-render", "floor.obj", "--environment", f"{name}.hdr", "-q", "-o", "x.pfm", status=1)
         check(said in done.stderr, name, done.stderr)

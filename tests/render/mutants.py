@@ -90,7 +90,7 @@ def noticed(folder, build, mutant):
     for test, program, macros in TESTS:
         made = folder / f"{test}.o"
         compile_as(build, COMPILED, ROOT / "tests/render/light_test.c", folder / program, made, *macros,
-                   "-ffp-contract=off", "-fcommon")
+                   "-ffp-contract=off", "-fcommon", "-O1")  # the twin takes long to optimise
         link_as(build, f"tests/bin/{test}", folder / test, [made], without=["light_test.c.o"])
         failed += failures(folder / test)
     return failed

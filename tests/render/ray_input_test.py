@@ -108,7 +108,8 @@ def check_refusals(rays, file):
     refused("no-such.bin", other="no-such.bin")
     pathlib.Path("bad.bin").write_bytes(file)
     for words in (["-o", "p.png"], ["--view", "forest"], ["--paths", "2"], ["--engine", "native"],
-                  ["--explore", "e.html"], ["--no-specialise"], ["--sampled"]):
+                  ["--explore", "e.html"], ["--no-specialise"], ["--sampled"], ["--environment", "e.pfm"],
+                  ["--ambient", "0.5"], ["--background", "000000"]):
         refused("not with", *words)
     refused("is an input and the output", "--ray-results", "bad.bin")
     done = call("trax-render", rays[0], "-o", "p.png", "--ray-order", "random", status=1)

@@ -315,7 +315,7 @@ static void test_duplicates_do_not_call_for_splits(void **state) {
     struct trax_mesh mesh = {0};
     struct trax_scene scene;
     struct trax_build_options choice = {0};
-    mesh_soup(&mesh, 40, 0.01f, 1);
+    mesh_soup(&mesh, 400, 0.01f, 1);
     for (int i = 0; i < 12; i++) {
       const float shift = apart ? 0.01f * (float)i : 0;
       mesh_triangle(&mesh, (float[]){-1, -1, -1}, (float[]){1, 1, 1}, (float[]){1, 1, 0.9f - shift}, 0);

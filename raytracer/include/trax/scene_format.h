@@ -7,10 +7,9 @@
 
    A file with instances has version 3, struct trax_scene_more at byte 192, and the sections behind it.
 
-   A 64-byte line is the machine's unit of traffic, so the format minimises the lines per ray: - a BVH node holds both
-   children's boxes and is one line; - a leaf's triangles are contiguous, 40 bytes each, their material with them, in
-   the order in which a depth-first
-     traversal meets the leaves, so that neighbouring leaves share lines.
+   A 64-byte line is the machine's unit of traffic, so the format minimises the lines per ray. A BVH node holds both
+   children's boxes and is one line. A leaf's triangles are contiguous, 40 bytes each, with their material, in the order
+   in which a depth-first traversal meets the leaves, so that neighbouring leaves share lines.
    The section table is indexed by kind. A section that a program does not read may be absent: offset, count and
    size 0.
 

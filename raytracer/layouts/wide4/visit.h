@@ -1,11 +1,12 @@
 #include "../pairs.h"
 
 /* Nodes of up to four children: pairs, one behind the other as two binary nodes are, so that one copy of the test of a
-   pair goes through both. The nearest child is on the stack, too, for a moment. */
+   pair goes through both. For a moment the nearest child is on the stack, too. */
 enum { wide4_by_sign = 0, wide4_more_entries = 1, wide4_traces = 0 };
 #define wide4_trace(...) false
 
-/* Among those above `bottom`, of which the last is entered first; of equals the first put there is the last. */
+/* Inserts an entry among those above `bottom`. They are sorted: the last is entered first, and of equal ones the first
+   inserted is the last. */
 static inline __attribute__((always_inline)) void
 stack_insert(const struct stack_entry *bottom, struct stack_entry **top, trax_scene_ref reference, int32_t enter) {
   struct stack_entry *at = (*top)++;
@@ -19,8 +20,8 @@ stack_insert(const struct stack_entry *bottom, struct stack_entry **top, trax_sc
   *at = (struct stack_entry){reference, enter};
 }
 
-/* Puts the children of a wide node that the ray enters on the stack, the nearest last, and lets that one be taken from
-   there. To keep it in a register takes more cycles. */
+/* Puts the children of a wide node that the ray enters on the stack, the nearest last. The traversal takes that one
+   from there; keeping it in a register takes more cycles. */
 static inline __attribute__((always_inline)) bool wide4_visit(uint32_t layout, const char *node, const struct ray *ray,
                                                               int32_t limit, trax_scene_ref *next,
                                                               struct stack_entry **top) {

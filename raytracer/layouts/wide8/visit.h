@@ -1,8 +1,8 @@
 /* The traversal of nodes of up to eight children, after Ylitie, Karras and Laine ("Efficient incoherent ray traversal
    on GPUs through compressed wide BVHs", HPG 2017). All children of a node are tested at once, from the slot that the
-   ray reaches last to the first. What is left of a node is an entry of the stack, so that there is one for each level
-   at most. Instead of a mask of slots, whose first bit this machine cannot find in one instruction, an entry has their
-   numbers, four bits each. */
+   ray reaches last to the first. An entry of the stack is a node with the slots still to be visited, so there is at
+   most one for each level. It has the numbers of slots, four bits each, instead of a mask, whose first bit this machine
+   cannot find in one instruction. */
 enum { wide8_by_sign = 1, wide8_more_entries = 0, wide8_traces = 1 };
 #define wide8_visit(...) false
 
@@ -17,7 +17,7 @@ static inline uint32_t last_slot(const struct ray *ray) {
   return 7 ^ ((ray->near_offset_x >> 3 & 1) | (ray->near_offset_y >> 2 & 2) | (ray->near_offset_z >> 1 & 4));
 }
 
-/* Which children the ray enters. */
+/* The list of the slots whose children the ray enters. */
 static inline __attribute__((always_inline)) uint32_t entered_slots(const char *node, const struct ray *world,
                                                                     uint32_t last, int32_t limit) {
   struct ray ray = *world;
@@ -29,7 +29,7 @@ static inline __attribute__((always_inline)) uint32_t entered_slots(const char *
     const char *child = node + slot;
     int32_t enter;
     if (enter_box(TRAX_NODES_WIDE8, child, IN_WIDE8(min), &ray, limit, &enter) &&
-        *(const uint8_t *)(child + IN_WIDE8(meta)) != 0) /* to ask this first takes more cycles */
+        *(const uint8_t *)(child + IN_WIDE8(meta)) != 0) /* asking this first takes more cycles */
       list = list << 4 | 8 | slot;
   }
   return list;

@@ -124,7 +124,7 @@ static struct scene_box box_in_frame(const void *bytes, const struct scene_box *
     const int scale = node->scale[axis];
     const struct plane low = plane_of(origin, plane_below(origin, scale, box->min[axis]), scale);
     const struct plane high = plane_of(origin, plane_above(origin, scale, box->max[axis]), scale);
-    /* What is beyond the frame has no plane. */
+    /* There is no plane beyond the frame. */
     stored.min[axis] = is_above(low, box->min[axis]) ? box->min[axis] : not_below(low);
     stored.max[axis] = is_below(high, box->max[axis]) ? box->max[axis] : not_above(high);
   }
@@ -146,7 +146,7 @@ static void scale_frame(void *bytes, const struct trax_node_format *format, int 
   }
 }
 
-/* References to what is there; nothing reads the others. */
+/* A reference that no child uses moves, too; nothing reads it. */
 static void relocate(void *bytes, const struct trax_node_format *format, uint32_t address) {
   struct trax_wide8_node *node = bytes;
   (void)format;
