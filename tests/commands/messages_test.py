@@ -16,7 +16,7 @@ from common import BIN, TEST_BIN, VERSION, accepted, end, fail, path_of, refused
 USERS = ["clang", "clang++", "trax-clang", "trax-clang++", "trax-compare", "trax-eval", "trax-ld", "trax-mc",
          "trax-objdump", "trax-render",
          "trax-scene", "trax-sim"]
-OTHERS = ["trax-llc", "trax-isa-gen", "trax-isa-model", "trax-isa-mutants", "trax-accuracy", "engine-bench"]
+OTHERS = ["trax-llc", "trax-isa-gen", "trax-isa-model", "trax-isa-mutants", "trax-accuracy"]
 
 
 def versions():
