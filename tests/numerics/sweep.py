@@ -40,9 +40,8 @@ def main():
 
     hardware = sweeps.Program("hardware", [program("sweep-hardware")])
     sources = sweeps.Program("runtime on the host", [program("sweep-runtime")])
-    tp = sweeps.Program("TP",
-                 [program("trax-sim"), "--engine", "functional", "--quiet", "--config", options.machine,
-                  program("sweep.elf")], True)
+    command = [program("trax-sim"), "--engine", "functional", "--quiet", "--config", options.machine]
+    tp = sweeps.Program("TP", [*command, program("sweep.elf")], True)
     same = True
     for group in [options.group] if options.group else list(GROUPS):
         count = options.count or (500 if group == "functions" else 20000)

@@ -36,13 +36,13 @@ def main():
     if options.count is not None and options.count < 1 or options.first < 0 or options.first + (options.count or
                                                                                                 0) > 1 << 32:
         parser.error("pairs are numbered from 0 to 4294967295")
-    tests, same = os.path.join(options.bin, "../tests/bin"), True
-    oracle = sweeps.Program("the oracle", [f"{tests}/isa-oracle-sweep"])
+    program, same = os.path.join(options.bin, "../tests/bin/isa-oracle-sweep"), True
+    oracle = sweeps.Program("the oracle", [program])
     for name in [options.engine] if options.engine else ENGINES:
         count = options.count or ENGINES[name]
         for bits in [options.bits] if options.bits else [24] + REDUCED:
             command = [os.path.join(options.bin, "trax-sim"), "--quiet", "--engine", name, "--config", options.machine,
-                       "--set", f"special.precision_bits={options.engine_bits or bits}", f"{tests}/isa-oracle-sweep.elf"]
+                       "--set", f"special.precision_bits={options.engine_bits or bits}", f"{program}.elf"]
             engine = sweeps.Program(name, command, True)
             same &= sweeps.compare(f"{bits} bits", engine, oracle, bits, options.first,
                                    count if bits == 24 else max(1, count // 8))
