@@ -26,8 +26,8 @@ ROWS = 12  # of functions; the rest is one row
 def count(programs, words, cycles, scratch):
     """Host instructions by function, and the statistics of the run."""
     out, stats = scratch / "callgrind.out", scratch / "stats.json"
-    run = subprocess.run(["valgrind", "--tool=callgrind", f"--callgrind-out-file={out}", programs / "trax-sim", *words,
-                          "--host-threads", "1", "--max-cycles", str(cycles), "--stats", stats],
+    run = subprocess.run(["valgrind", "--tool=callgrind", f"--callgrind-out-file={out}", programs / "trax-sim",
+                          "--host-threads", "1", "--max-cycles", str(cycles), "--stats", stats, *words],
                          cwd=scratch, capture_output=True, text=True)
     if run.returncode != 124 or not stats.exists():
         sys.exit(f"instructions.py: error: the run has not stopped at cycle {cycles}:\n{run.stderr}")
@@ -52,7 +52,7 @@ def main():
 
     with tempfile.TemporaryDirectory() as scratch:
         scratch = pathlib.Path(scratch)
-        words = speed.render(options, options.scene, ["--config", options.chip], scratch)
+        words = ["--config", options.chip, speed.prepare(options, options.scene, scratch)]
         before, stats_before = count(options.bin.resolve(), words, first, scratch)
         after, stats_after = count(options.bin.resolve(), words, last, scratch)
     difference = sorted(((after[name] - before.get(name, 0), name) for name in after), reverse=True)

@@ -4,13 +4,16 @@
     emulator/bench/speed.py SCENES_DIRECTORY [--scenes conference,dragon,sibenik] [--chips 4x32,8x64] [--size 320x180]
                             [--whole | --max-cycles 400000] [--repeats 3] [--bin build/bin]
 
-SCENES_DIRECTORY holds the meshes of trax-eval's scenes. The rows are those of engine-bench (emulator/bench/engines.c):
-million simulated instructions per second of wall time for each engine, and ratios. The timed engines run the first
-cycles of the picture, the functional engine the whole picture. With --whole, all engines run the whole picture, without
-the reference. The first line names the host's processor: processors differ by more than versions do.
+SCENES_DIRECTORY holds the meshes of trax-eval's scenes. The columns are million simulated instructions per second of
+wall time: of the reference engine, of the fast engine on one thread and on two, of the functional engine; then ratios.
+Each repetition runs all engines, and the shortest time of an engine counts, since the host may be busy. The timed
+engines run the first cycles of the picture, the functional engine the whole picture. With --whole, all engines run the
+whole picture, without the reference, which takes some forty times as long. The first line names the host's processor:
+processors differ by more than versions do. The exit status is 1 if the engines disagree on cycles or instructions.
 """
 
 import argparse
+import json
 import pathlib
 import subprocess
 import sys
@@ -18,7 +21,6 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "raytracer/evaluation"))
-from trax_eval.manifest import read_manifest  # noqa: E402
 from trax_eval.scenes import mesh_files  # noqa: E402
 from trax_eval.util import Problem  # noqa: E402
 
@@ -41,13 +43,28 @@ def files_of(directory, scene):
 
 
 def prepare(options, scene, scratch):
-    """The executable of the scene's picture and its buffers, in scratch, as engine-bench takes them."""
+    """The manifest of the scene's picture, in scratch."""
     subprocess.run([options.bin / "trax-render", *files_of(options.scenes, scene), "--view", scene,
                     "--size", options.size, "--quiet", "--prepare", scratch], check=True)
-    manifest = read_manifest(scratch)
-    buffers = (buffer["symbol"] + (f"={buffer['file']}" if "file" in buffer else f":{buffer['bytes']}")
-               for buffer in manifest["buffers"])
-    return [manifest["program"]["file"], *buffers]
+    return pathlib.Path(scratch, "manifest.json")
+
+
+ENGINES = {"reference": ("reference", 1), "fast": ("fast", 1), "2 threads": ("fast", 2),
+           "functional": ("functional", 1)}
+
+
+def run(options, chip, name, manifest):
+    """(seconds, cycles, instructions) of a run of the engine with this name."""
+    engine, threads = ENGINES[name]
+    stats = manifest.with_name("stats.json")
+    limit = [] if options.whole or name == "functional" else ["--max-cycles", str(options.max_cycles)]
+    command = [options.bin / "trax-sim", "--quiet", "--engine", engine, "--host-threads", str(threads),
+               "--config", chip, *limit, "--stats", stats, manifest]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode != 0 and not (limit and done.returncode == 124):
+        sys.exit(f"speed.py: error: trax-sim ended with status {done.returncode}: {done.stderr}")
+    figures = json.loads(stats.read_text())
+    return figures["host_seconds"], figures["cycles"], figures["instructions"]
 
 
 def processor():
@@ -60,33 +77,40 @@ def processor():
     return f"{name} (family {family}, model {model})"
 
 
+def row(chip, scene, best):
+    speed = {name: instructions / seconds / 1e6 for name, (seconds, _, instructions) in best.items()}
+    cycles, instructions = best["fast"][1:]
+    cells = [chip, scene, f"{cycles:,}", f"{instructions:,}",
+             *(f"{speed[name]:.1f}" if name in speed else "-" for name in ENGINES),
+             f"{speed['fast'] / speed['reference']:.1f}" if "reference" in speed else "-",
+             f"{speed['fast'] / speed['functional']:.2f}", f"{speed['2 threads'] / speed['fast']:.2f}"]
+    return f"| {' | '.join(cells)} |"
+
+
 def main():
     parser = arguments(__doc__, "320x180")
     parser.add_argument("--scenes", dest="names", default="conference,dragon,sibenik")
     parser.add_argument("--chips", default="4x32,8x64")
-    parser.add_argument("--max-cycles", default="400000")
+    parser.add_argument("--max-cycles", type=int, default=400000)
     parser.add_argument("--whole", action="store_true")
-    parser.add_argument("--repeats", default="3")
+    parser.add_argument("--repeats", type=int, default=3)
     options = parser.parse_args()
 
-    print(f"processor: {processor()}")
-    header = True
+    names = [name for name in ENGINES if not (options.whole and name == "reference")]
+    heads = ["chip", "scene", "cycles", "instructions", *ENGINES, "fast/reference", "fast/functional", "2 threads/1"]
+    print(f"processor: {processor()}\n\n| {' | '.join(heads)} |\n|{' --- |' * len(heads)}")
+    same = True
     for scene in options.names.split(","):
         with tempfile.TemporaryDirectory() as scratch:
-            arguments_of_program = prepare(options, scene, scratch)
-            how_far = ["--no-reference"] if options.whole else ["--max-cycles", options.max_cycles]
-            bench = (options.bin / "../tests/bin/engine-bench").resolve()
-            run = subprocess.run([bench, "--chips", options.chips, *how_far, "--repeats", options.repeats,
-                                  *arguments_of_program], cwd=scratch, text=True, stdout=subprocess.PIPE)
-        rows = run.stdout.splitlines()
-        if header and rows:
-            print(rows[0].replace("case      ", "scene         "))
-            header = False
-        for row in rows[1:]:
-            print(row.replace("program   ", f"{scene:14}"), flush=True)
-        if run.returncode:
-            sys.exit(f"speed.py: error: engine-bench ended with status {run.returncode}")
+            manifest = prepare(options, scene, scratch)
+            for chip in options.chips.split(","):
+                rounds = [{name: run(options, chip, name, manifest) for name in names} for _ in range(options.repeats)]
+                best = {name: min(each[name] for each in rounds) for name in names}
+                counts = {best[name][1:] for name in names if name != "functional"}
+                same &= len(counts) == 1
+                print(row(chip, scene, best) + ("" if len(counts) == 1 else " DIFFERENT"), flush=True)
+    return not same
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

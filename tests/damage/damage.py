@@ -5,9 +5,8 @@
 
 A case follows from the seed, the kind and its number. Each run has 4 GiB of memory and a minute of processor time. It
 must end with status 0, or 1 and a message; a program for the TPs may have its own status. A refusal leaves the former
-output as it was. Without damage every command works. Three kinds are others:
+output as it was. Without damage every command works. Two kinds are others:
 
-    settings     the fast engine and the reference, on random machines: the same output and statistics
     calls        host calls by chance, of a program that was given a folder: nothing outside is read or written
     environment  a run with other variables, or closed standard streams: the usual output, or a refusal
 
@@ -25,7 +24,7 @@ import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import calls  # noqa: E402
-import compare  # noqa: E402
+import environment  # noqa: E402
 import inputs  # noqa: E402
 from kinds import KINDS, OWN_STATUS, SAME_NAME  # noqa: E402
 from runs import CRASHED, run, with_message  # noqa: E402
@@ -110,19 +109,16 @@ def main():
         good = pathlib.Path(scratch) / "good"
         good.mkdir()
         inputs.make(binaries, good)
-        keys = list(compare.keys_of(binaries))
         for kind in options.kinds or KINDS:
             count = KINDS[kind][0] if options.whole else options.count
             statuses = {}
             with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
 
                 def one(number, kind=kind):
-                    if kind == "settings":
-                        return compare.settings(binaries, good, number, options.seed, keys)
                     if kind == "calls":
                         return calls.calls(binaries, good, number, options.seed)
                     if kind == "environment":
-                        return compare.environment(binaries, good, number, options.seed)
+                        return environment.environment(binaries, good, number, options.seed)
                     whole = undamaged[-number - 1] if number < 0 else None
                     return case(binaries, good, kind, number, options.seed, whole)
 

@@ -100,7 +100,6 @@ KINDS = {
     "bitcode": (980, ["program.bc"], mutate.of_bytes, [[*CLANG, "-O1", "-x", "ir", "{x}"]]),
     "profile": (66, ["program.prof"], mutate.of_text, [[*CLANG, "-O2", "-fprofile-sample-use={x}", "{d}/program.c"]]),
     "sweep": (224, ["sweep.json"], mutate.of_json, [["trax-eval", "{x}", "--dry-run", "-o", "{o}.d"]]),
-    "settings": (2000, [], None, []),
     "calls": (160, [], None, []),
     "environment": (300, [], None, []),
 }

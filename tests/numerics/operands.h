@@ -137,6 +137,14 @@ static const uint64_t special_doubles[] = {
     0x7FFFFFFFFFFFFFFF,
 };
 
+/* Zeros, subnormals, ends of the functions' pieces, where conversions to integers end, the greatest, infinity, NaNs. */
+static const uint32_t special_floats[] = {
+    0,          1,          2,          0x007FFFFF, 0x00800000, 0x00800001, 0x3E800000, 0x3ED413CC, 0x3ED413CD,
+    0x3EFFFFFF, 0x3F000000, 0x3F3504F3, 0x3F490FDB, 0x3F7FFFFF, 0x3F800000, 0x3F800001, 0x3FC90FDB, 0x40000000,
+    0x40400000, 0x40490FDB, 0x40A00000, 0x42FE0000, 0x43000000, 0x43150000, 0x4AFFFFFF, 0x4B000000, 0x4B000001,
+    0x4B7FFFFF, 0x4B800000, 0x4C000000, 0x4EFFFFFF, 0x4F000000, 0x4F800000, 0x5EFFFFFF, 0x5F000000, 0x5F7FFFFF,
+    0x5F800000, 0x7E800000, 0x7F000000, 0x7F7FFFFF, 0x7F800000, 0x7F800001, 0x7FC00000};
+
 static const uint64_t special_integers[] = {0,
                                             1,
                                             2,

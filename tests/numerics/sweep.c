@@ -5,8 +5,7 @@
      for the host, whose hardware does it: the reference;
      for the host with SWEEP_RUNTIME, where it is the runtime's sources compiled for the host.
 
-   sweep.py runs them and finds the first operands whose results differ. A program is told GROUP FIRST COUNT VERBOSE:
-   which routines, from which operands on, how many; and whether to print every result. */
+   sweep.py runs them and finds the first operands whose results differ. WHICH is the group. */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -84,12 +83,35 @@ static inline uint32_t integer_comparisons(uint64_t a, uint64_t b) {
 #endif
 }
 
+/* The same of floats, which the TP compares by itself. */
+static inline uint32_t float_comparisons(float a, float b) {
+#ifdef SWEEP_RUNTIME
+  return (rt___eqsf2(a, b) == 0) | (rt___nesf2(a, b) != 0) << 1 | (rt___ltsf2(a, b) < 0) << 2 |
+         (rt___lesf2(a, b) <= 0) << 3 | (rt___gtsf2(a, b) > 0) << 4 | (rt___gesf2(a, b) >= 0) << 5 |
+         (rt___unordsf2(a, b) != 0) << 6;
+#else
+  return comparisons((double)a, (double)b);
+#endif
+}
+
+/* A quotient and its remainder in one number, as a function gives both. */
+#define BOTH(quotient, rest) ((uint64_t)(quotient) ^ ((uint64_t)(rest) << 32 | (uint64_t)(rest) >> 32))
+#ifdef SWEEP_RUNTIME
+#define DIVIDE_BOTH(name, type, a, b)                                                                                  \
+  ({                                                                                                                   \
+    type rest, quotient = name((type)(a), (type)(b), &rest);                                                           \
+    BOTH(quotient, rest);                                                                                              \
+  })
+#else
+#define DIVIDE_BOTH(name, type, a, b) BOTH((type)(a) / (type)(b), (type)(a) % (type)(b))
+#endif
+
 /* A product, sum or difference that may overflow: the wrapped value with the flag in it. */
 #define OVERFLOW(operation, type, a, b)                                                                                \
   ({                                                                                                                   \
     type wrapped;                                                                                                      \
     uint64_t flag = operation((type)(a), (type)(b), &wrapped);                                                         \
-    (uint64_t)wrapped ^ flag << 62 ^ flag << 17;                                                                       \
+    (uint64_t) wrapped ^ flag << 62 ^ flag << 17;                                                                      \
   })
 
 #ifdef SWEEP_RUNTIME
@@ -111,6 +133,7 @@ static inline int multiply_overflow(int64_t a, int64_t b, int64_t *wrapped) {
   X(divide, BITS(RUNTIME(rt___divdf3(x, y), x / y)))                                                                   \
   X(negate, bits_of(RUNTIME(rt___negdf2(x), -x)))                                                                      \
   X(compare, comparisons(x, y))                                                                                        \
+  X(order, (uint32_t)RUNTIME(rt___cmpdf2(x, y), x < y ? -1 : x == y ? 0 : 1))                                          \
   X(to_float, FLOAT_BITS(RUNTIME(rt___truncdfsf2(x), (float)x)))                                                       \
   X(to_int32, (uint32_t)RUNTIME(rt___fixdfsi(x), TO_SIGNED(int32_t, x, 0x1p31, INT32_MIN, INT32_MAX)))                 \
   X(to_uint32, RUNTIME(rt___fixunsdfsi(x), TO_UNSIGNED(uint32_t, x, 0x1p32, UINT32_MAX)))                              \
@@ -128,21 +151,34 @@ static inline int multiply_overflow(int64_t a, int64_t b, int64_t *wrapped) {
   X(remainder_unsigned32, RUNTIME(rt___umodsi3((uint32_t)a, (uint32_t)b), (uint32_t)a % (uint32_t)b))                  \
   X(divide_signed32, (uint32_t)RUNTIME(rt___divsi3((int32_t)a, (int32_t)b), (int32_t)a / (int32_t)b))                  \
   X(remainder_signed32, (uint32_t)RUNTIME(rt___modsi3((int32_t)a, (int32_t)b), (int32_t)a % (int32_t)b))               \
+  X(divide_both, DIVIDE_BOTH(rt___udivmoddi4, uint64_t, a, b))                                                         \
+  X(divide_both_signed, DIVIDE_BOTH(rt___divmoddi4, int64_t, a, b))                                                    \
+  X(divide_both32, DIVIDE_BOTH(rt___udivmodsi4, uint32_t, a, b))                                                       \
+  X(divide_both_signed32, DIVIDE_BOTH(rt___divmodsi4, int32_t, a, b))                                                  \
+  X(negate64, RUNTIME(rt___negdi2(a), 0 - a))                                                                          \
   X(multiply64, RUNTIME(rt___muldi3(a, c), a *c))                                                                      \
   X(shift_left, RUNTIME(rt___ashldi3(a, n), a << n))                                                                   \
   X(shift_right, RUNTIME(rt___lshrdi3(a, n), a >> n))                                                                  \
   X(shift_right_signed, (uint64_t)RUNTIME(rt___ashrdi3((int64_t)a, n), (int64_t)a >> n))                               \
   X(compare64, integer_comparisons(a, b))                                                                              \
   X(multiply_overflow, OVERFLOW(MULTIPLY_OVERFLOW, int64_t, a, c >> n))                                                \
+  X(multiply_overflow_limit, OVERFLOW(MULTIPLY_OVERFLOW, int64_t, a | 1, limit))                                       \
   X(multiply_overflow_unsigned, OVERFLOW(__builtin_mul_overflow, uint64_t, a, c >> n))                                 \
   X(multiply_overflow32, OVERFLOW(__builtin_mul_overflow, int32_t, a, b))                                              \
   X(add_overflow, OVERFLOW(__builtin_add_overflow, int64_t, a, b))                                                     \
   X(subtract_overflow, OVERFLOW(__builtin_sub_overflow, int64_t, a, b))                                                \
   X(leading_zeros, (uint32_t)RUNTIME(rt___clzdi2(a | 1), __builtin_clzll(a | 1)))                                      \
+  X(leading_zeros32, (uint32_t)RUNTIME(rt___clzsi2((uint32_t)a | 1), __builtin_clz((uint32_t)a | 1)))                  \
   X(trailing_zeros, (uint32_t)RUNTIME(rt___ctzdi2(b), __builtin_ctzll(b)))                                             \
+  X(trailing_zeros32, (uint32_t)RUNTIME(rt___ctzsi2((uint32_t)b), __builtin_ctz((uint32_t)b)))                         \
+  X(first_one, (uint32_t)RUNTIME(rt___ffsdi2(a &c), __builtin_ffsll((long long)(a & c))))                              \
+  X(first_one32, (uint32_t)RUNTIME(rt___ffssi2((uint32_t)(a & c)), __builtin_ffs((int)(uint32_t)(a & c))))             \
   X(population, (uint32_t)RUNTIME(rt___popcountdi2(a), __builtin_popcountll(a)))                                       \
+  X(population32, (uint32_t)RUNTIME(rt___popcountsi2((uint32_t)a), __builtin_popcount((uint32_t)a)))                   \
   X(parity, (uint32_t)RUNTIME(rt___paritydi2(a), __builtin_parityll(a)))                                               \
+  X(parity32, (uint32_t)RUNTIME(rt___paritysi2((uint32_t)a), __builtin_parity((uint32_t)a)))                           \
   X(swap_bytes, RUNTIME(rt___bswapdi2(a), __builtin_bswap64(a)))                                                       \
+  X(swap_bytes32, RUNTIME(rt___bswapsi2((uint32_t)a), __builtin_bswap32((uint32_t)a)))                                 \
   X(int64_to_double, BITS(RUNTIME(rt___floatdidf((int64_t)a), (double)(int64_t)a)))                                    \
   X(uint64_to_double, BITS(RUNTIME(rt___floatundidf(a), (double)a)))                                                   \
   X(int32_to_double, BITS(RUNTIME(rt___floatsidf((int32_t)a), (double)(int32_t)a)))                                    \
@@ -151,30 +187,26 @@ static inline int multiply_overflow(int64_t a, int64_t b, int64_t *wrapped) {
   X(uint64_to_float, FLOAT_BITS(RUNTIME(rt___floatundisf(a), (float)a)))                                               \
   X(float_to_double, BITS(RUNTIME(rt___extendsfdf2(f), (double)f)))                                                    \
   X(float_to_int64, (uint64_t)RUNTIME(rt___fixsfdi(f), TO_SIGNED(int64_t, f, 0x1p63f, INT64_MIN, INT64_MAX)))          \
+  X(compare_floats, float_comparisons(f, g))                                                                           \
   X(float_to_uint64, RUNTIME(rt___fixunssfdi(f), TO_UNSIGNED(uint64_t, f, 0x1p64f, UINT64_MAX)))
 
 /* The runtime's functions that are compared with themselves: on the TP and compiled for the host. */
+// clang-format off
+#define SIMPLE_FUNCTIONS(F, X)                                                                                         \
+  F(X, sin) F(X, cos) F(X, tan) F(X, asin) F(X, acos) F(X, atan) F(X, sinh) F(X, cosh) F(X, tanh) F(X, asinh)          \
+  F(X, acosh) F(X, atanh) F(X, exp) F(X, exp2) F(X, expm1) F(X, log) F(X, log2) F(X, log10) F(X, log1p) F(X, cbrt)     \
+  F(X, erf) F(X, erfc) F(X, tgamma) F(X, lgamma)
+// clang-format on
 #ifdef __trax__
 #define OURS(name) name
-#else
-#define OURS(name) rt_##name
-#define DECLARE(name, expression) double rt_##name(double);
-#define SIMPLE_FUNCTIONS(X)                                                                                            \
-  X(sin, 0)                                                                                                            \
-  X(cos, 0)                                                                                                            \
-  X(tan, 0)                                                                                                            \
-  X(asin, 0)                                                                                                           \
-  X(acos, 0)                                                                                                           \
-  X(atan, 0)                                                                                                           \
-  X(sinh, 0) X(cosh, 0) X(tanh, 0) X(asinh, 0) X(acosh, 0) X(atanh, 0) X(exp, 0) X(exp2, 0) X(expm1, 0) X(log, 0)      \
-      X(log2, 0) X(log10, 0) X(log1p, 0) X(cbrt, 0) X(erf, 0) X(erfc, 0) X(tgamma, 0) X(lgamma, 0)
-SIMPLE_FUNCTIONS(DECLARE)
-#endif
-#ifdef __trax__
 double __powidf2(double, int);
 float __powisf2(float, int);
 double _Complex __muldc3(double, double, double, double);
 double _Complex __divdc3(double, double, double, double);
+#else
+#define OURS(name) rt_##name
+#define DECLARE(X, name) double rt_##name(double);
+SIMPLE_FUNCTIONS(DECLARE, )
 #endif
 
 /* Functions may hand on the NaN they were given, whose bits nothing promises. Both parts of a complex result in one
@@ -185,30 +217,7 @@ static inline uint64_t complex_bits(double _Complex value) {
 
 #define FUNCTION(X, name) X(name, canonical(OURS(name)(u)))
 #define FUNCTION_ROUTINES(X)                                                                                           \
-  FUNCTION(X, sin)                                                                                                     \
-  FUNCTION(X, cos)                                                                                                     \
-  FUNCTION(X, tan)                                                                                                     \
-  FUNCTION(X, asin)                                                                                                    \
-  FUNCTION(X, acos)                                                                                                    \
-  FUNCTION(X, atan)                                                                                                    \
-  FUNCTION(X, sinh)                                                                                                    \
-  FUNCTION(X, cosh)                                                                                                    \
-  FUNCTION(X, tanh)                                                                                                    \
-  FUNCTION(X, asinh)                                                                                                   \
-  FUNCTION(X, acosh)                                                                                                   \
-  FUNCTION(X, atanh)                                                                                                   \
-  FUNCTION(X, exp)                                                                                                     \
-  FUNCTION(X, exp2)                                                                                                    \
-  FUNCTION(X, expm1)                                                                                                   \
-  FUNCTION(X, log)                                                                                                     \
-  FUNCTION(X, log2)                                                                                                    \
-  FUNCTION(X, log10)                                                                                                   \
-  FUNCTION(X, log1p)                                                                                                   \
-  FUNCTION(X, cbrt)                                                                                                    \
-  FUNCTION(X, erf)                                                                                                     \
-  FUNCTION(X, erfc)                                                                                                    \
-  FUNCTION(X, tgamma)                                                                                                  \
-  FUNCTION(X, lgamma)                                                                                                  \
+  SIMPLE_FUNCTIONS(FUNCTION, X)                                                                                        \
   X(pow, canonical(OURS(pow)(u, w)))                                                                                   \
   X(atan2, canonical(OURS(atan2)(u, w)))                                                                               \
   X(hypot, canonical(OURS(hypot)(x, y)))                                                                               \
@@ -225,15 +234,9 @@ enum { DOUBLES, INTEGERS, FUNCTIONS, GROUPS };
 static const char *const double_names[] = {DOUBLE_ROUTINES(NAME)};
 static const char *const integer_names[] = {INTEGER_ROUTINES(NAME)};
 static const char *const function_names[] = {FUNCTION_ROUTINES(NAME)};
-static const char *const *const names[GROUPS] = {double_names, integer_names, function_names};
-static const int routine_counts[GROUPS] = {COUNT(double_names), COUNT(integer_names), COUNT(function_names)};
 #define MOST_ROUTINES (0 INTEGER_ROUTINES(COUNT_ONE) FUNCTION_ROUTINES(COUNT_ONE))
 
-static void add(uint32_t *hash, uint64_t value) {
-  uint32_t h = (*hash ^ (uint32_t)value) * 0x9E3779B1u;
-  h = ((h ^ h >> 15) ^ (uint32_t)(value >> 32)) * 0x85EBCA6Bu;
-  *hash = h ^ h >> 13;
-}
+#include "sweep_main.h"
 
 static void show(int verbose, const char *name, uint64_t value, struct operands o) {
   if (verbose)
@@ -258,7 +261,15 @@ static __attribute__((noinline)) void sweep_integers(uint32_t *hash, uint32_t nu
   struct operands o = integer_operands(number);
   uint64_t a = o.a, b = o.b, c = o.c;
   int n = (int)(number >> 3 & 63);
-  float f = as_float((uint32_t)(number & 1 ? c : (c & 0x807FFFFF) | (127 - 4 + (c >> 32 & 127)) << 23));
+  int64_t limit = INT64_MAX / (int64_t)(a | 1) + (int64_t)(c & 3) - 1; /* where products begin to overflow */
+  /* Any float, one of an integer's size, a special one; and another or a neighbour. */
+  uint32_t bits = (uint32_t)(number & 1 ? c : (c & 0x807FFFFF) | (127 - 4 + (c >> 32 & 127)) << 23);
+  uint32_t other = number & 2 ? (uint32_t)(o.a ^ o.b) : bits + (uint32_t)(c >> 40 & 3) - 1;
+  if ((number & 0x18) == 0) {
+    bits = special_floats[c % COUNT(special_floats)] | (bits & 0x80000000u);
+    other = special_floats[(c >> 20) % COUNT(special_floats)] | (other & 0x80000000u);
+  }
+  float f = as_float(bits), g = as_float(other);
   INTEGER_ROUTINES(APPLY)
 }
 
@@ -272,86 +283,16 @@ static __attribute__((noinline)) void sweep_functions(uint32_t *hash, uint32_t n
   FUNCTION_ROUTINES(APPLY)
 }
 
-static void sweep_block(int group, uint32_t first, uint32_t count, int verbose, uint32_t *hashes) {
+static void sweep_block(const struct parameters *p, uint64_t first, uint32_t count, uint32_t *hashes) {
   for (uint32_t i = 0; i < count; i++)
-    (group == DOUBLES    ? sweep_doubles
-     : group == INTEGERS ? sweep_integers
-                         : sweep_functions)(hashes, first + i, verbose);
+    (p->which == DOUBLES    ? sweep_doubles
+     : p->which == INTEGERS ? sweep_integers
+                            : sweep_functions)(hashes, (uint32_t)first + i, (int)p->verbose);
 }
 
-static void print_sums(int group, const uint64_t *sums) {
-  for (int i = 0; i < routine_counts[group]; i++)
-    printf("%s %016llx\n", names[group][i], (unsigned long long)sums[i]);
+static const char *const *routine_names(const struct parameters *p, int *count) {
+  static const char *const *const names[GROUPS] = {double_names, integer_names, function_names};
+  static const int counts[GROUPS] = {COUNT(double_names), COUNT(integer_names), COUNT(function_names)};
+  *count = counts[p->which % GROUPS];
+  return names[p->which % GROUPS];
 }
-
-/* A block's hash goes into the sum multiplied by an odd number of its own, so that no order of the blocks is asked for.
- */
-static void add_block(int group, uint32_t first, const uint32_t *hashes, uint64_t *sums) {
-  for (int i = 0; i < routine_counts[group]; i++)
-    sums[i] += (uint64_t)hashes[i] * (2 * (uint64_t)first + 1);
-}
-
-struct parameters {
-  uint32_t group, first, count, verbose;
-};
-
-#ifdef __trax__
-
-#define MOST_THREADS 64
-
-struct trax_buffer parameters;
-static uint32_t hashes[MOST_THREADS][MOST_ROUTINES];
-static uint64_t sums[MOST_THREADS][MOST_ROUTINES];
-static unsigned next_block, finished;
-
-int main(void) {
-  const struct parameters *p = parameters.data;
-  unsigned thread = trax_thread();
-  if (thread >= MOST_THREADS)
-    return 0;
-  for (;;) {
-    uint32_t done = trax_atomic_inc(&next_block) * BLOCK;
-    if (done >= p->count)
-      break;
-    uint32_t count = p->count - done < BLOCK ? p->count - done : BLOCK;
-    for (int i = 0; i < MOST_ROUTINES; i++)
-      hashes[thread][i] = 0;
-    sweep_block((int)p->group, p->first + done, count, (int)p->verbose, hashes[thread]);
-    add_block((int)p->group, p->first + done, hashes[thread], sums[thread]);
-  }
-  unsigned threads = trax_threads() < MOST_THREADS ? trax_threads() : MOST_THREADS;
-  if (trax_atomic_inc(&finished) != threads - 1)
-    return 0;
-  for (unsigned t = 1; t < threads; t++)
-    for (int i = 0; i < MOST_ROUTINES; i++)
-      sums[0][i] += sums[t][i];
-  if (!p->verbose)
-    print_sums((int)p->group, sums[0]);
-  return 0;
-}
-
-#else
-
-int main(int argc, char **argv) {
-  if (argc != 5) {
-    fprintf(stderr, "usage: sweep GROUP FIRST COUNT VERBOSE\n");
-    return 1;
-  }
-  struct parameters p = {(uint32_t)strtoul(argv[1], NULL, 0), (uint32_t)strtoul(argv[2], NULL, 0),
-                         (uint32_t)strtoul(argv[3], NULL, 0), (uint32_t)strtoul(argv[4], NULL, 0)};
-  if (p.group >= GROUPS) {
-    fprintf(stderr, "sweep: there are %d groups\n", GROUPS);
-    return 1;
-  }
-  uint64_t sums[MOST_ROUTINES] = {0};
-  for (uint32_t done = 0; done < p.count; done += BLOCK) {
-    uint32_t hashes[MOST_ROUTINES] = {0};
-    sweep_block((int)p.group, p.first + done, p.count - done < BLOCK ? p.count - done : BLOCK, (int)p.verbose, hashes);
-    add_block((int)p.group, p.first + done, hashes, sums);
-  }
-  if (!p.verbose)
-    print_sums((int)p.group, sums);
-  return 0;
-}
-
-#endif

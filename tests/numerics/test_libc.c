@@ -188,10 +188,6 @@ static void string_functions(void **unused) {
   }
 }
 
-static int sign(int x) {
-  return (x > 0) - (x < 0);
-}
-
 /* Random strings over a small alphabet, so that parts are found, against the host's functions. */
 static void more_string_functions(void **unused) {
   (void)unused;
@@ -219,9 +215,9 @@ static void more_string_functions(void **unused) {
     assert_memory_equal(got, want, sizeof got);
     assert_int_equal(rt_stpncpy(got, b, n) - got, stpncpy(want, b, n) - want);
     assert_memory_equal(got, want, sizeof got);
-    assert_int_equal(sign(rt_strcasecmp(a, b)), sign(strcasecmp(a, b)));
-    assert_int_equal(sign(rt_strncasecmp(a, b, n)), sign(strncasecmp(a, b, n)));
-    assert_int_equal(sign(rt_strcoll(a, b)), sign(strcmp(a, b)));
+    assert_int_equal(sign_of(rt_strcasecmp(a, b)), sign_of(strcasecmp(a, b)));
+    assert_int_equal(sign_of(rt_strncasecmp(a, b, n)), sign_of(strncasecmp(a, b, n)));
+    assert_int_equal(sign_of(rt_strcoll(a, b)), sign_of(strcmp(a, b)));
     assert_int_equal(rt_strxfrm(got, a, sizeof got), length_a);
     assert_string_equal(got, a);
   }
@@ -317,7 +313,6 @@ static int compare_keys(const void *a, const void *b) {
   return *(const unsigned char *)a - *(const unsigned char *)b;
 }
 
-/* Elements of every size from 1 to 12, so that words and bytes are swapped; the key is the first byte. */
 /* The same bits, end and, where both libraries have to set it, errno. */
 static void check_text_to_double(const char *text) {
   char *end, *host_end;
@@ -485,6 +480,7 @@ static void text_to_double(void **unused) {
   }
 }
 
+/* Elements of every size from 1 to 12, so that words and bytes are swapped; the key is the first byte. */
 static void sorting(void **unused) {
   (void)unused;
   uint64_t state = 9;

@@ -112,7 +112,7 @@ class Case:
 def all_cases(oracle_sweep, pairs, every, chosen):
     values = [magnitude | sign for magnitude in MAGNITUDES for sign in (0, 0x80000000)]
     two = [(a, b) for a in values for b in values][::every]
-    lines = subprocess.run([oracle_sweep, "0", str(pairs), "24", "1"], capture_output=True, text=True,
+    lines = subprocess.run([oracle_sweep, "24", "0", str(pairs), "1"], capture_output=True, text=True,
                            check=True).stdout.splitlines()
     two += [tuple(int(word, 16) for word in line.split()[-2:]) for line in lines if line.startswith("fadd ")]
     one = values + [word | sign for word in MORE_OF_ONE for sign in (0, 0x80000000)] + [a for a, _ in two[-pairs:]]

@@ -1,7 +1,6 @@
 /* Hashes of what the floating-point instructions give over numbered pairs (pairs.h), a line each. The same source
    twice: for the TP, where the instructions themselves execute, and the library's sqrtf; and for the host, where the
-   oracle answers. sweep.py compares. Told FIRST COUNT BITS VERBOSE: pairs from which number on, how many, the special
-   unit's precision, whether to print every result. */
+   oracle answers. sweep.py compares. WHICH is the special unit's precision. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -71,102 +70,34 @@ INSTRUCTIONS_OF_TWO(TWO)
 static const char *const names[] = {INSTRUCTIONS_OF_TWO(NAME) INSTRUCTIONS_OF_ONE(NAME) "sqrtf"};
 enum { OPERATIONS = COUNT(names) };
 
-static void add(uint32_t *hash, uint32_t value) {
-  uint32_t h = (*hash ^ value) * 0x9E3779B1u;
-  *hash = h ^ h >> 15;
-}
+#define MOST_ROUTINES OPERATIONS
+#include "../../numerics/sweep_main.h"
 
 /* sqrtf follows a reduced unit in its last bits, so it counts at full precision only. */
-static void sweep_block(uint64_t first, uint32_t count, uint32_t bits, uint32_t verbose, uint32_t *hashes) {
+static void sweep_block(const struct parameters *p, uint64_t first, uint32_t count, uint32_t *hashes) {
+#ifndef __trax__
+  precision = p->which;
+#endif
   for (uint64_t number = first; number < first + count; number++) {
-    struct pair p = pair_of(number);
+    struct pair pair = pair_of(number);
     uint32_t results[OPERATIONS];
     unsigned n = 0;
-#define APPLY_TWO(name, instruction, reduced) results[n++] = do_##name(p.a, p.b);
-#define APPLY_ONE(name, instruction, reduced) results[n++] = do_##name(p.a);
+#define APPLY_TWO(name, instruction, reduced) results[n++] = do_##name(pair.a, pair.b);
+#define APPLY_ONE(name, instruction, reduced) results[n++] = do_##name(pair.a);
     INSTRUCTIONS_OF_TWO(APPLY_TWO)
     INSTRUCTIONS_OF_ONE(APPLY_ONE)
-    results[n] = bits == 24 ? do_sqrtf(p.a) : 0;
+    results[n] = p->which == 24 ? do_sqrtf(pair.a) : 0;
     for (n = 0; n < OPERATIONS; n++) {
       add(&hashes[n], results[n]);
-      if (verbose)
-        printf("%s %08lx of %08lx %08lx\n", names[n], (unsigned long)results[n], (unsigned long)p.a,
-               (unsigned long)p.b);
+      if (p->verbose)
+        printf("%s %08lx of %08lx %08lx\n", names[n], (unsigned long)results[n], (unsigned long)pair.a,
+               (unsigned long)pair.b);
     }
   }
 }
 
-/* Blocks come in any order: each has a factor of its own in the sum. */
-static void add_block(uint64_t first, const uint32_t *hashes, uint64_t *sums) {
-  for (unsigned i = 0; i < OPERATIONS; i++)
-    sums[i] += (uint64_t)hashes[i] * (2 * first + 1);
+static const char *const *routine_names(const struct parameters *p, int *count) {
+  (void)p;
+  *count = OPERATIONS;
+  return names;
 }
-
-static void print_sums(const uint64_t *sums) {
-  for (unsigned i = 0; i < OPERATIONS; i++)
-    printf("%s %016llx\n", names[i], (unsigned long long)sums[i]);
-}
-
-struct parameters {
-  uint32_t first, count, bits, verbose;
-};
-
-#ifdef __trax__
-
-#define MOST_THREADS 64
-
-struct trax_buffer parameters;
-static uint32_t hashes[MOST_THREADS][OPERATIONS];
-static uint64_t sums[MOST_THREADS][OPERATIONS];
-static unsigned next_block, finished;
-
-int main(void) {
-  const struct parameters *p = parameters.data;
-  unsigned thread = trax_thread(), threads = trax_threads();
-  if (threads > MOST_THREADS)
-    abort();
-  for (;;) {
-    uint32_t done = trax_atomic_inc(&next_block) * BLOCK;
-    if (done >= p->count)
-      break;
-    uint64_t first = (uint64_t)p->first + done;
-    for (unsigned i = 0; i < OPERATIONS; i++)
-      hashes[thread][i] = 0;
-    sweep_block(first, p->count - done < BLOCK ? p->count - done : BLOCK, p->bits, p->verbose, hashes[thread]);
-    add_block(first, hashes[thread], sums[thread]);
-  }
-  if (trax_atomic_inc(&finished) != threads - 1)
-    return 0;
-  for (unsigned t = 1; t < threads; t++)
-    for (unsigned i = 0; i < OPERATIONS; i++)
-      sums[0][i] += sums[t][i];
-  if (!p->verbose)
-    print_sums(sums[0]);
-  return 0;
-}
-
-#else
-
-int main(int argc, char **argv) {
-  uint32_t numbers[4] = {0};
-  if (argc != 5) {
-    fprintf(stderr, "usage: isa-oracle-sweep FIRST COUNT BITS VERBOSE\n");
-    return 1;
-  }
-  for (int i = 0; i < 4; i++)
-    numbers[i] = (uint32_t)strtoul(argv[i + 1], NULL, 10);
-  struct parameters p = {numbers[0], numbers[1], numbers[2], numbers[3]};
-  precision = p.bits;
-  uint64_t sums[OPERATIONS] = {0};
-  for (uint32_t done = 0; done < p.count; done += BLOCK) {
-    uint32_t hashes[OPERATIONS] = {0};
-    uint64_t first = (uint64_t)p.first + done;
-    sweep_block(first, p.count - done < BLOCK ? p.count - done : BLOCK, p.bits, p.verbose, hashes);
-    add_block(first, hashes, sums);
-  }
-  if (!p.verbose)
-    print_sums(sums);
-  return 0;
-}
-
-#endif
