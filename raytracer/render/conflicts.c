@@ -3,6 +3,9 @@
 
 #include "trax/output.h"
 
+#include <string.h>
+#include <sys/stat.h>
+
 /* The sampler's numbers have 16 bits (device/sampler.h). */
 #define MOST_OCCLUSION_POINTS (1u << 16)
 
@@ -21,6 +24,7 @@ static const char *against_rays(const struct options *options) {
     const char *name;
   } others[] = {{options->output, "--output"},
                 {options->layers, "--layers"},
+                {options->frames > 1, "--frames"},
                 {options->id_picture, "--id-picture"},
                 {options->progress_png, "--progress-png"},
                 {options->view, "--view"},
@@ -70,6 +74,12 @@ static trax_status check_rays(const struct options *options, trax_error *error) 
   return TRAX_OK;
 }
 
+/* A device, a pipe or a folder. */
+static bool is_special(const char *path) {
+  struct stat found;
+  return stat(path, &found) == 0 && !S_ISREG(found.st_mode);
+}
+
 trax_status options_check(const struct options *options, trax_error *error) {
   if (options->mesh_count == 0)
     return trax_fail(error, "no mesh given; trax-render --help shows how");
@@ -89,9 +99,13 @@ trax_status options_check(const struct options *options, trax_error *error) {
     return trax_fail(error,
                      "no picture given: -o PICTURE.png, or another output (--explore, --stats, --cost-picture, ...)");
   }
+  if (options->frames > 1 && !options->output)
+    return trax_fail(error, "--frames needs -o PICTURE.png: each picture has its number in the name");
+  if (options->frames > 1 && (trax_output_descriptor(options->output) >= 0 || is_special(options->output)))
+    return trax_fail(error, "--frames: %s is no file that could have a number in its name", options->output);
   if (options->import.animation && !options->import.moves)
     return trax_fail(error, "--animation without --at");
-  if (options->hits && options->sampled)
+  if (options->hits && (options->frames > 1 || options->sampled))
     return trax_fail(error, "--hits is about one whole picture");
   if (options->layers && !(options->output && trax_output_has_ending(options->output, "exr")))
     return trax_fail(error, "--layers needs -o FILE.exr");
@@ -110,8 +124,8 @@ trax_status options_check(const struct options *options, trax_error *error) {
     return trax_fail(error, "--sample-fraction and --sample-error: one follows from the other");
   if (options->sampled && options->engine != ENGINE_FAST)
     return trax_fail(error, "--sampled needs engine fast");
-  if (options->sampled && (options->compare || options->prepare || options->cost_picture || options->cost_values ||
-                           options->ray_trace || trax_explain_wanted(&options->explain)))
+  if (options->sampled && (options->compare || options->prepare || options->frames > 1 || options->cost_picture ||
+                           options->cost_values || options->ray_trace || trax_explain_wanted(&options->explain)))
     return trax_fail(error, "--sampled leaves out most of the run: there is nothing to compare, explain or prepare");
   if (options->sampled && options->source && options->output)
     return trax_fail(error, "--sampled -o: of another --source the native twin's picture would be another one");
@@ -153,6 +167,10 @@ trax_status options_check(const struct options *options, trax_error *error) {
     return TRAX_ERROR;
   if (options->explain.source_folder_count && !options->explain.explore)
     return trax_fail(error, "--source-folder without --explore");
+  if (options->frames > 1 &&
+      (options->stats || options->ray_cycles || options->keep || options->cost_picture || options->cost_values ||
+       options->compare || options->id_picture || options->ray_trace || trax_explain_wanted(&options->explain)))
+    return trax_fail(error, "--frames makes pictures only: --stats, --keep, --compare and the like are for one");
   if (options->ray_trace && options->engine >= ENGINE_EMBREE)
     return trax_fail(error, "--ray-trace: the rays are the device program's, which Embree does not run");
   if (options->ray_trace && (options->program || options->source))

@@ -136,18 +136,6 @@ static trax_status change_view(struct trax_view *view, const struct camera_optio
   return status;
 }
 
-/* Turns the eye around the point that it looks at, or the scene's middle; in a room it turns in place. */
-static void orbit(struct inputs *inputs, const float orbit[2]) {
-  const struct trax_scene_header *header = inputs->scene.header;
-  struct trax_view *view = &inputs->view;
-  float centre[3];
-  for (int axis = 0; axis < 3; axis++)
-    centre[axis] = inputs->inside      ? view->eye[axis]
-                   : view->has_look_at ? view->look_at[axis]
-                                       : header->bounds_min[axis] * 0.5f + header->bounds_max[axis] * 0.5f;
-  trax_view_orbit(view, centre, orbit[0], orbit[1]);
-}
-
 trax_status inputs_load(struct inputs *inputs, const struct options *options, trax_progress_line *progress,
                         trax_error *error) {
   *inputs = (struct inputs){0};
@@ -161,9 +149,22 @@ trax_status inputs_load(struct inputs *inputs, const struct options *options, tr
     status = load_view(inputs, options, error);
   if (status == TRAX_OK)
     status = change_view(&inputs->view, &options->camera, error);
-  if (status == TRAX_OK && (options->camera.orbit[0] != 0 || options->camera.orbit[1] != 0))
-    orbit(inputs, options->camera.orbit);
+  for (int axis = 0; axis < 3 && status == TRAX_OK; axis++) {
+    const struct trax_scene_header *header = inputs->scene.header;
+    inputs->centre[axis] = inputs->inside ? inputs->view.eye[axis]
+                           : inputs->view.has_look_at
+                               ? inputs->view.look_at[axis]
+                               : header->bounds_min[axis] * 0.5f + header->bounds_max[axis] * 0.5f;
+  }
   return status;
+}
+
+void inputs_view(struct trax_view *view, const struct inputs *inputs, const struct options *options, unsigned number) {
+  const struct camera_options *camera = &options->camera;
+  const float angle = camera->orbit[0] + (number ? 360 * (float)number / (float)options->frames : 0);
+  *view = inputs->view;
+  if (angle != 0 || camera->orbit[1] != 0)
+    trax_view_orbit(view, inputs->centre, angle, camera->orbit[1]);
 }
 
 void inputs_release(struct inputs *inputs) {

@@ -12,13 +12,16 @@ struct inputs {
   struct trax_mesh_camera *cameras; /* of the meshes */
   uint32_t camera_count;
   struct trax_environment environment; /* if the options have one */
-  struct trax_view view;               /* in the scene's unit of length as the files have it */
+  struct trax_view view;               /* before it orbits; in the scene's unit of length as the files have it */
   char choice[VIEW_CHOICE_SIZE];       /* the choice of a view, in words; "": none */
   bool inside;                         /* the view is inside of a closed room */
+  float centre[3];                     /* the point that it orbits; in a room the eye itself */
 };
 
 trax_status inputs_load(struct inputs *inputs, const struct options *options, trax_progress_line *progress,
                         trax_error *error);
+/* Sets the view of the turntable's picture `number`, from 0. */
+void inputs_view(struct trax_view *view, const struct inputs *inputs, const struct options *options, unsigned number);
 void inputs_release(struct inputs *inputs);
 
 #endif

@@ -25,11 +25,11 @@ static void on_broken_pipe(int signal_number) {
   reader_gone = 1;
 }
 
-static void print_outputs(const struct options *options, const struct inputs *inputs) {
+static void print_outputs(const struct options *options, const struct inputs *inputs, const char *picture) {
   if (*inputs->choice)
     printf("view        %s\n", inputs->choice);
-  if (options->output)
-    printf("picture     %s\n", options->output);
+  if (picture)
+    printf("picture     %s\n", picture);
   if (options->stats)
     printf("statistics  %s\n", options->stats);
   if (options->hits)
@@ -55,14 +55,19 @@ static trax_status init_frame(struct trax_frame *frame, const struct options *op
   return trax_frame_init(frame, scene, view, &chosen, error);
 }
 
+/* One picture. *scaled: the power of two by which the scene was scaled so far. */
 static trax_status render_view(const struct options *options, struct inputs *inputs, struct trax_view *view,
-                               trax_progress_line *progress, struct live *live, bool *agrees, trax_error *error) {
+                               const char *output, int *scaled, trax_progress_line *progress, struct live *live,
+                               bool *agrees, trax_error *error) {
   struct trax_frame frame = {0};
   struct trax_picture picture = {0};
-  int scaled; /* the power of two by which the scene was scaled */
-  trax_status status = trax_normalise(&inputs->scene, view, &scaled, error);
-  if (status == TRAX_OK)
+  int exponent;
+  trax_scale_view(view, *scaled);
+  trax_status status = trax_normalise(&inputs->scene, view, &exponent, error);
+  if (status == TRAX_OK) {
+    *scaled += exponent;
     status = init_frame(&frame, options, inputs, view, error);
+  }
   const struct job job = {.options = options, .frame = &frame, .progress = progress, .live = live};
   if (status == TRAX_OK && options->hits)
     status = measure_hits(&job, error);
@@ -70,17 +75,20 @@ static trax_status render_view(const struct options *options, struct inputs *inp
     status = options->engine <= ENGINE_REFERENCE ? emulate(&picture, &job, error)
                                                  : run_on_host(&picture, &job, options->engine, error);
   if (status == TRAX_OK && picture.layers)
-    trax_layers_finish(&picture, &frame, scaled);
+    trax_layers_finish(&picture, &frame, *scaled);
   if (status == TRAX_OK && options->ray_trace)
-    status = trace_rays(&job, scaled, picture.pixels ? &picture : NULL, error);
-  if (status == TRAX_OK && options->output)
-    status = trax_picture_write(&picture, options->output, error);
+    status = trace_rays(&job, *scaled, picture.pixels ? &picture : NULL, error);
+  if (status == TRAX_OK && output)
+    status = trax_picture_write(&picture, output, error);
   if (status == TRAX_OK && !options->quiet)
-    print_outputs(options, inputs);
+    print_outputs(options, inputs, output);
   if (status == TRAX_OK && options->id_picture)
     status = write_hits(&job, error);
-  if (status == TRAX_OK && options->compare)
-    status = compare(&picture, &job, agrees, error);
+  if (status == TRAX_OK && options->compare) {
+    bool same = true;
+    status = compare(&picture, &job, &same, error);
+    *agrees = *agrees && same;
+  }
   trax_picture_release(&picture);
   trax_frame_release(&frame);
   return status;
@@ -89,13 +97,29 @@ static trax_status render_view(const struct options *options, struct inputs *inp
 static trax_status render(const struct options *options, trax_progress_line *progress, struct live *live, bool *agrees,
                           trax_error *error) {
   struct inputs inputs = {0};
+  struct trax_view view;
+  int scaled = 0;
   trax_status status = inputs_load(&inputs, options, progress, error);
-  if (options->rays && status == TRAX_OK)
-    status = run_rays(options, &inputs.scene, progress, agrees, error);
-  if (status == TRAX_OK && options->write_view)
-    status = trax_view_write(&inputs.view, options->write_view, error);
-  if (status == TRAX_OK && !options->rays)
-    status = render_view(options, &inputs, &inputs.view, progress, live, agrees, error);
+  if (options->rays) {
+    if (status == TRAX_OK)
+      status = run_rays(options, &inputs.scene, progress, agrees, error);
+    inputs_release(&inputs);
+    return status;
+  }
+  if (status == TRAX_OK && options->write_view) {
+    inputs_view(&view, &inputs, options, 0);
+    status = trax_view_write(&view, options->write_view, error);
+  }
+  for (unsigned i = 0; i < options->frames && status == TRAX_OK; i++) {
+    char *output = options->frames > 1 ? numbered(options->output, i + 1) : NULL;
+    if (options->frames > 1 && !output)
+      status = trax_fail(error, "out of memory");
+    inputs_view(&view, &inputs, options, i);
+    if (status == TRAX_OK)
+      status = render_view(options, &inputs, &view, output ? output : options->output, &scaled, progress, live, agrees,
+                           error);
+    free(output);
+  }
   inputs_release(&inputs);
   return status;
 }

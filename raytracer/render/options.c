@@ -34,7 +34,7 @@ static void put_costs(FILE *out) {
 /* clang-format off */
 static const trax_option rows[] = {
     TRAX_OPTION_GROUP("Picture"),
-    {"output", 'o', .argument = "FILE", OUTPUT(output, "png pfm exr"),
+    {"output", 'o', .argument = "FILE", FIELD(output), WRITTEN,
      .meaning = "the picture: linear floats for .pfm and .exr, a PNG for .png"},
     {"layers", FIELD(layers),
      .meaning = "with -o FILE.exr: also the triangle of each pixel (its number in the meshes, from 1), its\n"
@@ -45,7 +45,8 @@ static const trax_option rows[] = {
     {"samples", .argument = "N", NUMBER(frame.samples, 1, TRAX_RENDER_MAX_SAMPLES),
      .meaning = "rays from the eye through every pixel, 1 to 4096 (default 1)"},
     {"float", FIELD(frame.floats), .meaning = "the program computes linear floats; the picture is made of them here"},
-    {"frames", .instead = "--orbit A for each picture of a turntable; sequences are sweeps of trax-eval"},
+    {"frames", .argument = "N", NUMBER(frames, 1, 9999),
+     .meaning = "a turntable: N pictures of a whole turn, PICTURE-0001.png and so on"},
     {"id-picture", .argument = "FILE.png", OUTPUT(id_picture, "png"),
      .meaning = "which triangle each pixel shows: its number in the meshes, from 1, as\n"
                 "R + 256 G + 65536 B; found natively, or by --engine embree or exact"},
@@ -244,7 +245,8 @@ const trax_command render_command = {
     .column = 26};
 
 trax_parsed options_parse(struct options *options, int argc, char **argv, trax_error *error) {
-  *options = (struct options){.environment_strength = 1,
+  *options = (struct options){.frames = 1,
+                              .environment_strength = 1,
                               .frame = {.width = 1280,
                                         .height = 720,
                                         .ambient = TRAX_DEFAULT_AMBIENT,

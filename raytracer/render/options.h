@@ -41,6 +41,7 @@ struct options {
   double environment_turn; /* degrees */
   const char *view;        /* NULL: framed automatically */
   struct camera_options camera;
+  unsigned frames;        /* pictures of a turntable; 1: none */
   const char *write_view; /* NULL: not wanted */
   const char *id_picture; /* the same */
   const char *stats, *ray_cycles, *keep, *program;
@@ -68,7 +69,7 @@ struct options {
   unsigned threads;            /* of the fast engine and the native twin; 0: as many as the host has */
   bool sampled;                /* most of the picture is not simulated */
   trax_slot_sampling sampling; /* fraction or error, and seed */
-  const char *progress_png;    /* the picture as it arrives; NULL: not wanted */
+  const char *progress_png;    /* the same frames; NULL: not wanted */
   bool layers;                 /* of the picture (layers.h) */
   bool compare, quiet, no_specialise;
   bool prepare; /* keep is written, nothing is rendered */

@@ -55,7 +55,8 @@ struct trax_frame {
    no scale suffices, as for a light farther away than 2^40 times the scene's size. */
 trax_status trax_normalise(struct trax_scene *scene, struct trax_view *view, int *exponent, trax_error *error);
 
-/* Scales a scene by 2^exponent. */
+/* Scale by 2^exponent: a view whose scene was scaled before, and a scene. */
+void trax_scale_view(struct trax_view *view, int exponent);
 void trax_scale_scene(struct trax_scene *scene, int exponent);
 
 /* scene and view as trax_normalise left them; scene must outlive the frame. */
@@ -107,6 +108,7 @@ struct trax_specialise_options {
   const volatile int *interrupt; /* polled; may be NULL */
   uint32_t icache_bytes;         /* a larger program is compiled for less code; 0: as many as the paper's 4096 */
   unsigned queues;               /* of pixels (device/slots.h); more than TRAX_MAX_QUEUES are as many; 0: 1 */
+  bool transient;                /* of one of many pictures, as of a turntable: other programs stay in the cache */
   bool record;                   /* it records (trax/record.h); its stack is in global memory: times mean nothing */
 };
 

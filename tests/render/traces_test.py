@@ -324,7 +324,7 @@ def rays(reader):
             check(primary == shown, "triangles of the rays from the eye are not those of --id-picture")
             check_way(traced)
     for words, message in ((["--sampled"], "leaves out"), (["--engine", "embree"], "Embree"),
-                           (["--prepare", "d"], "--prepare")):
+                           (["--frames", "2"], "--frames"), (["--prepare", "d"], "--prepare")):
         out = [] if "--prepare" in words else ["-o", "q.png"]
         done = call("trax-render", *SIZE, *words, *out, "--ray-trace", "no.bin", status=1)
         check(message in done.stderr and not pathlib.Path("no.bin").exists(), words, done.stderr)

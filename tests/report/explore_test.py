@@ -178,7 +178,8 @@ class Data(Scratch):
                                                               "is an input and the output of --explore"),
                                (["--explore", "kept.html", "--engine",
                                  "native"], "need the emulator"), (["--explore", "kept.html",
-                                                                    "--sampled"], "nothing to compare, explain")):
+                                                                    "--sampled"], "nothing to compare, explain"),
+                               (["--explore", "kept.html", "--frames", "2"], "pictures only")):
             ended = render(self.folder, *(words if "-o" in words else ["-o", "new.png", *words]), check=False)
             self.assertEqual(ended.returncode, 1, words)
             self.assertRegex(ended.stderr, r"^trax-render: error: .*(" + message + ")")

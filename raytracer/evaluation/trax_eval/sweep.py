@@ -28,7 +28,7 @@ KEYS = ("name", "title", "claim", "x", "y", "y_per", "scenes", "programs", "chip
 # options that trax-eval sets itself, nor options that write files (the programs' tables tell which: Tools.given).
 TAKEN = {
     "trax-scene": ("check", "stats", "quiet"),
-    "trax-render": ("size", "show", "config", "set", "engine", "threads", "compare", "source", "program",
+    "trax-render": ("size", "frames", "show", "config", "set", "engine", "threads", "compare", "source", "program",
                     "sampled", "rays", "quiet", "pixel", "explore-against", "source-folder", "cost")
 }
 VARIANT_KEYS = ("name", "program")  # of an object in the list `set`, beside keys that are set
