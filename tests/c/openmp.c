@@ -138,6 +138,19 @@ static void synchronised(void) {
       master++;
 #pragma omp barrier
     }
+    if (self == 1) { /* late, and copies alone */
+      for (volatile int i = 0; i < 300; i++)
+        ;
+#pragma omp parallel
+      {
+        int alone = 0;
+#pragma omp single copyprivate(alone)
+        alone = 5;
+        if (alone != 5)
+#pragma omp atomic
+          wrong++;
+      }
+    }
 #pragma omp single copyprivate(copied)
     copied = 77;
     if (copied != 77)
