@@ -176,6 +176,7 @@ static int reduce(void *data, void (*combine)(void *, void *)) {
       store_shared(&mine->is_ready, 1);
       while (load_shared(&mine->is_ready))
         ;
+      acquire_fence();
       return 0;
     }
     if (rank + step < size) {
@@ -183,6 +184,7 @@ static int reduce(void *data, void (*combine)(void *, void *)) {
         ;
       acquire_fence();
       combine(data, other->data);
+      release_fence();
       store_shared(&other->is_ready, 0);
     }
   }

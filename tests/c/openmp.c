@@ -104,6 +104,18 @@ static void reductions(int n) {
   printf("reductions: %d %.2f %d %d %d %lld\n", sum, real, most, bits, all, product);
 }
 
+/* A thread goes on while others may still add its part. */
+static void reduced_again(int n) {
+  int total = 0;
+#pragma omp parallel
+  for (int round = 0; round < 4; round++) {
+#pragma omp for reduction(+ : total) nowait
+    for (int i = 0; i < n; i++)
+      total += i + round;
+  }
+  printf("again: %d\n", total);
+}
+
 static void synchronised(void) {
   int in_section = 0, in_atomic = 0, single = 0, master = 0, wrong = 0, sections = 0, captured = 0;
   static int before[256];
@@ -243,6 +255,7 @@ int main(void) {
   clear();
   many_loops(83);
   reductions(N);
+  reduced_again(N);
   synchronised();
   nested(30);
   many_variables();
