@@ -17,8 +17,9 @@ class TraxTargetMachine;
 
 /// Selects machine instructions.
 FunctionPass *createTraxISelDag(TraxTargetMachine &TM, CodeGenOptLevel OptLevel);
-/// Writes va_arg instructions out as loads, for every type.
+/// Replaces strict and canonical floats by plain ones.
 FunctionPass *createTraxLowerFloatsPass();
+/// Writes va_arg instructions out as loads, for every type.
 FunctionPass *createTraxLowerVAArgPass();
 /// Writes integer divisions out, by the units that the machine has.
 FunctionPass *createTraxDivisionPass();

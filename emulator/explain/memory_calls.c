@@ -107,20 +107,19 @@ void trax_memory_jump(struct trax_memory_check *check, const struct trax_span *s
   }
 }
 
-/* A copy to the stack pointer that lowers it is alloca's, or of an array of variable length: the register that is copied
-   then points to memory of its own. */
+/* A copy to the stack pointer that lowers it is alloca's, or of an array of variable length: the register that is
+   copied then points to memory of its own. */
 void trax_memory_move_stack(struct trax_memory_check *check, const struct trax_span *span, uint32_t before) {
   struct trax_memory_thread *it = &check->threads[span->thread];
   const uint32_t now = it->reg[SP].bits;
   if (span->inst.op == TRAX_OP_ADDI && !span->inst.imm && is_below(now, before)) {
     open_frame(check, span->thread, now, before);
-    it->reg[span->inst.ra].tag =
-        trax_memory_object_add(check, &(struct trax_memory_object){.kind = MEMORY_LOCAL,
-                                                                   .begin = now,
-                                                                   .end = before,
-                                                                   .name = "memory of alloca",
-                                                                   .own_begin = now,
-                                                                   .own_end = before});
+    it->reg[span->inst.ra].tag = trax_memory_object_add(check, &(struct trax_memory_object){.kind = MEMORY_LOCAL,
+                                                                                            .begin = now,
+                                                                                            .end = before,
+                                                                                            .name = "memory of alloca",
+                                                                                            .own_begin = now,
+                                                                                            .own_end = before});
   } else if (it->low != MEMORY_NO_FRAME && is_below(now, it->low)) {
     open_frame(check, span->thread, now, it->low);
   }
@@ -136,6 +135,16 @@ static void add_frame(void *context, uint32_t function, uint32_t bytes) {
     check->reader.explain->out_of_memory = true;
   else if (frame->bytes < (int32_t)bytes)
     frame->bytes = (int32_t)bytes;
+}
+
+/* The frame of the function in which a thread begins: nobody calls it. */
+static void begin_thread(struct trax_memory_check *check, uint32_t thread) {
+  const struct trax_memory_frame *frame = (const struct trax_memory_frame *)trax_map_find(
+      &check->functions, sizeof *frame, trax_machine_entry_of(check->machine, thread));
+  uint32_t begin, end;
+  trax_memory_stack_of(check, thread, &begin, &end);
+  if (frame && frame->bytes >= 0)
+    check->threads[thread].low = end - (uint32_t)frame->bytes;
 }
 
 trax_status trax_memory_calls_open(struct trax_memory_check *check, trax_error *error) {
@@ -159,5 +168,7 @@ trax_status trax_memory_calls_open(struct trax_memory_check *check, trax_error *
         if (strcmp(symbols[i].name, names[name]) == 0)
           frame->function = MEMORY_MALLOC + name;
     }
+  for (uint32_t i = 0; i < check->machine->stats.threads; i++)
+    begin_thread(check, i);
   return TRAX_OK;
 }

@@ -5,7 +5,7 @@
 
 enum { NEAR = 16 }; /* A compiler may count from a constant that lies so far outside of an object. */
 
-/* Returns the entry of a key; its value is UINT32_MAX if it is new. NULL: out of memory. */
+/* Returns the entry of a key, whose value is the tag; UINT32_MAX: it is new. NULL: out of memory. */
 static struct trax_map_entry *entry_of(struct trax_memory_check *check, uint32_t kind, uint32_t value) {
   struct trax_map_entry *entry =
       trax_map_put(&check->object_of, sizeof *entry, (uint64_t)kind << 32 | value, UINT32_MAX);

@@ -320,6 +320,6 @@ void *aligned_alloc(size_t alignment, size_t size) {
     return malloc(size);
   if (power <= PAGE)
     return malloc(power);
-  void *memory = learn() ? __trax_run_allocate(size, alignment) : NULL;
+  void *memory = learn() ? __trax_run_allocate(size ? size : 1, alignment) : NULL;
   return memory ? memory : out_of_memory();
 }

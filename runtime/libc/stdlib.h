@@ -66,7 +66,7 @@ unsigned long long strtoull(const char *__restrict text, char **__restrict end, 
 void qsort(void *base, size_t count, size_t size, int (*compare)(const void *, const void *));
 void *bsearch(const void *key, const void *base, size_t count, size_t size, int (*compare)(const void *, const void *));
 
-/* Memory from the heap, which follows the program; shared by all threads, aligned to 8 bytes. NULL if none is left. */
+/* Memory from the heap, which follows the program; shared by all threads, aligned to 16 bytes. NULL if none is left. */
 void *malloc(size_t size);
 void *calloc(size_t count, size_t size);
 void *realloc(void *memory, size_t size);

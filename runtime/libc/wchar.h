@@ -1,5 +1,5 @@
-/* Wide characters: Unicode, as UTF-8 in multibyte strings. Streams of wide characters read and write UTF-8;
-   a stream takes both kinds, and widths and %n of their formats count bytes. */
+/* Wide characters: Unicode, as UTF-8 in multibyte strings. Streams of wide characters read and write UTF-8; a
+   stream takes both kinds. In formats of input %n and the width of %s count bytes. */
 #ifndef TRAX_WCHAR_H
 #define TRAX_WCHAR_H
 

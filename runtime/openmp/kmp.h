@@ -20,7 +20,6 @@ struct dispatch {
 /* A thread's view of its region. A nested region has one thread. */
 struct region {
   unsigned size, rank, level;
-  unsigned reductions; /* number of the latest */
   struct dispatch dispatch;
   struct region *outer; /* of __kmpc_serialized_parallel */
 };

@@ -19,11 +19,10 @@ static _Thread_local unsigned wanted; /* by num_threads, for the next region */
 static struct {
   microtask *task;
   void *argument[ARGUMENTS];
-  unsigned number;
 } job;
 struct counter __kmp_counters[COUNTERS];
-static struct partial {  /* of a reduction, for each thread */
-  unsigned ready, taken; /* numbers of reductions */
+static struct partial { /* of a reduction, for each thread */
+  unsigned is_ready;    /* until another thread has taken it */
   void *data;
 } * partials;
 
@@ -42,7 +41,7 @@ void __kmpc_push_num_threads(void *place, int thread, int threads) {
 static void call(microtask *task, void *const *a, unsigned size, unsigned rank) {
   const struct region outer = __kmp_region;
   int global = (int)rank, bound = 0;
-  __kmp_region = (struct region){.size = size, .rank = rank, .level = outer.level + 1, .reductions = job.number << 16};
+  __kmp_region = (struct region){.size = size, .rank = rank, .level = outer.level + 1};
   ((fixed_microtask *)task)(&global, &bound, a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[9], a[10], a[11],
                             a[12], a[13], a[14], a[15], a[16], a[17], a[18], a[19], a[20], a[21], a[22], a[23], a[24],
                             a[25], a[26], a[27], a[28], a[29]);
@@ -73,7 +72,6 @@ void __kmpc_fork_call(void *place, int count, microtask *task, ...) {
   if (!partials && !(partials = calloc(trax_threads(), sizeof *partials)))
     machine_abort("OpenMP: no memory for reductions");
   job.task = task;
-  job.number++;
   memset(__kmp_counters, 0, sizeof __kmp_counters);
   memcpy(job.argument, argument, (unsigned)count * sizeof *argument);
   __trax_team_run(begin, NULL, threads);
@@ -155,6 +153,8 @@ void __kmpc_copyprivate(void *place, int thread, size_t size, void *data, void (
   (void)thread;
   (void)size;
   static void *source;
+  if (team_size() == 1) /* perhaps in a region in which others copy */
+    return;
   if (is_source)
     source = data;
   team_barrier();
@@ -165,7 +165,7 @@ void __kmpc_copyprivate(void *place, int thread, size_t size, void *data, void (
 
 /* Reductions go up a tree: the same order in every run with the same number of threads. */
 static int reduce(void *data, void (*combine)(void *, void *)) {
-  const unsigned size = team_size(), rank = __kmp_region.rank, number = ++__kmp_region.reductions;
+  const unsigned size = team_size(), rank = __kmp_region.rank;
   if (size == 1)
     return 1;
   for (unsigned step = 1; step < size; step *= 2) {
@@ -173,17 +173,19 @@ static int reduce(void *data, void (*combine)(void *, void *)) {
     if (rank & step) {
       mine->data = data;
       release_fence();
-      store_shared(&mine->ready, number);
-      while (load_shared(&mine->taken) != number)
+      store_shared(&mine->is_ready, 1);
+      while (load_shared(&mine->is_ready))
         ;
+      acquire_fence();
       return 0;
     }
     if (rank + step < size) {
-      while (load_shared(&other->ready) != number)
+      while (!load_shared(&other->is_ready))
         ;
       acquire_fence();
       combine(data, other->data);
-      store_shared(&other->taken, number);
+      release_fence();
+      store_shared(&other->is_ready, 0);
     }
   }
   return 1;

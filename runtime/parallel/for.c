@@ -42,7 +42,7 @@ static void run(void (*way)(void *), unsigned begin, unsigned end, unsigned grai
                 unsigned parts) {
   if (begin >= end)
     return;
-  if (trax_team_size() > 1 || trax_thread() || !__trax_team_open()) {
+  if (__trax_team_available() == 1) {
     function(begin, end, context);
     return;
   }
@@ -76,7 +76,7 @@ int trax_parallel_reduce(unsigned begin, unsigned end, trax_reduce_range *functi
                          size_t size, void (*combine)(void *, const void *)) {
   if (begin >= end)
     return 0;
-  if (trax_team_size() > 1 || trax_thread() || !__trax_team_open()) {
+  if (__trax_team_available() == 1) {
     function(begin, end, context, result);
     return 0;
   }

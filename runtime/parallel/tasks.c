@@ -12,10 +12,10 @@ static struct place {
   void *context;
 } places[PLACES];
 static unsigned added, wanted, ended;
-static int running;
+static _Thread_local int serves; /* this thread takes tasks from the ring */
 
 void trax_add_task(trax_task *task, void *context) {
-  if (!running || (int)(load_shared(&added) - load_shared(&wanted)) > ROOM) {
+  if (!serves || (int)(load_shared(&added) - load_shared(&wanted)) > ROOM) {
     task(context);
     return;
   }
@@ -43,12 +43,15 @@ static int all_ended(void) {
 
 static void work(void *nothing) {
   (void)nothing;
+  serves = 1;
   for (;;) {
     const unsigned number = trax_atomic_inc(&wanted);
     struct place *place = &places[number % PLACES];
     while (load_shared(&place->turn) != number + 1)
-      if (all_ended())
+      if (all_ended()) {
+        serves = 0;
         return;
+      }
     acquire_fence();
     trax_task *task = place->function;
     void *context = place->context;
@@ -60,17 +63,19 @@ static void work(void *nothing) {
 }
 
 void trax_run_tasks(trax_task *task, void *context) {
-  if (running || trax_team_size() > 1 || trax_thread()) { /* within other work */
+  if (__trax_team_members || trax_thread()) { /* all of them at once on this thread */
+    const int before = serves;
+    serves = 0;
     task(context);
+    serves = before;
     return;
   }
   for (unsigned i = 0; i < PLACES; i++)
     places[i].turn = i;
   added = wanted = ended = 0;
-  running = 1;
+  serves = 1;
   trax_add_task(task, context);
   trax_parallel(work, NULL);
-  running = 0;
 }
 
 #endif

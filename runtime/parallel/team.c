@@ -14,7 +14,7 @@ static struct {
 } job;
 static unsigned number, arrived, others;
 static struct trax_barrier barrier;
-static _Thread_local unsigned members; /* of the team in which this thread works; 0 if in none */
+_Thread_local unsigned __trax_team_members;
 
 /* Polls less often after a while, so that thread 0 has the memory's bandwidth. */
 static void serve(void) {
@@ -36,9 +36,9 @@ static void serve(void) {
     if (job.size == 0)
       return;
     if (trax_thread() < job.size) {
-      members = job.size;
+      __trax_team_members = job.size;
       job.function(job.context);
-      members = 0;
+      __trax_team_members = 0;
     }
     release_fence();
     trax_atomic_inc(&arrived);
@@ -67,19 +67,25 @@ unsigned __trax_team_open(void) {
   return others;
 }
 
+unsigned __trax_team_available(void) {
+  const int alone =
+      __trax_team_members || trax_thread() != 0 || !__trax_team_open() || (__trax_errands && __trax_errands());
+  return alone ? 1 : others + 1;
+}
+
 unsigned __trax_team_run(void (*function)(void *), void *context, unsigned size) {
-  const unsigned before = members;
-  if (before || trax_thread() != 0 || size == 1 || !__trax_team_open() || (__trax_errands && __trax_errands())) {
-    members = 1;
+  const unsigned before = __trax_team_members, available = size == 1 ? 1 : __trax_team_available();
+  if (available == 1) {
+    __trax_team_members = 1;
     function(context);
-    members = before;
+    __trax_team_members = before;
     return 1;
   }
-  members = barrier.count = size - 1 < others ? size : others + 1;
-  announce(function, context, members);
+  __trax_team_members = barrier.count = size - 1 < available ? size : available;
+  announce(function, context, __trax_team_members);
   function(context);
-  const unsigned all = members;
-  members = 0;
+  const unsigned all = __trax_team_members;
+  __trax_team_members = 0;
   while (load_shared(&arrived) != others * load_shared(&number))
     ;
   acquire_fence();
@@ -91,11 +97,11 @@ unsigned trax_parallel(void (*function)(void *), void *context) {
 }
 
 unsigned trax_team_size(void) {
-  return members ? members : 1;
+  return __trax_team_members ? __trax_team_members : 1;
 }
 
 unsigned trax_team_rank(void) {
-  return members > 1 ? trax_thread() : 0;
+  return __trax_team_members > 1 ? trax_thread() : 0;
 }
 
 /* The last one lets the others go on. Nobody arrives for the next time before that. */
@@ -114,7 +120,7 @@ void trax_barrier_wait(struct trax_barrier *b) {
 }
 
 void trax_team_barrier(void) {
-  if (members > 1)
+  if (__trax_team_members > 1)
     trax_barrier_wait(&barrier);
 }
 

@@ -14,6 +14,11 @@
 unsigned __trax_team_run(void (*function)(void *), void *context, unsigned size);
 /* Lets the other threads wait for work; gives their number. */
 unsigned __trax_team_open(void);
+/* The number of threads for a call's work: 1 within other work, on other threads than 0, and while created threads run.
+ */
+unsigned __trax_team_available(void);
+/* The size of the team in which this thread works; 0: in none. */
+extern _Thread_local unsigned __trax_team_members;
 
 /* Only in programs with thrd_create: gives a waiting thread a function to run; whether threads run such functions. */
 __attribute__((weak)) void __trax_errand(void);

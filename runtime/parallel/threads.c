@@ -38,6 +38,7 @@ void __trax_errand(void) {
   end_of_errand = &here;
   if (!setjmp(here))
     errand->result = errand->function(errand->argument);
+  end_of_errand = NULL;
   if (__trax_tss_end)
     __trax_tss_end();
   lock(&errands_lock);
@@ -52,8 +53,11 @@ int thrd_create(thrd_t *thread, thrd_start_t function, void *argument) {
   if (trax_team_size() > 1 || (!errands && (trax_thread() || !__trax_team_open())))
     return thrd_error;
   lock(&errands_lock);
-  if (!errands)
-    errands = calloc(trax_threads(), sizeof *errands);
+  if (!errands) {
+    struct errand *const made = calloc(trax_threads(), sizeof *made);
+    release_fence(); /* before a waiting thread finds them */
+    errands = made;
+  }
   unsigned i = 1;
   while (errands && i < trax_threads() && load_shared(&errands[i].state) != WAITING)
     i++;

@@ -8,6 +8,7 @@
 #include <threads.h>
 #include <time.h>
 #include <trax.h>
+#include <trax/parallel.h>
 
 enum { ITEMS = 60 };
 static mtx_t mutex;
@@ -67,6 +68,23 @@ static int nothing(void *argument) {
   return argument != NULL;
 }
 
+static void count_up(unsigned begin, unsigned end, void *context, void *result) {
+  (void)context;
+  *(unsigned *)result += end - begin;
+}
+
+static void plus(void *result, const void *part) {
+  *(unsigned *)result += *(const unsigned *)part;
+}
+
+/* Meanwhile the caller is alone. */
+static int reduce_alone(void *argument) {
+  (void)argument;
+  unsigned sum = 0;
+  trax_parallel_reduce(0, 1000, count_up, NULL, &sum, sizeof sum, plus);
+  return (int)sum;
+}
+
 void __trax_wait(void);
 extern unsigned __trax_waiting;
 
@@ -117,6 +135,15 @@ int main(void) {
   thrd_create(&thread[0], get_mutex, &mutex);
   thrd_join(thread[0], &result);
   printf("%d\n", result == thrd_success);
+
+  mtx_lock(&mutex);
+  thrd_create(&thread[0], get_mutex, &mutex); /* it runs until the mutex is free, or its time is over */
+  printf("%d", reduce_alone(NULL));
+  mtx_unlock(&mutex);
+  thrd_join(thread[0], NULL);
+  thrd_create(&thread[0], reduce_alone, NULL);
+  thrd_join(thread[0], &result);
+  printf(" %d %d\n", result, reduce_alone(NULL));
 
   int created = 0;
   while (created < 16 && thrd_create(&many[created], nothing, NULL) == thrd_success)

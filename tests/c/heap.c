@@ -56,5 +56,9 @@ int main(void) {
   }
   void *aligned = aligned_alloc(256, 512);
   printf("%u %d\n", bad, ((uintptr_t)aligned & 255) == 0);
+  void *volatile empty = aligned_alloc(8192, 0), *volatile other = aligned_alloc(8192, 0);
+  printf("%d\n", empty && other && empty != other);
+  free(empty);
+  free(other);
   return 0;
 }

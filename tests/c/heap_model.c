@@ -107,5 +107,6 @@ int main(void) {
   /* Each thread keeps at most some empty pages: most of the heap is one block again. */
   void *volatile most = malloc((__trax_heap_end - __trax_heap) / 4);
   printf("%u wrong, %s\n", wrong, most && passed > trax_threads() ? "nothing lost" : "lost");
+  free(most);
   return 0;
 }

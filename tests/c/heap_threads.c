@@ -47,5 +47,6 @@ int main(void) {
     return 0;
   void *volatile most = malloc((__trax_heap_end - __trax_heap) / 10 * 9); /* threads keep a few pages */
   printf("%u %u %d\n", torn, unaligned, most != NULL);
+  free(most);
   return 0;
 }

@@ -104,6 +104,18 @@ static void reductions(int n) {
   printf("reductions: %d %.2f %d %d %d %lld\n", sum, real, most, bits, all, product);
 }
 
+/* A thread goes on while others may still add its part. */
+static void reduced_again(int n) {
+  int total = 0;
+#pragma omp parallel
+  for (int round = 0; round < 4; round++) {
+#pragma omp for reduction(+ : total) nowait
+    for (int i = 0; i < n; i++)
+      total += i + round;
+  }
+  printf("again: %d\n", total);
+}
+
 static void synchronised(void) {
   int in_section = 0, in_atomic = 0, single = 0, master = 0, wrong = 0, sections = 0, captured = 0;
   static int before[256];
@@ -137,6 +149,19 @@ static void synchronised(void) {
 #pragma omp master
       master++;
 #pragma omp barrier
+    }
+    if (self == 1) { /* late, and copies alone */
+      for (volatile int i = 0; i < 300; i++)
+        ;
+#pragma omp parallel
+      {
+        int alone = 0;
+#pragma omp single copyprivate(alone)
+        alone = 5;
+        if (alone != 5)
+#pragma omp atomic
+          wrong++;
+      }
     }
 #pragma omp single copyprivate(copied)
     copied = 77;
@@ -230,6 +255,7 @@ int main(void) {
   clear();
   many_loops(83);
   reductions(N);
+  reduced_again(N);
   synchronised();
   nested(30);
   many_variables();

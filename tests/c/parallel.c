@@ -75,8 +75,52 @@ static void task(void *context) {
   }
 }
 
+/* On this thread. */
 static void inside(unsigned begin, unsigned end, void *context) {
-  trax_parallel_for(begin, end, 1, add, context); /* on this thread */
+  trax_parallel_for(begin, end, 1, add, context);
+}
+
+/* Work in work in work. */
+static unsigned deepest[64];
+static void fill(unsigned begin, unsigned end, void *context) {
+  for (unsigned i = begin; i < end; i++)
+    *(unsigned *)context += i;
+}
+
+static void third(void *context) {
+  unsigned long long total = 0;
+  trax_parallel_for(0, 4, 1, fill, context);
+  trax_parallel_reduce(0, 100, sum, NULL, &total, sizeof total, plus);
+  *(unsigned *)context += (unsigned)total;
+}
+
+static void second(unsigned begin, unsigned end, void *context) {
+  (void)context;
+  for (unsigned i = begin; i < end; i++)
+    trax_parallel(third, &deepest[i]);
+}
+
+/* A task waits for tasks of its own. */
+static void below(void *count) {
+  trax_atomic_inc(count);
+}
+
+static void two_below(void *count) {
+  trax_add_task(below, count);
+  trax_add_task(below, count);
+}
+
+static void waits(void *context) {
+  unsigned count = 0;
+  trax_run_tasks(two_below, &count);
+  if (__atomic_load_n(&count, __ATOMIC_RELAXED) != 2)
+    trax_atomic_inc(&wrong);
+  (void)context;
+}
+
+static void many_wait(void *context) {
+  for (int i = 0; i < 9; i++)
+    trax_add_task(waits, context);
 }
 
 void __trax_wait(void);
@@ -98,6 +142,10 @@ int main(void) {
   trax_parallel_for(5, 5, 1, add, &factor);
   trax_parallel_for(0, N, 50, inside, &factor);
   check("inside", 3);
+  trax_parallel_for(0, 64, 1, second, NULL);
+  for (int i = 0; i < 64; i++)
+    wrong += deepest[i] != 6 + 328350;
+  trax_run_tasks(many_wait, NULL);
 
   unsigned long long total = 0;
   printf("%d", trax_parallel_reduce(10, N, sum, NULL, &total, sizeof total, plus));

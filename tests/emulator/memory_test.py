@@ -149,6 +149,17 @@ int main(void) { block = malloc(8); setjmp(place); if (n < 5) { n++; use(8); bac
     check("; 5 times\n" in error and error.endswith("has 1 error of memory (--check-memory)\n"), error)
 
 
+def returned(scratch):
+    """At the end a pointer in the frame of a function that has returned keeps no block."""
+    source = write(scratch, """#include <stdlib.h>
+__attribute__((noinline)) static void lose(void) { void *volatile pointers[20]; pointers[0] = malloc(20); }
+int main(void) { lose(); }
+""")
+    for flags in (["-O1"], ["-O1", "-mstack=global"]):
+        error = run(build(scratch, source, *flags)).stderr
+        check(memory_cases.LEAK in error and error.endswith("has 1 error of memory (--check-memory)\n"), flags, error)
+
+
 def large(scratch):
     """Time and memory are in proportion to what is written to a block, not to its size."""
     program = build(scratch, write(scratch, """#include <stdlib.h>
@@ -196,7 +207,7 @@ def programs(scratch):
 
 
 def main():
-    for test in (table, ends, buffers, report, read, jumps, large, programs):
+    for test in (table, ends, buffers, report, read, jumps, returned, large, programs):
         with tempfile.TemporaryDirectory() as scratch:
             test(pathlib.Path(scratch))
     return checking.failures != 0
