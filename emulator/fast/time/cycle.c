@@ -1,6 +1,7 @@
 /* The five steps of a TM's cycle (docs/timing.md, "A cycle"), as operations on masks of its TPs. */
 #include "fast/time/grant.h"
 #include "fast/time/issue.h"
+#include "fast/time/prefetch.h"
 #include "fast/time/refusals.h"
 #include "fast/time/variant.h"
 
@@ -245,10 +246,17 @@ static void run_cycle(struct trax_tm *tm, uint64_t t) {
 }
 
 static void run_epoch(struct trax_tm *tm, uint64_t end) {
+  const struct trax_tm *const next = tm->number + 1 < tm->chip->tms ? tm + 1 : tm->chip->tm;
+  unsigned prefetched = tm->chip->is_large ? 0 : tm->tps;
   trax_fast_record_readers(tm);
-  while (tm->next_cycle < end && !tm->buffer->stop && !tm->fault.kind)
+  while (tm->next_cycle < end && !tm->buffer->stop && !tm->fault.kind) {
+    if (prefetched < tm->tps)
+      prefetch_tp(next, prefetched++, tm->epoch);
     if (!trax_tm_has_one_awake(tm) || !trax_fast_run_alone(tm, tm->next_cycle, end))
       run_cycle(tm, tm->next_cycle);
+  }
+  if (tm->chip->is_large)
+    leave_outlook(tm);
 }
 
 #ifndef TRAX_FAST_VARIANT
