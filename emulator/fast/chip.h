@@ -22,6 +22,7 @@ struct trax_chip {
   struct trax_tm *tm;           /* [tms] */
   struct trax_tp *tp;           /* [tms * TPs of a TM] */
   uint32_t tms;
+  bool is_large; /* the TPs do not fit in the host's caches */
   struct trax_memory memory;
   struct trax_transfer_log transfers; /* no roll back changes it */
   const struct trax_fast_variant *variant;

@@ -9,6 +9,7 @@
 #include <sys/mman.h>
 
 #define HUGE_PAGE ((size_t)1 << 21)
+#define LARGE ((size_t)4 << 20) /* bytes of TPs from which on TMs are prefetched; 8x64, of 1.5 MB, would be slower */
 
 static void *create_aligned(size_t count, size_t size) {
   const size_t alignment = count * size < HUGE_PAGE ? 64 : HUGE_PAGE;
@@ -169,6 +170,7 @@ trax_status trax_chip_create(struct trax_run *run, const struct trax_fast_varian
     chip->memory.transfers = &chip->transfers;
   chip->tm = create_aligned(chip->tms, sizeof *chip->tm);
   chip->tp = create_aligned((size_t)chip->tms * machine->config.chip.tps_per_tm, sizeof *chip->tp);
+  chip->is_large = (size_t)chip->tms * machine->config.chip.tps_per_tm * sizeof *chip->tp >= LARGE;
   if (!chip->tm || !chip->tp)
     return trax_fail(error, "out of memory");
   for (uint32_t i = 0; i < chip->tms; i++)

@@ -9,12 +9,12 @@ void trax_store_buffer_destroy(struct trax_store_buffer *buffer) {
   for (unsigned i = 0; i < TRAX_SIDES; i++)
     free(buffer->sides[i].entries);
   free(buffer->reads);
-  trax_map_free(&buffer->words);
+  trax_map_free(&buffer->lines);
 }
 
 void trax_store_buffer_begin(struct trax_store_buffer *buffer) {
   buffer->read_count = 0;
-  trax_map_empty(&buffer->words, sizeof(struct trax_store_buffer_word));
+  trax_map_empty(&buffer->lines, sizeof(struct trax_store_buffer_line));
   buffer->stop = false;
 }
 
@@ -43,29 +43,28 @@ void trax_store_buffer_read(struct trax_store_buffer *buffer, uint32_t address) 
 
 uint32_t trax_store_buffer_load(struct trax_store_buffer *buffer, const struct trax_space *space, uint32_t address,
                                 unsigned bytes) {
-  const uint32_t word_address = address & ~3u;
-  uint32_t word, value = 0;
+  const unsigned at = address % sizeof(((struct trax_store_buffer_line *)NULL)->bytes);
+  uint32_t value = 0;
   trax_store_buffer_read(buffer, address);
-  memcpy(&word, space->bytes + word_address, sizeof word);
-  const struct trax_store_buffer_word *own =
-      (struct trax_store_buffer_word *)trax_map_find(&buffer->words, sizeof *own, word_address);
-  if (own)
-    word = (word & ~own->mask) | own->entry.value;
-  memcpy(&value, (const uint8_t *)&word + (address & 3), bytes);
+  memcpy(&value, space->bytes + address, bytes);
+  const struct trax_store_buffer_line *own =
+      (struct trax_store_buffer_line *)trax_map_find(&buffer->lines, sizeof *own, address / sizeof own->bytes);
+  for (unsigned i = 0; own && i < bytes; i++)
+    if (own->entry.value >> (at + i) & 1)
+      memcpy((uint8_t *)&value + i, &own->bytes[at + i], 1);
   return value;
 }
 
 void trax_store_buffer_store(struct trax_store_buffer *buffer, uint64_t t, uint32_t address, uint32_t value,
                              unsigned bytes) {
   trax_store_buffer_record(buffer, (struct trax_store_buffer_entry){t, address, value, bytes});
-  struct trax_store_buffer_word *own =
-      (struct trax_store_buffer_word *)trax_map_put(&buffer->words, sizeof *own, address & ~3u, 0);
+  struct trax_store_buffer_line *own =
+      (struct trax_store_buffer_line *)trax_map_put(&buffer->lines, sizeof *own, address / sizeof own->bytes, 0);
   if (!own) {
     buffer->stop = true;
     return;
   }
-  const unsigned shift = 8 * (address & 3);
-  const uint32_t mask = (bytes < 4 ? (1u << 8 * bytes) - 1 : ~0u) << shift;
-  own->entry.value = (own->entry.value & ~mask) | (value << shift & mask);
-  own->mask |= mask;
+  const unsigned at = address % sizeof own->bytes;
+  own->entry.value |= ((1u << bytes) - 1) << at;
+  memcpy(&own->bytes[at], &value, bytes);
 }

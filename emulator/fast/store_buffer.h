@@ -28,10 +28,10 @@ struct trax_store_buffer_side {
   size_t count, capacity, done;            /* done: those that have been merged */
 };
 
-/* A word of global memory as the TM's own stores have changed it: `mask` has the bits that they wrote. */
-struct trax_store_buffer_word {
-  struct trax_map_entry entry; /* key: the address, a multiple of 4 */
-  uint32_t mask;
+/* 32 bytes of global memory as the TM's own stores have changed them: a thread's stores are often neighbours. */
+struct trax_store_buffer_line {
+  struct trax_map_entry entry; /* key: address / 32; value: a bit for each byte that they wrote */
+  uint8_t bytes[32];
 };
 
 struct trax_store_buffer {
@@ -39,7 +39,7 @@ struct trax_store_buffer {
   uint32_t *reads; /* [read_count]: the words that loads have read from blocks that are written; docs/fast-engine.md,
                       read set */
   size_t read_count, read_capacity;
-  struct trax_map words; /* of struct trax_store_buffer_word */
+  struct trax_map lines; /* of struct trax_store_buffer_line */
   bool stop;             /* the epoch must be given up: output, or out of memory */
 };
 

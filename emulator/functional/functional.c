@@ -13,8 +13,9 @@
 #include <string.h>
 
 enum {
-  SLICE = 4096,          /* instructions of a slice */
-  INSTRUCTIONS = 1000000 /* of all threads, in one call of advance */
+  SLICE = 4096,           /* instructions of a slice */
+  INSTRUCTIONS = 1000000, /* of all threads, in one call of advance */
+  COLD = 200000           /* instructions of all threads before any are translated: short runs do not pay for it */
 };
 
 struct instruction {
@@ -55,6 +56,7 @@ struct chip {
   uint32_t threads, running, next;
   uint64_t limit;                       /* instructions of a thread */
   struct trax_translation *translation; /* NULL: all is interpreted */
+  uint64_t executed, translate_from;    /* instructions of all threads; the translation begins with that one */
   /* [tms][inst_count + 1]: the number of executions of each instruction since the latest collect(), as differences:
      that of instruction i is the sum of [0] to [i]. So a sequence of instructions costs two additions. */
   int64_t **deltas;
@@ -184,17 +186,26 @@ static enum stop run_translated(struct chip *chip, struct thread *thread, uint64
   return run_slice(chip, thread, thread->executed + 1, NULL);
 }
 
+static void begin_translation(struct chip *chip, bool at_once) {
+  const struct trax_machine *machine = chip->machine;
+  chip->translation = trax_translation_create(chip->decoded, &machine->space, machine->config.special.precision_bits,
+                                              machine->config.chip.tms, at_once, NULL);
+  chip->translate_from = UINT64_MAX;
+}
+
 static enum trax_advance advance(void *context, uint64_t *t, uint64_t until) {
   struct chip *chip = context;
-  uint64_t instructions = 0;
+  const uint64_t stop = chip->executed + INSTRUCTIONS;
   (void)t;
   (void)until;
-  while (chip->running && instructions < INSTRUCTIONS) {
+  while (chip->running && chip->executed < stop) {
     struct thread *thread = &chip->thread[chip->next];
     chip->next = chip->next + 1 < chip->threads ? chip->next + 1 : 0;
     const uint64_t before = thread->executed, end = before + SLICE - thread->overrun;
     if (chip->translation)
       trax_translation_extend(chip->translation);
+    else if (chip->executed >= chip->translate_from)
+      begin_translation(chip, false);
     while (thread->executed < end && !thread->ended)
       if ((chip->translation ? run_translated(chip, thread, end) : run_slice(chip, thread, end, NULL)) == STOP_SLOW &&
           !execute(chip, thread))
@@ -202,7 +213,7 @@ static enum trax_advance advance(void *context, uint64_t *t, uint64_t until) {
     thread->overrun = thread->executed - end;
     if (thread->executed >= chip->limit)
       return TRAX_AT_LIMIT;
-    instructions += thread->executed - before;
+    chip->executed += thread->executed - before;
   }
   return chip->running ? TRAX_GOES_ON : TRAX_HAS_ENDED;
 }
@@ -286,9 +297,9 @@ static trax_status create(struct trax_run *run, trax_error *error) {
   chip->threads = chip->running = tms * tps;
   if (predecode(&chip->text, &run->text, error) != TRAX_OK)
     return TRAX_ERROR;
-  if (run->engine != &trax_functional_interpreted_engine)
-    chip->translation = trax_translation_create(&run->text, &run->machine->space, config->special.precision_bits, tms,
-                                                run->engine == &trax_functional_translated_engine, NULL);
+  chip->translate_from = run->engine == &trax_functional_interpreted_engine ? UINT64_MAX : COLD;
+  if (run->engine == &trax_functional_translated_engine)
+    begin_translation(chip, true);
   chip->thread = calloc(chip->threads, sizeof *chip->thread);
   chip->deltas = calloc(tms, sizeof *chip->deltas);
   bool complete = chip->thread && chip->deltas;

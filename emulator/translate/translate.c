@@ -10,8 +10,8 @@
 #include <sys/mman.h>
 
 enum {
-  HOT = 32,      /* a sequence is translated after it was interpreted so often, */
-  FIRST = 20000, /* and after any sequences were: then the first ones to be translated show which registers matter */
+  HOT = 32,     /* a sequence is translated after it was interpreted so often, */
+  FIRST = 4000, /* and after any sequences were: then the first ones to be translated show which registers matter */
   HOT_BURSTS = 8,
   FIRST_BURSTS = 4000,
   PAGE = 4096,

@@ -1,6 +1,7 @@
 /* The five steps of a TM's cycle (docs/timing.md, "A cycle"), as operations on masks of its TPs. */
 #include "fast/time/grant.h"
 #include "fast/time/issue.h"
+#include "fast/time/prefetch.h"
 #include "fast/time/refusals.h"
 #include "fast/time/variant.h"
 
@@ -82,7 +83,9 @@ static uint64_t refuse_fetches_of_any_shape(struct trax_tm *tm, uint64_t request
 }
 
 /* Grants the instruction caches' banks; returns the losers. */
-static ALWAYS_INLINE uint64_t refuse_fetches(struct trax_tm *tm, const bool wide, uint64_t requesters) {
+static ALWAYS_INLINE uint64_t refuse_fetches(struct trax_tm *tm, const bool wide, const bool few, uint64_t requesters) {
+  if (few && tm->simple_fetch)
+    return refuse_few_fetches(tm, requesters);
   uint64_t bit[TRAX_FAST_BANK_BITS];
   trax_fast_transpose(&tm->heads, wide, TRAX_STEP_FETCH_SHIFT, 4, bit);
   if (tm->simple_fetch)
@@ -163,14 +166,14 @@ static bool operands_usable(struct trax_tm *tm, unsigned number, bool fetched, u
 }
 
 /* Steps 1 and 2; woken: TPs that hold an instruction whose operands must be checked. */
-static ALWAYS_INLINE void fetch_and_check(struct trax_tm *tm, const bool wide, uint64_t woken,
+static ALWAYS_INLINE void fetch_and_check(struct trax_tm *tm, const bool wide, const bool few, uint64_t woken,
                                           struct trax_fast_refused *refused, uint64_t t) {
   if (tm->no_text)
     fault_no_text(tm, t);
   const uint64_t requesters = tm->awake & ~tm->holding;
   uint64_t hits = 0;
   if (requesters) {
-    const uint64_t losers = refuse_fetches(tm, wide, requesters);
+    const uint64_t losers = refuse_fetches(tm, wide, few, requesters);
     refused->fetch = losers;
     hits = requesters & ~losers;
   }
@@ -191,8 +194,8 @@ static ALWAYS_INLINE void fetch_and_check(struct trax_tm *tm, const bool wide, u
 }
 
 /* Step 5; banks: the TPs that have requested a bank. */
-static ALWAYS_INLINE void issue(struct trax_tm *tm, const bool wide, uint64_t granted, uint64_t slow, uint64_t banks,
-                                uint64_t t) {
+static ALWAYS_INLINE void issue(struct trax_tm *tm, const bool wide, const bool few, uint64_t granted, uint64_t slow,
+                                uint64_t banks, uint64_t t) {
   const uint64_t quick = granted & ~slow;
   slow &= granted;
   if (__builtin_expect(tm->observer != NULL, false)) {
@@ -207,18 +210,19 @@ static ALWAYS_INLINE void issue(struct trax_tm *tm, const bool wide, uint64_t gr
     trax_fast_set_load(tm, trax_first(loads), tm->heads.load[trax_first(loads)] + 1u);
   if (slow)
     issue_in_order(tm, quick, slow, t);
+  else if (few)
+    issue_one_by_one(tm, quick);
   else
     issue_quickly(tm, wide, quick);
 }
 
-static ALWAYS_INLINE void simulate(struct trax_tm *tm, const bool wide, uint64_t t) {
+static ALWAYS_INLINE void simulate(struct trax_tm *tm, const bool wide, const bool few, uint64_t woken, uint64_t t) {
   struct trax_fast_refused refused = {0};
   uint64_t slow, banks;
-  tm->now = t;
-  fetch_and_check(tm, wide, wake(tm, t), &refused, t);
-  const uint64_t granted = grant(tm, wide, &refused, &slow, &banks, t);
+  fetch_and_check(tm, wide, few, woken, &refused, t);
+  const uint64_t granted = grant(tm, wide, few, &refused, &slow, &banks, t);
   const bool refuses = refused.fetch | tm->ready; /* who is still ready was refused something */
-  issue(tm, wide, granted, slow, banks, t);
+  issue(tm, wide, few, granted, slow, banks, t);
   if (refuses && trax_fast_count(&tm->refusal_counts, &refused))
     trax_fast_count_log(&tm->refusal_counts);
   if (__builtin_expect(tm->observer != NULL, false)) {
@@ -231,16 +235,27 @@ static ALWAYS_INLINE void simulate(struct trax_tm *tm, const bool wide, uint64_t
 }
 
 static void run_cycle(struct trax_tm *tm, uint64_t t) {
-  if (tm->wide)
-    simulate(tm, true, t);
+  tm->now = t;
+  const uint64_t woken = wake(tm, t);
+  if (are_few(tm->awake))
+    simulate(tm, true, true, woken, t);
+  else if (tm->wide)
+    simulate(tm, true, false, woken, t);
   else
-    simulate(tm, false, t);
+    simulate(tm, false, false, woken, t);
 }
 
 static void run_quantum(struct trax_tm *tm, uint64_t end) {
-  while (tm->next_cycle < end && !tm->buffer->stop && !tm->fault.kind)
+  const struct trax_tm *const next = tm->number + 1 < tm->chip->tms ? tm + 1 : tm->chip->tm;
+  unsigned prefetched = tm->chip->is_large ? 0 : tm->tps;
+  while (tm->next_cycle < end && !tm->buffer->stop && !tm->fault.kind) {
+    if (prefetched < tm->tps)
+      prefetch_tp(next, prefetched++, tm->epoch);
     if (!trax_tm_has_one_awake(tm) || !trax_fast_run_alone(tm, tm->next_cycle, end))
       run_cycle(tm, tm->next_cycle);
+  }
+  if (tm->chip->is_large)
+    leave_outlook(tm);
 }
 
 #ifndef TRAX_FAST_VARIANT

@@ -2,9 +2,7 @@
 #ifndef TRAX_FAST_GRANT_H
 #define TRAX_FAST_GRANT_H
 
-#include "fast/time/head.h"
-
-#define ALWAYS_INLINE inline __attribute__((always_inline))
+#include "fast/time/few.h"
 
 static inline unsigned count_bits(uint64_t mask) {
   return (unsigned)__builtin_popcountll(mask);
@@ -151,48 +149,75 @@ static ALWAYS_INLINE uint64_t grant_further(struct trax_tm *tm, struct trax_fast
   return granted;
 }
 
+/* The TPs that are ready, by what their heads need: of_kind[kind of TRAX_STEP_FP_ADD ... >> 1]. */
+struct ready {
+  uint64_t of_kind[8], slow;
+};
+
+static ALWAYS_INLINE void sort_few(const struct trax_tm *tm, struct ready *ready) {
+  for (uint64_t rest = tm->ready; rest; rest &= rest - 1) {
+    const unsigned low = tm->heads.low[trax_first(rest)];
+    ready->of_kind[low >> 1 & 7] |= rest & -rest;
+    ready->slow |= (uint64_t)(low & TRAX_STEP_SLOW) << trax_first(rest);
+  }
+}
+
 /* Steps 3 and 4: returns the TPs that were granted all that they need. `slow` receives the TPs with slow heads, and
    `banks` those that request a data bank. */
-static ALWAYS_INLINE uint64_t grant(struct trax_tm *tm, const bool wide, struct trax_fast_refused *refused,
-                                    uint64_t *slow, uint64_t *banks, uint64_t t) {
+static ALWAYS_INLINE uint64_t grant(struct trax_tm *tm, const bool wide, const bool few,
+                                    struct trax_fast_refused *refused, uint64_t *slow, uint64_t *banks, uint64_t t) {
   uint64_t bit[TRAX_STEP_BANK_SHIFT + TRAX_FAST_BANK_BITS];
-  trax_fast_transpose(&tm->heads, wide, 0, TRAX_STEP_BANK_SHIFT + 3, bit);
-  const uint64_t ready = tm->ready, ready_low = ready & ~bit[3];
-  const uint64_t further = (unsigned)TRAX_SHARED_COUNT > TRAX_FAST_FURTHER ? ready & bit[1] & bit[2] & bit[3] : 0;
-  const uint64_t ready_high = ready & bit[3] & ~further;
-  /* Bits 1 to 3 are the kind: see TRAX_STEP_FP_ADD and the following enumerators. */
-  uint64_t granted = ready_low & ~(bit[1] | bit[2]);
+  struct ready ready = {0};
+  if (few) {
+    sort_few(tm, &ready);
+  } else {
+    trax_fast_transpose(&tm->heads, wide, 0, TRAX_STEP_BANK_SHIFT + 3, bit);
+    const uint64_t low = tm->ready & ~bit[3], high = tm->ready & bit[3];
+    const uint64_t some[2] = {low, high};
+    ready.slow = bit[0];
+#pragma GCC unroll 8
+    for (unsigned kind = 0; kind < 8; kind++)
+      ready.of_kind[kind] = some[kind >> 2] & (kind & 1 ? bit[1] : ~bit[1]) & (kind & 2 ? bit[2] : ~bit[2]);
+  }
+#define OF(KIND) ready.of_kind[(KIND) >> 1]
+  uint64_t granted = OF(0);
   uint64_t requesters, won;
-  const trax_fast_pair fp_requesters = {ready_low & bit[1] & ~bit[2], ready_low & bit[2] & ~bit[1]};
-  const trax_fast_pair fp_won = grant_fp(tm, fp_requesters, t);
+  const trax_fast_pair fp_requesters = {OF(TRAX_STEP_FP_ADD), OF(TRAX_STEP_FP_MUL)};
+  const trax_fast_pair fp_won =
+      few && !(fp_requesters[0] | fp_requesters[1]) ? fp_requesters : grant_fp(tm, fp_requesters, t);
   granted |= fp_won[0] | fp_won[1];
   refused->unit[TRAX_SHARED_FP_ADD] = fp_requesters[0] & ~fp_won[0];
   refused->unit[TRAX_SHARED_FP_MUL] = fp_requesters[1] & ~fp_won[1];
-  if ((requesters = ready_low & bit[1] & bit[2]))
+  if ((requesters = OF(TRAX_STEP_INT_MUL)))
     granted |= requesters ^ (refused->unit[TRAX_SHARED_INT_MUL] = refuse_any(tm, TRAX_SHARED_INT_MUL, requesters, t));
-  if ((requesters = ready_high & bit[1]))
+  if ((requesters = OF(TRAX_STEP_SPECIAL)))
     granted |= requesters ^ (refused->unit[TRAX_SHARED_SPECIAL] = refuse_any(tm, TRAX_SHARED_SPECIAL, requesters, t));
-  if (further)
-    granted |= grant_further(tm, refused, further, bit + TRAX_STEP_BANK_SHIFT, t);
-  uint64_t queue_requesters = ready_high & bit[2];
-  *banks = requesters = ready_high & ~(bit[1] | bit[2]);
+  const bool filling_any = __builtin_expect(tm->dcache.all_fills_end > t, false);
+  if (few && (filling_any || OF(TRAX_STEP_FURTHER)))
+    trax_fast_transpose(&tm->heads, true, TRAX_STEP_BANK_SHIFT, 3, bit + TRAX_STEP_BANK_SHIFT);
+  if ((unsigned)TRAX_SHARED_COUNT > TRAX_FAST_FURTHER && OF(TRAX_STEP_FURTHER))
+    granted |= grant_further(tm, refused, OF(TRAX_STEP_FURTHER), bit + TRAX_STEP_BANK_SHIFT, t);
+  uint64_t queue_requesters = OF(TRAX_STEP_QUEUE);
+  *banks = requesters = OF(TRAX_STEP_BANK);
   if (requesters) {
     uint64_t hits = 0, filling = 0;
-    if (__builtin_expect(tm->dcache.all_fills_end > t, false))
+    if (filling_any)
       filling = in_filling_banks(tm, requesters, bit[TRAX_STEP_BANK_SHIFT], bit[TRAX_STEP_BANK_SHIFT + 1],
                                  bit[TRAX_STEP_BANK_SHIFT + 2], t);
-    won = grant_banks(tm, wide, requesters & ~filling, bit + TRAX_STEP_BANK_SHIFT);
+    won = few ? grant_few_banks(tm, requesters & ~filling)
+              : grant_banks(tm, wide, requesters & ~filling, bit + TRAX_STEP_BANK_SHIFT);
     refused->bank = requesters & ~won;
     if (!tm->serial_hits) /* else serve() handles them, as it does stores */
-      hits = won & tm->load_hits & ~tm->executes_at_issue & ~(tm->storing & bit[0]);
+      hits = won & tm->load_hits & ~tm->executes_at_issue & ~(tm->storing & ready.slow);
     tm->stats->dcache_hits += count_bits(hits);
     granted |= hits;
     queue_requesters |= won & ~hits;
   }
+#undef OF
   if (queue_requesters)
     granted |= grant_queue(tm, queue_requesters, t);
   tm->ready &= ~granted;
-  *slow = bit[0];
+  *slow = ready.slow;
   return granted;
 }
 

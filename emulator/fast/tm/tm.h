@@ -17,6 +17,11 @@
 
 struct trax_chip;
 
+/* Some of trax_fast_heads at the end of an epoch (time/prefetch.h). */
+struct trax_fast_outlook {
+  uint8_t at[TRAX_MAX_TPS_PER_TM], last[TRAX_MAX_TPS_PER_TM], load[TRAX_MAX_TPS_PER_TM];
+};
+
 /* A TP is awake; or it sleeps until a cycle (in the wheel), until an arrival (in `awaiting`, or in the list of an
    instruction cache), or for ever (ended). */
 #define TRAX_TM_STATE(X, S)                                                                                            \
@@ -93,7 +98,9 @@ struct trax_tm {
   uint64_t looked_up, single_hits, at_issue; /* fetches, hits and instructions that were slow */
   struct trax_fast_refusal_counts refusal_counts;
   struct trax_shared_unit unit[TRAX_SHARED_COUNT];
-  struct trax_fault fault; /* of the current cycle, of the lowest TP with one */
+  struct trax_fault fault;             /* of the current cycle, of the lowest TP with one */
+  struct trax_fast_outlook outlook[2]; /* [epoch % 2]: others read it in the next epoch */
+  unsigned epoch;                      /* number of epochs, of all TMs alike */
 };
 
 /* Charges sleeping TPs for the cycles before `t`, which are over. */
