@@ -1,5 +1,5 @@
 // RUN: %run_c %s %t
-// Functions of the heap without memory set errno. (Expected output by hand.)
+// Functions of the heap without memory set errno, and empty blocks differ. (Expected output by hand.)
 #include <errno.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -24,5 +24,9 @@ int main(void) {
   show("aligned_alloc", aligned_alloc(odd, 48));
   printf("posix_memalign %d %d\n", posix_memalign(&given, 64, half), posix_memalign(&given, odd, 1));
   free(block);
+  void *volatile empty = aligned_alloc(8192, 0), *volatile other = aligned_alloc(8192, 0);
+  printf("empty blocks %d\n", empty && other && empty != other);
+  free(empty);
+  free(other);
   return 0;
 }

@@ -16,35 +16,17 @@ import tempfile
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 import interrupts  # noqa: E402
+from threaded import C, c_programs  # noqa: E402
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-SOURCES = os.path.join(HERE, "..", "c")
 LIMIT = 4000000000  # instructions
 
 
-# What a program for several threads contains; these have one, and on a machine of more print what each of them does.
-SHARES = r"trax_thread|trax_atomic_inc|\b_Atomic\b|<stdatomic\.h>|<atomic>|<mutex>|<thread>|__atomic_"
-OF_ONE_THREAD = {"atomic_single.c", "cxx_library.cpp", "machine_operations.c"}
-
-
 def threaded():
-    """{name: the compiler's flags, of each way in which it is compiled} of the programs that are made for several
-    threads and end well."""
+    """{name: the compiler's flags, of each way in which it is compiled}"""
     found = {}
-    for name in sorted(os.listdir(SOURCES)):
-        if not name.endswith((".c", ".cpp")):
-            continue
-        with open(os.path.join(SOURCES, name), encoding="utf-8") as file:
-            text = file.read().replace("\\\n// RUN:", "")
-        lines = re.findall(r"RUN: %run_c %s %t(.*)", text)
-        if any("--fault" in line for line in lines):
-            continue
-        if any(re.search(r"--config|chip\.t", line) for line in lines):
-            words = [shlex.split(line) for line in lines]
-            found[name] = sorted({dict(zip(line[::2], line[1::2])).get("--cflags", "") for line in words})
-        elif re.search(SHARES, text) and name not in OF_ONE_THREAD:
-            sys.exit(f"c_programs.py: {name} runs on one thread only: is it for several?")
-    return found
+    for source, flags, _ in c_programs():
+        found.setdefault(os.path.basename(source), set()).add(flags)
+    return {name: sorted(flags) for name, flags in found.items()}
 
 
 def result(options, model, machine, binary, seed=None):
@@ -64,7 +46,7 @@ def check(options, name, flags, directory):
         binary = os.path.join(directory, f"{name}.{way}")
         subprocess.run([os.path.join(options.build, "bin", compiler), "--target=trax", options.level,
                         *shlex.split(cflags),
-                        os.path.join(SOURCES, name), "-o", binary], check=True)
+                        os.path.join(C, name), "-o", binary], check=True)
         for machine in options.machines.split(","):
             what = f"{name} {cflags} {machine}".replace("  ", " ")
             expected = result(options, "trax-isa-model", machine, binary)

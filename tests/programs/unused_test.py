@@ -33,7 +33,7 @@ PROGRAMS = {
     "setjmp_longjmp.c": None,
     "overflow_checks.c": None,
     "cxx_language.cpp": "heap/malloc",  # operator new
-    "heap.c": "heap/malloc",
+    "heap_errors.c": "heap/malloc",
     "parallel.c": "parallel/for",
     "wide_streams.c": "posix/wide_streams",
 }

@@ -16,27 +16,12 @@ import sys
 import tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-C, LITMUS = os.path.join(HERE, "..", "c"), os.path.join(HERE, "..", "litmus")
+LITMUS = os.path.join(HERE, "..", "litmus")
+sys.path.insert(0, os.path.join(HERE, ".."))
+from threaded import c_programs  # noqa: E402
+
 SECONDS = 240  # of a run
 RUNS = 20  # of a litmus test
-
-
-def c_programs():
-    """(source, the compiler's flags, the simulator's) of the programs for several threads that end well."""
-    found = []
-    for name in sorted(os.listdir(C)):
-        if not name.endswith((".c", ".cpp")):
-            continue
-        with open(os.path.join(C, name), encoding="utf-8") as file:
-            text = file.read().replace("\\\n// RUN:", "")
-        for line in re.findall(r"RUN: %run_c %s %t(.*)", text):
-            words = shlex.split(line)
-            options = dict(zip(words[::2], words[1::2]))
-            machine = re.sub(r"--max-cycles \d+|--engine \w+", "", options.get("--simflags", ""))
-            runs = "--fault" not in words and "--clang-only" not in words
-            if runs and re.search(r"--config|chip\.t", machine):
-                found.append((os.path.join(C, name), options.get("--cflags", ""), machine))
-    return sorted(set(found))
 
 
 def litmus_programs():

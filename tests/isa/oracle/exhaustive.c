@@ -1,8 +1,6 @@
 /* isa-exhaustive: the arithmetic that the emulator executes, and the library's sqrtf, against the oracle. Output does
    not depend on the number of threads. */
-#include <errno.h>
 #include <fenv.h>
-#include <getopt.h>
 #include <inttypes.h>
 #include <pthread.h>
 #include <stdbool.h>
@@ -13,24 +11,56 @@
 #include <unistd.h>
 
 #include "operations.h"
+#include "trax/options.h"
 
 #define PIECE ((uint64_t)1 << 20) /* cases that a thread takes at a time */
 #define PAIRS 1000000000          /* of each operation of two operands, by default */
 #define MOST_JOBS 1024
 
-static const char usage[] =
-    "usage: isa-exhaustive [OPTION...]\n"
-    "\n"
-    "Compares the TP's floating-point arithmetic (trax/semantics.h), and the library's sqrtf compiled\n"
-    "for the host, with an oracle that computes in integers: over all operands if there is one, over\n"
-    "numbered pairs if there are two. Exit status: 0 if all agree, 1 otherwise.\n"
-    "\n"
-    "  --operation NAME  only this one; may be given several times\n"
-    "  --first N         the number of the first case; default 0\n"
-    "  --count N         cases of each operation; default all, and 1000000000 where they are pairs\n"
-    "  --jobs N          threads; default one for each core\n"
-    "  --round-to-zero   let the host round so, which is wrong: to see that differences are found\n"
-    "  --help            print this, and end\n";
+enum { MOST_OPERATIONS = 32 };
+
+static struct options {
+  bool chosen[MOST_OPERATIONS], any_chosen;
+  uint64_t first, count; /* count 0: as many as there are by default */
+  unsigned jobs;
+  bool round_to_zero;
+} options;
+
+static trax_status take_operation(void *target, const trax_option *option, const char *value, trax_error *error) {
+  struct options *given = target;
+  char known[256] = "";
+  for (unsigned i = 0; i < operation_count; i++) {
+    if (strcmp(operations[i].name, value) == 0) {
+      given->chosen[i] = given->any_chosen = true;
+      return TRAX_OK;
+    }
+    snprintf(known + strlen(known), sizeof known - strlen(known), " %s", operations[i].name);
+  }
+  (void)option;
+  return trax_fail(error, "there is no operation '%s', but:%s", value, known);
+}
+
+#define FIELD(member) TRAX_OPTION_FIELD(struct options, member)
+static const trax_option rows[] = {
+    {"operation", .argument = "NAME", .parse = take_operation, .meaning = "only this one (repeatable)"},
+    {"first", .argument = "N", FIELD(first), .most = UINT64_MAX >> 4, .meaning = "the number of the first case"},
+    {"count", .argument = "N", FIELD(count), .least = 1, .most = UINT64_MAX >> 4,
+     .meaning = "cases of each operation; default all, and 1000000000 where they are pairs"},
+    {"jobs", .argument = "N", FIELD(jobs), .least = 1, .most = MOST_JOBS,
+     .meaning = "threads; default one for each core"},
+    {"round-to-zero", FIELD(round_to_zero),
+     .meaning = "let the host round so, which is wrong: to see that differences are found"},
+    TRAX_OPTION_HELP(0),
+    {0}};
+
+static const trax_command command = {
+    .name = "isa-exhaustive",
+    .synopsis = "[OPTION...]",
+    .description = "Compares the TP's floating-point arithmetic (trax/semantics.h), and the library's sqrtf compiled\n"
+                   "for the host, with an oracle that computes in integers: over all operands if there is one, over\n"
+                   "numbered pairs if there are two. Exit status: 0 if all agree, 1 otherwise.",
+    .rows = rows,
+    .column = 22};
 
 struct task {
   const struct operation *operation;
@@ -39,7 +69,7 @@ struct task {
 };
 
 struct run {
-  struct task tasks[32];
+  struct task tasks[MOST_OPERATIONS];
   unsigned task_count;
   bool round_to_zero;
   pthread_mutex_t lock; /* of what follows, and of the tasks' differences */
@@ -132,29 +162,6 @@ static unsigned report(const struct run *run) {
   return wrong;
 }
 
-static uint64_t number(const char *option, const char *text, uint64_t least, uint64_t most) {
-  char *end;
-  errno = 0;
-  unsigned long long n = strtoull(text, &end, 10);
-  if (text[0] < '0' || text[0] > '9' || *end || errno || n < least || n > most) {
-    fprintf(stderr, "isa-exhaustive: --%s must be a number from %" PRIu64 " to %" PRIu64 ", not '%s'\n", option, least,
-            most, text);
-    exit(1);
-  }
-  return n;
-}
-
-static bool *chosen_operation(bool *chosen, const char *name) {
-  for (unsigned i = 0; i < operation_count; i++)
-    if (strcmp(operations[i].name, name) == 0)
-      return &chosen[i];
-  fprintf(stderr, "isa-exhaustive: there is no operation '%s', but:", name);
-  for (unsigned i = 0; i < operation_count; i++)
-    fprintf(stderr, " %s", operations[i].name);
-  fprintf(stderr, "\n");
-  exit(1);
-}
-
 /* The cases first .. first + count - 1, as far as they exist; count 0: all from the first on. */
 static void add_task(struct run *run, const struct operation *operation, uint64_t first, uint64_t count) {
   struct task task = {operation, first, count, {0}};
@@ -169,56 +176,32 @@ static void add_task(struct run *run, const struct operation *operation, uint64_
 }
 
 int main(int argc, char **argv) {
-  static const struct option options[] = {{"operation", required_argument, NULL, 'o'},
-                                          {"first", required_argument, NULL, 'f'},
-                                          {"count", required_argument, NULL, 'c'},
-                                          {"jobs", required_argument, NULL, 'j'},
-                                          {"round-to-zero", no_argument, NULL, 'z'},
-                                          {"help", no_argument, NULL, 'h'},
-                                          {0}};
   static struct run run = {.lock = PTHREAD_MUTEX_INITIALIZER, .piece_done = PTHREAD_COND_INITIALIZER};
-  bool chosen[32] = {false}, any_chosen = false;
-  uint64_t first = 0, count = 0;
-  long cores = sysconf(_SC_NPROCESSORS_ONLN);
-  unsigned jobs = cores < 1 ? 1 : cores > MOST_JOBS ? MOST_JOBS : (unsigned)cores;
-  for (int option; (option = getopt_long(argc, argv, "", options, NULL)) != -1;)
-    switch (option) {
-    case 'o':
-      *chosen_operation(chosen, optarg) = any_chosen = true;
-      break;
-    case 'f':
-      first = number("first", optarg, 0, UINT64_MAX >> 4);
-      break;
-    case 'c':
-      count = number("count", optarg, 1, UINT64_MAX >> 4);
-      break;
-    case 'j':
-      jobs = (unsigned)number("jobs", optarg, 1, MOST_JOBS);
-      break;
-    case 'z':
-      run.round_to_zero = true;
-      break;
-    case 'h':
-      return fputs(usage, stdout) == EOF || fflush(stdout) == EOF;
-    default:
-      return 1;
-    }
-  if (optind < argc) {
-    fprintf(stderr, "isa-exhaustive: '%s' is not an option; --help lists them\n", argv[optind]);
+  const long cores = sysconf(_SC_NPROCESSORS_ONLN);
+  options.jobs = cores < 1 ? 1 : cores > MOST_JOBS ? MOST_JOBS : (unsigned)cores;
+  trax_error error;
+  const trax_parsed parsed = trax_command_parse(&command, &options, &argc, argv, &error);
+  if (parsed == TRAX_PARSED_DONE)
+    return 0;
+  if (parsed == TRAX_PARSED_RUN && argc > 0)
+    trax_fail(&error, "'%s' is not an option; --help lists them", argv[0]);
+  if (parsed == TRAX_PARSED_WRONG || argc > 0) {
+    fprintf(stderr, "isa-exhaustive: %s\n", error.message);
     return 1;
   }
+  run.round_to_zero = options.round_to_zero;
   for (unsigned i = 0; i < operation_count; i++)
-    if (!any_chosen || chosen[i])
-      add_task(&run, &operations[i], first, count);
+    if (!options.any_chosen || options.chosen[i])
+      add_task(&run, &operations[i], options.first, options.count);
 
   if (run.total == 0) {
-    fprintf(stderr, "isa-exhaustive: there is no case of number %" PRIu64 " or above\n", first);
+    fprintf(stderr, "isa-exhaustive: there is no case of number %" PRIu64 " or above\n", options.first);
     return 1;
   }
 
   pthread_t threads[MOST_JOBS];
   unsigned started = 0;
-  while (started < jobs && pthread_create(&threads[started], NULL, work, &run) == 0)
+  while (started < options.jobs && pthread_create(&threads[started], NULL, work, &run) == 0)
     started++;
   if (started == 0) {
     fprintf(stderr, "isa-exhaustive: no thread can be started\n");
