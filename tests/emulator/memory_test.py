@@ -160,6 +160,16 @@ int main(void) { lose(); }
         check(memory_cases.LEAK in error and error.endswith("has 1 error of memory (--check-memory)\n"), flags, error)
 
 
+def stripped(scratch):
+    """Without symbols, objects lie between those of the loader's, which are no padding."""
+    program = build(scratch, write(scratch, """#include <stdio.h>
+#include <stdlib.h>
+int main(int argc, char **argv) { void *volatile p = malloc(5000); free(p); printf("%d %p\\n", argc, argv[0]); }
+"""), "-O1", "-s")
+    result = run(program)
+    check(result.returncode == 0 and not result.stderr, result.stderr)
+
+
 def large(scratch):
     """Time and memory are in proportion to what is written to a block, not to its size."""
     program = build(scratch, write(scratch, """#include <stdlib.h>
@@ -207,7 +217,7 @@ def programs(scratch):
 
 
 def main():
-    for test in (table, ends, buffers, report, read, jumps, returned, large, programs):
+    for test in (table, ends, buffers, report, read, jumps, returned, stripped, large, programs):
         with tempfile.TemporaryDirectory() as scratch:
             test(pathlib.Path(scratch))
     return checking.failures != 0
