@@ -132,6 +132,11 @@ int main(void) { char a[64]; return read(0, a, 64) > 0 && a[40] == 'x' ? 3 : 0; 
         result = subprocess.run([BIN / "trax-sim", "--quiet", "--check-memory", program], input=text,
                                 capture_output=True, text=True, timeout=100)
         check(result.returncode == status and ("never written" in result.stderr) == (status == 1), text, result.stderr)
+    program = build(scratch, write(scratch, """#include <fcntl.h>
+int main(void) { return openat(open("here", O_RDONLY | O_DIRECTORY), "cases.c", O_RDONLY) < 0; }
+"""), "-O1", "-mstack=global")
+    result = run(program, "--dir", f"{scratch}::here")
+    check(result.returncode == 0 and not result.stderr, "a folder's path", result.stderr)
 
 
 def jumps(scratch):
