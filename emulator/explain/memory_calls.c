@@ -148,7 +148,7 @@ static void begin_thread(struct trax_memory_check *check, uint32_t thread) {
 }
 
 trax_status trax_memory_calls_open(struct trax_memory_check *check, trax_error *error) {
-  static const char *const names[] = {"malloc", "calloc", "realloc", "aligned_alloc", "free"};
+  static const char *const names[] = {"malloc", "calloc", "realloc", "aligned_alloc", "free", "malloc_usable_size"};
   size_t count;
   context_of(check, 0, 0); /* that of the program's start */
   if (!check->loaded)

@@ -155,7 +155,7 @@ static void host_call(struct trax_memory_check *check, const struct trax_span *s
   trax_memory_define(check, span->thread, block, 4, false);
   if (number == TRAX_HOST_WRITE)
     check_output(check, span, address, bytes);
-  else if (number == TRAX_HOST_READ || number == TRAX_HOST_LIST)
+  else if (number == TRAX_HOST_READ || number == TRAX_HOST_LIST || number == TRAX_HOST_FOLDER)
     check->threads[span->thread].read = (struct trax_memory_read){block, address, bytes};
   else if (number == TRAX_HOST_SEEK || number == TRAX_HOST_STAT || number == TRAX_HOST_FSTAT)
     trax_memory_define(check, span->thread, address, number == TRAX_HOST_SEEK ? 8 : 4 * TRAX_STAT_WORDS, false);

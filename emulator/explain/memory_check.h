@@ -55,7 +55,15 @@ struct trax_memory_page {
   uint32_t blocks[MEMORY_PAGE / 4]; /* the block that had the word last; 0: none */
 };
 
-enum trax_memory_function { MEMORY_OTHER, MEMORY_MALLOC, MEMORY_CALLOC, MEMORY_REALLOC, MEMORY_ALIGNED, MEMORY_FREE };
+enum trax_memory_function {
+  MEMORY_OTHER,
+  MEMORY_MALLOC,
+  MEMORY_CALLOC,
+  MEMORY_REALLOC,
+  MEMORY_ALIGNED,
+  MEMORY_FREE,
+  MEMORY_USABLE
+};
 
 struct trax_memory_call {
   uint32_t return_pc, stack_pointer;
@@ -84,7 +92,7 @@ struct trax_memory_thread {
   unsigned stores;
   struct trax_memory_read {
     uint32_t block, address, bytes;
-  } read; /* the latest TRAX_HOST_READ, whose result the thread has not loaded yet; bytes 0: none */
+  } read; /* the latest host call that reads, whose result the thread has not loaded yet; bytes 0: none */
 };
 
 #define MEMORY_FINDINGS(X)                                                                                             \

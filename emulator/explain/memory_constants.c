@@ -93,17 +93,25 @@ static const struct trax_memory_variables *variables_at(struct trax_memory_check
   return &check->variables[entry->value];
 }
 
+/* The beginning of the first variable behind an offset; INT32_MAX: there is none. */
+static int32_t next_begin(const struct trax_memory_variables *variables, int32_t offset) {
+  int32_t begin = INT32_MAX;
+  for (size_t i = 0; i < variables->count; i++)
+    if (variables->items[i].begin > offset && variables->items[i].begin < begin)
+      begin = variables->items[i].begin;
+  return begin;
+}
+
 /* Finds memory of a frame that belongs to no variable, such as alloca's of a constant size: it ends at the next
    variable. Where it begins is not known, since variables may lie in its place. As long as none of it is accessed, an
    array near to the address may be meant. */
 static bool find_unnamed(const struct trax_memory_variables *variables, int32_t offset, uint32_t address,
                          struct trax_memory_object *object) {
-  int32_t begin = offset, own_end = INT32_MAX, end = INT32_MIN;
+  const int32_t own_end = next_begin(variables, offset);
+  int32_t begin = offset, end = INT32_MIN;
   for (size_t i = 0; i < variables->count; i++) {
     const struct trax_frame_variable *it = &variables->items[i];
     begin = it->begin < begin ? it->begin : begin;
-    if (it->begin > offset && it->begin < own_end)
-      own_end = it->begin;
     if (it->is_array && it->begin <= offset + NEAR && it->end > end)
       end = it->end;
   }
@@ -135,6 +143,8 @@ static bool find_local(const struct trax_memory_variables *variables, int32_t of
     return false;
   int32_t begin = main->begin, end = main->end;
   const int32_t near = offset == begin ? 0 : NEAR;
+  if (near && offset + near >= end) /* what follows may have no variable, and be meant */
+    end = next_begin(variables, end - 1);
   for (size_t i = 0; i < variables->count; i++) {
     const struct trax_frame_variable *it = &variables->items[i];
     const bool overlaps = it->begin < main->end && main->begin < it->end;
@@ -143,6 +153,8 @@ static bool find_local(const struct trax_memory_variables *variables, int32_t of
       end = it->end > end ? it->end : end;
     }
   }
+  if (end == INT32_MAX) /* where the frame ends is not known */
+    return false;
   *object = (struct trax_memory_object){.kind = MEMORY_LOCAL,
                                         .begin = address + (uint32_t)(begin - offset),
                                         .end = address + (uint32_t)(end - offset),

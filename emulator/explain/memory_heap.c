@@ -63,6 +63,17 @@ static void add_block(struct trax_memory_check *check, uint32_t thread, uint32_t
   it->reg[A0].tag = block;
 }
 
+/* A program may use what malloc_usable_size says of a block. */
+static void extend(struct trax_memory_check *check, uint32_t begin, uint32_t bytes) {
+  const uint32_t block = trax_memory_block_at(check, begin);
+  struct trax_memory_object *it = block ? &check->objects[block] : NULL;
+  if (!it || it->freed || it->begin != begin || bytes <= it->end - begin || bytes > check->heap_end - begin)
+    return;
+  const uint32_t end = it->end;
+  it->end = it->own_end = begin + bytes;
+  trax_memory_set_block(check, block, begin, end, it->end);
+}
+
 void trax_memory_heap_leave(struct trax_memory_check *check, uint32_t thread) {
   struct trax_memory_thread *it = &check->threads[thread];
   const enum trax_memory_function function = it->function;
@@ -72,6 +83,10 @@ void trax_memory_heap_leave(struct trax_memory_check *check, uint32_t thread) {
     return;
   it->reg[A0].undefined = 0;
   it->reg[A0].tag = MEMORY_NO_TAG;
+  if (function == MEMORY_USABLE) {
+    extend(check, first, result);
+    return;
+  }
   if (result < check->heap_begin || result >= check->heap_end)
     return;
   if (function == MEMORY_REALLOC && first) {

@@ -144,6 +144,16 @@ static trax_status add_symbols(struct trax_memory_check *check, trax_error *erro
   return TRAX_OK;
 }
 
+/* Whether all objects have symbols. A stripped program has those that the loader needs. */
+static bool has_all_symbols(const struct trax_memory_check *check) {
+  size_t count;
+  const struct trax_symbol *symbols = trax_image_symbols(check->loaded->image, &count);
+  for (size_t i = 0; i < count; i++)
+    if (symbols[i].type == TRAX_SYMBOL_FUNCTION)
+      return true;
+  return false;
+}
+
 /* Marks the padding before the objects of a writable segment: fewer bytes than the next object is aligned to. */
 static void mark_padding(struct trax_memory_check *check, const struct trax_load_segment *segment) {
   const uint32_t segment_end = segment->address + segment->memory_bytes;
@@ -204,7 +214,7 @@ trax_status trax_memory_objects_open(struct trax_memory_check *check, trax_error
   if (!(check->padding = trax_explain_array(bytes / 8 + TRAX_GRANULE, 1, error)) ||
       add_symbols(check, error) != TRAX_OK)
     return TRAX_ERROR;
-  for (size_t i = 0; i < count; i++)
+  for (size_t i = 0; i < count && has_all_symbols(check); i++)
     if (segments[i].permissions & TRAX_PERMIT_WRITE)
       mark_padding(check, &segments[i]);
   find_heap(check);

@@ -111,10 +111,11 @@ static void two_below(void *count) {
 }
 
 static void waits(void *context) {
-  unsigned count = 0;
-  trax_run_tasks(two_below, &count);
-  if (__atomic_load_n(&count, __ATOMIC_RELAXED) != 2)
+  unsigned *count = calloc(1, sizeof *count);
+  trax_run_tasks(two_below, count);
+  if (__atomic_load_n(count, __ATOMIC_RELAXED) != 2)
     trax_atomic_inc(&wrong);
+  free(count);
   (void)context;
 }
 

@@ -2,7 +2,8 @@
 
 import itertools
 
-HEAD = """#include <stdio.h>
+HEAD = """#include <malloc.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <trax.h>
@@ -137,6 +138,9 @@ def never_written():
     yield "", "word *p = calloc(4, 4); if (p[2]) sink = 1; free(p);", None
     yield "", "word *p = block(8); p = realloc(p, 16); OPAQUE(p); if (p[1] == 1) sink = 1; free(p);", None
     yield "", "word *p = block(8); p = realloc(p, 16); OPAQUE(p); if (p[3] == 1) sink = 1; free(p);", BRANCH
+    for index, finding in (("n - 1", None), ("n", OUTSIDE)):
+        yield "", (f"byte *p = malloc(20); OPAQUE(p); unsigned n = malloc_usable_size(p); fill(p, n); sink = p[{index}]; "
+                   "free(p);"), finding
 
 
 def leaks():

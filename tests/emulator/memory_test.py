@@ -132,6 +132,11 @@ int main(void) { char a[64]; return read(0, a, 64) > 0 && a[40] == 'x' ? 3 : 0; 
         result = subprocess.run([BIN / "trax-sim", "--quiet", "--check-memory", program], input=text,
                                 capture_output=True, text=True, timeout=100)
         check(result.returncode == status and ("never written" in result.stderr) == (status == 1), text, result.stderr)
+    program = build(scratch, write(scratch, """#include <fcntl.h>
+int main(void) { return openat(open("here", O_RDONLY | O_DIRECTORY), "cases.c", O_RDONLY) < 0; }
+"""), "-O1", "-mstack=global")
+    result = run(program, "--dir", f"{scratch}::here")
+    check(result.returncode == 0 and not result.stderr, "a folder's path", result.stderr)
 
 
 def jumps(scratch):
@@ -158,6 +163,16 @@ int main(void) { lose(); }
     for flags in (["-O1"], ["-O1", "-mstack=global"]):
         error = run(build(scratch, source, *flags)).stderr
         check(memory_cases.LEAK in error and error.endswith("has 1 error of memory (--check-memory)\n"), flags, error)
+
+
+def stripped(scratch):
+    """Without symbols, objects lie between those of the loader's, which are no padding."""
+    program = build(scratch, write(scratch, """#include <stdio.h>
+#include <stdlib.h>
+int main(int argc, char **argv) { void *volatile p = malloc(5000); free(p); printf("%d %p\\n", argc, argv[0]); }
+"""), "-O1", "-s")
+    result = run(program)
+    check(result.returncode == 0 and not result.stderr, result.stderr)
 
 
 def large(scratch):
@@ -207,7 +222,7 @@ def programs(scratch):
 
 
 def main():
-    for test in (table, ends, buffers, report, read, jumps, returned, large, programs):
+    for test in (table, ends, buffers, report, read, jumps, returned, stripped, large, programs):
         with tempfile.TemporaryDirectory() as scratch:
             test(pathlib.Path(scratch))
     return checking.failures != 0
