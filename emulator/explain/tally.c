@@ -5,6 +5,9 @@
 
 #include <stdlib.h>
 #include <string.h>
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
 
 enum {
   CONTEXTS = TRAX_TALLY_CONTEXTS,
@@ -117,18 +120,30 @@ static void add_accesses(struct trax_tally *tally, const struct slot *slot, cons
   }
 }
 
-typedef uint8_t bytes __attribute__((vector_size(8), aligned(1), may_alias));
-typedef uint32_t words __attribute__((vector_size(32), aligned(4), may_alias));
+/* Adds eight bytes to eight sums. */
+static inline void add_bytes(uint32_t *sums, uint64_t bytes) {
+#ifdef __SSE2__
+  const __m128i none = _mm_setzero_si128();
+  const __m128i halves = _mm_unpacklo_epi8(_mm_cvtsi64_si128((long long)bytes), none);
+  __m128i *const to = (__m128i *)sums;
+  _mm_storeu_si128(to, _mm_add_epi32(_mm_loadu_si128(to), _mm_unpacklo_epi16(halves, none)));
+  _mm_storeu_si128(to + 1, _mm_add_epi32(_mm_loadu_si128(to + 1), _mm_unpackhi_epi16(halves, none)));
+#else
+  for (unsigned i = 0; i < 8; i++)
+    sums[i] += bytes >> 8 * i & 0xFF;
+#endif
+}
 
 /* Adds the refusals of `count` neighbouring instructions. */
 static inline void add_refused(uint32_t *fetch, uint32_t *others, const uint8_t *refused, uint32_t count) {
-  const bytes number = {0, 1, 2, 3, 4, 5, 6, 7};
+  const uint64_t low = UINT64_MAX / UINT8_MAX * TRAX_MOST_REFUSED; /* of each byte */
+  uint64_t some;
   for (uint32_t i = 0; i < count; i += 8) {
-    bytes some = *(const bytes *)(refused + i);
+    memcpy(&some, refused + i, sizeof some);
     if (count - i < 8)
-      some &= (bytes)(number < (uint8_t)(count - i));
-    *(words *)(fetch + i) += __builtin_convertvector(some & TRAX_MOST_REFUSED, words);
-    *(words *)(others + i) += __builtin_convertvector(some >> TRAX_REFUSED_SHIFT, words);
+      some &= ((uint64_t)1 << 8 * (count - i)) - 1;
+    add_bytes(fetch + i, some & low);
+    add_bytes(others + i, some >> TRAX_REFUSED_SHIFT & low);
   }
 }
 
