@@ -355,7 +355,7 @@ trax_status trax_explain_end(struct trax_explain *explain, trax_error *error) {
       notify_span(explain, thread / tps, thread % tps, NULL);
     end_passages(explain, thread);
   }
-  trax_passages_flush(explain->passages);
+  trax_passages_end(explain->passages);
   explain->out_of_memory |= explain->observer.lost;
   for (unsigned i = 0; i < explain->reader_count && !explain->out_of_memory; i++) {
     struct trax_reader *reader = explain->readers[i];

@@ -1,7 +1,7 @@
 #include "explain/passages.h"
 #include "explain/places.h"
+#include "explain/reading.h"
 #include "explain/stories.h"
-#include "explain/tally.h"
 #include "machine/ray_cycles.h"
 #include "trax/grow.h"
 #include "trax/pool.h"
@@ -22,11 +22,7 @@ struct stored {
 enum {
   PADDING = 8, /* bytes behind the refusals, which readers load by vectors */
   MUCH = 4096, /* new in the logs, after which few are read at once */
-  BATCH = 64,  /* passages that one reader reads after the other, if there is one thread: they stay in its caches */
-  MOST_TALLIES = 4
 };
-/* Thread-cycles between two flushes of the tallies. Half as many may follow until the logs have been read. */
-static const uint64_t most_tallied = UINT32_MAX / 2;
 
 /* What a TM has added. */
 struct log {
@@ -54,18 +50,11 @@ struct trax_passages {
   size_t count, order_capacity;
   uint32_t most; /* instructions in the logs */
   bool holds;
-  struct trax_charged *charged;             /* of the observer's logs, when the passages were held, */
-  size_t charged_capacity, *charged_count;  /* [threads] */
-  struct trax_pool *placers, *readers;      /* items: TMs, work; NULL: there is one thread */
-  struct trax_tally *tallies[MOST_TALLIES]; /* [tally_count]: one of a thread */
-  unsigned tally_count;
-  uint64_t cycle, flushed; /* of the latest passage that was ordered; when they were flushed */
-  /* [work_count]: what the items of `readers` do. A tally has a part of the passages, a reader all of them. */
-  struct work {
-    struct trax_reader *reader; /* NULL: a tally */
-    unsigned tally;
-  } work[TRAX_READER_KINDS + MOST_TALLIES];
-  unsigned work_count;
+  struct trax_charged *charged;            /* of the observer's logs, when the passages were held, */
+  size_t charged_capacity, *charged_count; /* [threads] */
+  uint64_t cycle;                          /* of the latest passage that was ordered */
+  struct trax_reading *reading;
+  struct trax_pool *placers; /* its items are TMs; NULL: there is one thread */
 };
 
 /* --- adding --- */
@@ -261,73 +250,6 @@ static void order(struct trax_passages *passages, size_t end) {
 
 /* --- reading --- */
 
-static void follow(const struct trax_passages *passages, size_t begin, size_t end) {
-  const struct trax_explain *explain = passages->explain;
-  for (size_t i = begin; i < end; i++) {
-    for (unsigned k = 0; k < explain->reader_count; k++)
-      if (explain->readers[k]->kind->follow)
-        explain->readers[k]->kind->follow(explain->readers[k], passages->order[i]);
-    if (passages->order[i]->context >= TRAX_TALLY_CONTEXTS)
-      trax_tally_add_alone(passages->tallies[0], passages->order[i]);
-  }
-}
-
-static void read_part(const struct trax_passages *passages, const struct work *work, size_t begin, size_t end) {
-  struct trax_reader *reader = work->reader;
-  for (size_t i = begin; reader && i < end; i++)
-    reader->kind->passage(reader, passages->order[i]);
-  for (size_t i = begin; !reader && i < end; i++)
-    trax_tally_add(passages->tallies[work->tally], passages->order[i]);
-}
-
-static void do_work(void *context, uint32_t item) {
-  const struct trax_passages *passages = context;
-  const struct work *work = &passages->work[item];
-  const size_t count = passages->count;
-  if (work->reader)
-    read_part(passages, work, 0, count);
-  else
-    read_part(passages, work, count * work->tally / passages->tally_count,
-              count * (work->tally + 1) / passages->tally_count);
-}
-
-/* Lists the work for so many threads, each of which begins with its tally (trax/pool.h). False: out of memory. */
-static bool list_work(struct trax_passages *passages, unsigned threads) {
-  struct trax_explain *explain = passages->explain;
-  unsigned tallies = 0, readers = 0, next = 0;
-  for (unsigned i = 0; i < explain->reader_count; i++)
-    readers += explain->readers[i]->kind->passage != NULL;
-  passages->tally_count = threads < MOST_TALLIES ? threads : MOST_TALLIES;
-  for (unsigned i = 0; i < passages->tally_count; i++)
-    if (!passages->tallies[i] && !(passages->tallies[i] = trax_tally_create(explain)))
-      return false;
-  const unsigned count = readers + passages->tally_count;
-  passages->work_count = 0;
-  while (passages->work_count < count) {
-    if (tallies < passages->tally_count && passages->work_count == count * tallies / passages->tally_count) {
-      passages->work[passages->work_count++] = (struct work){.tally = tallies++};
-      continue;
-    }
-    while (next < explain->reader_count && !explain->readers[next]->kind->passage)
-      next++;
-    passages->work[passages->work_count++] = (struct work){.reader = explain->readers[next++]};
-  }
-  return true;
-}
-
-void trax_passages_flush(struct trax_passages *passages) {
-  for (unsigned i = 0; i < passages->tally_count; i++)
-    trax_tally_flush(passages->tallies[i]);
-  passages->flushed = passages->cycle;
-}
-
-static void take_tallies(struct trax_passages *passages) {
-  if ((passages->cycle - passages->flushed) * passages->explain->machine->stats.threads >= most_tallied)
-    trax_passages_flush(passages);
-  for (unsigned i = 0; i < passages->tally_count; i++)
-    trax_tally_drain(passages->tallies[i]);
-}
-
 static void empty_logs(struct trax_passages *passages) {
   for (uint32_t tm = 0; tm < passages->tms; tm++) {
     passages->logs[tm].now = passages->logs[tm].kept = (struct extent){0};
@@ -341,24 +263,16 @@ static void read_logs(struct trax_passages *passages) {
   if (!instructions)
     return;
   passages->explain->found = 0;
-  const size_t count = prepare(passages);
-  if (!count) {
+  const size_t count = prepare(passages), batch = trax_reading_batch(passages->reading);
+  if (!count)
     passages->explain->observer.lost = true;
-  } else if (passages->readers) {
-    if (passages->placers)
-      trax_pool_run(passages->placers);
-    order(passages, count);
-    follow(passages, 0, count);
-    trax_pool_run(passages->readers);
+  if (count && passages->placers)
+    trax_pool_run(passages->placers);
+  for (size_t begin = 0; begin < count; begin = passages->count) {
+    order(passages, count - begin < batch ? count : begin + batch);
+    trax_reading_read(passages->reading, passages->order + begin, passages->count - begin);
   }
-  for (size_t begin = 0; !passages->readers && begin < count; begin += BATCH) {
-    const size_t end = count - begin < BATCH ? count : begin + BATCH;
-    order(passages, end);
-    follow(passages, begin, end);
-    for (unsigned i = 0; i < passages->work_count; i++)
-      read_part(passages, &passages->work[i], begin, end);
-  }
-  take_tallies(passages);
+  trax_reading_drain(passages->reading, passages->cycle);
   passages->most = passages->explain->found < MUCH ? TRAX_PASSAGES_MANY : TRAX_PASSAGES_FEW;
   if (passages->explain->stories) {
     passages->logs = passages->sets[++passages->explain->round % TRAX_PASSAGES_ROUNDS];
@@ -438,32 +352,30 @@ struct trax_passages *trax_passages_create(struct trax_explain *explain) {
   }
   passages->logs = passages->sets[0];
   passages->charged_count = calloc(explain->machine->stats.threads, sizeof *passages->charged_count);
-  if (complete && passages->charged_count)
+  passages->reading = trax_reading_create(explain);
+  if (complete && passages->charged_count && passages->reading)
     return passages;
   trax_passages_destroy(passages);
   return NULL;
 }
 
 bool trax_passages_start(struct trax_passages *passages, unsigned threads) {
-  trax_error error; /* without pools, one thread reads */
-  if (passages->readers)
-    return true;
-  if (!list_work(passages, threads))
-    return false;
-  if (threads < 2)
-    return true;
-  passages->placers =
-      trax_pool_create(threads < passages->tms ? threads : passages->tms, passages->tms, place_log, passages, &error);
-  passages->readers = trax_pool_create(threads < passages->work_count ? threads : passages->work_count,
-                                       passages->work_count, do_work, passages, &error);
-  return true;
+  trax_error error; /* without a pool, the passages are made one by one */
+  if (threads > 1 && !passages->placers)
+    passages->placers =
+        trax_pool_create(threads < passages->tms ? threads : passages->tms, passages->tms, place_log, passages, &error);
+  return trax_reading_start(passages->reading, threads);
+}
+
+void trax_passages_end(struct trax_passages *passages) {
+  trax_reading_flush(passages->reading);
 }
 
 void trax_passages_destroy(struct trax_passages *passages) {
   if (!passages)
     return;
   trax_pool_destroy(passages->placers);
-  trax_pool_destroy(passages->readers);
+  trax_reading_destroy(passages->reading);
   for (unsigned i = 0; i < TRAX_PASSAGES_ROUNDS; i++) {
     for (uint32_t tm = 0; passages->sets[i] && tm < passages->tms; tm++) {
       free(passages->sets[i][tm].bytes);
@@ -471,8 +383,6 @@ void trax_passages_destroy(struct trax_passages *passages) {
     }
     free(passages->sets[i]);
   }
-  for (unsigned i = 0; i < MOST_TALLIES; i++)
-    trax_tally_destroy(passages->tallies[i]);
   free(passages->order);
   free(passages->charged);
   free(passages->charged_count);

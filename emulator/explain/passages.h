@@ -1,8 +1,7 @@
 /* The way of passages from the engine to their readers. The engine's stretches are copied to a log of each TM, to which
    a thread of the host may add while others add to those of other TMs. When the logs are full, or the engine no longer
-   goes back behind what is in them (trax_observer.keep), they are read in the order of their cycles and TMs: each
-   reader reads all passages, and several threads of the host run several readers at the same time. What readers want to
-   know of each instruction is counted for all of them (explain/tally.h). */
+   goes back behind what is in them (trax_observer.keep), they are read in the order of their cycles and TMs
+   (explain/reading.h). */
 #ifndef TRAX_EXPLAIN_PASSAGES_H
 #define TRAX_EXPLAIN_PASSAGES_H
 
@@ -26,7 +25,7 @@ void trax_passages_keep(struct trax_passages *passages, bool holds);
 /* Reads all that has been added; it is not held. */
 void trax_passages_finish(struct trax_passages *passages);
 /* Gives the counts of all that has been read to the readers. */
-void trax_passages_flush(struct trax_passages *passages);
+void trax_passages_end(struct trax_passages *passages);
 void trax_passages_go_back(struct trax_passages *passages);
 void trax_passages_destroy(struct trax_passages *passages); /* which may be NULL */
 
