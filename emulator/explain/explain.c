@@ -3,6 +3,7 @@
 #include "explain/places.h"
 #include "explain/span.h"
 #include "explain/stories.h"
+#include "machine/ray_cycles.h"
 #include "trax/compare.h"
 #include "trax/grow.h"
 
@@ -71,7 +72,10 @@ static void notify_span(struct trax_explain *explain, uint32_t tm, uint32_t tp, 
   }
 }
 
-static void notify_passage(const struct trax_explain *explain, const struct trax_passage *passage) {
+static void notify_passage(const struct trax_explain *explain, struct trax_passage *passage) {
+  for (unsigned i = 0; i < explain->reader_count; i++)
+    if (explain->readers[i]->kind->follow)
+      explain->readers[i]->kind->follow(explain->readers[i], passage);
   for (unsigned i = 0; i < explain->reader_count; i++)
     if (explain->readers[i]->kind->passage)
       explain->readers[i]->kind->passage(explain->readers[i], passage);
@@ -91,8 +95,9 @@ static void begin_run(void *context, unsigned host_threads) {
                   sizeof explain->open_threads[i].cycles),
            sizeof explain->open_threads[i].cycles);
   explain->begun = true;
-  if (!explain->has_spans)
-    trax_passages_start(explain->passages, host_threads ? host_threads : trax_host_processors());
+  if (!explain->has_spans &&
+      !trax_passages_start(explain->passages, host_threads ? host_threads : trax_host_processors()))
+    explain->out_of_memory = true;
 }
 
 static void end_run(void *context) {
@@ -124,6 +129,7 @@ static void end_passages(struct trax_explain *explain, uint32_t thread) {
   notify_passage(explain, &(struct trax_passage){.thread = thread,
                                                  .charged = log->charged,
                                                  .charged_count = log->charged_count,
+                                                 .kind = TRAX_NO_RAY,
                                                  .cycles = open->cycles});
 }
 
@@ -152,6 +158,7 @@ static void add_issue(void *context, const struct trax_issue *issue) {
     return;
   const trax_inst *inst = trax_places_inst(explain->places, trax_places_index(explain->places, issue->pc));
   struct trax_accessed accessed = {.address = issue->address, .outcome = issue->outcome};
+  const unsigned flags = trax_op_table[inst->op].flags;
   uint64_t *cycles = explain->open_threads[issue->tm * explain->machine->config.chip.tps_per_tm + issue->tp].cycles;
   cycles[TRAX_CAUSE_ISSUED]++;
   explain->by_issue = true;
@@ -164,6 +171,8 @@ static void add_issue(void *context, const struct trax_issue *issue) {
                                               .accessed = &accessed,
                                               .accessed_count = trax_op_table[inst->op].access_bytes &&
                                                                 issue->address < TRAX_LOCAL_BASE,
+                                              .stores = flags & TRAX_IS_STORE,
+                                              .misses = issue->outcome != TRAX_OUTCOME_HIT,
                                               .cycles = inst->op == TRAX_OP_TRAP ? cycles : NULL,
                                               .next_pc = issue->next_pc,
                                               .result = issue->result});
@@ -246,10 +255,12 @@ static trax_status create(struct trax_explain *explain, trax_error *error) {
   for (size_t i = 0; i < threads; i++)
     explain->open_spans[i].pc = explain->open_spans[i].previous_pc = explain->open_threads[i].end_pc =
         trax_machine_entry_of(explain->machine, (uint32_t)i);
+  if (trax_objects_list(&explain->objects, explain, error) != TRAX_OK)
+    return TRAX_ERROR;
   for (unsigned i = 0; i < TRAX_READER_KINDS; i++)
     if (is_wanted(&explain->options, reader_kinds[i]) && open_reader(explain, reader_kinds[i], error) != TRAX_OK)
       return TRAX_ERROR;
-  return TRAX_OK;
+  return trax_passages_start(explain->passages, 1) ? TRAX_OK : trax_fail(error, "out of memory for the explanation");
 }
 
 static trax_status check_window(const struct trax_explain *explain, trax_error *error) {
@@ -293,7 +304,7 @@ trax_status trax_explain_begin(struct trax_explain **result, trax_machine *machi
   }
   for (unsigned i = 0; i < explain->reader_count; i++) {
     explain->has_spans |= explain->readers[i]->kind->span != NULL;
-    explain->has_passages |= explain->readers[i]->kind->passage != NULL;
+    explain->has_passages |= explain->readers[i]->kind->passage || explain->readers[i]->kind->counts;
   }
   explain->observer.context = explain;
   explain->observer.begin = begin_run;
@@ -344,6 +355,7 @@ trax_status trax_explain_end(struct trax_explain *explain, trax_error *error) {
       notify_span(explain, thread / tps, thread % tps, NULL);
     end_passages(explain, thread);
   }
+  trax_passages_end(explain->passages);
   explain->out_of_memory |= explain->observer.lost;
   for (unsigned i = 0; i < explain->reader_count && !explain->out_of_memory; i++) {
     struct trax_reader *reader = explain->readers[i];
@@ -393,6 +405,7 @@ void trax_explain_discard(struct trax_explain *explain) {
   free(explain->open_threads);
   free(explain->observer.logs);
   free(explain->arrivals);
+  trax_objects_release(&explain->objects);
   trax_places_destroy(explain->places);
   free(explain);
 }

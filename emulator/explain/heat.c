@@ -23,15 +23,11 @@ struct heat_counts {
 
 struct heat {
   struct trax_reader reader;
-  struct trax_objects objects;
+  const struct trax_objects *objects;
   struct heat_counts *counts;       /* of each object */
   struct heat_counts *parts;        /* of each part */
   struct heat_counts *pages[PAGES]; /* each [LINES_PER_PAGE], or NULL */
   struct heat_counts *regions;      /* of each region */
-  const struct trax_region **latest; /* [places]: of the instruction's latest access to global memory */
-  uint32_t (*outcomes)[16];    /* [places]: accesses to this region that are not in `regions` yet, by their outcome */
-  uint64_t *executed, *global; /* [places]: executions of the instruction, as differences; those that accessed global
-                                  memory */
 };
 
 static struct heat_counts *line_at(struct heat *heat, uint32_t address) {
@@ -60,69 +56,46 @@ static void count(struct heat_counts *counts, const trax_op_info *op, unsigned o
   }
 }
 
-/* Adds the accesses of an instruction to its latest region. */
-static __attribute__((noinline)) void flush(struct heat *heat, uint32_t index) {
-  uint32_t *const outcomes = heat->outcomes[index];
-  const trax_op_info *op = &trax_op_table[trax_places_inst(heat->reader.explain->places, index)->op];
-  for (unsigned outcome = 0; outcome < 16; outcome++)
-    if (outcomes[outcome]) {
-      count(&heat->regions[heat->latest[index] - heat->objects.regions], op, outcome, outcomes[outcome]);
-      heat->global[index] += outcomes[outcome];
-      outcomes[outcome] = 0;
+/* Executions without an access to global memory accessed local memory. */
+static void add_counts(void *self, const struct trax_counts *counts) {
+  struct heat *heat = self;
+  const trax_op_info *op = &trax_op_table[trax_places_inst(heat->reader.explain->places, counts->index)->op];
+  struct heat_counts *local = &heat->counts[trax_objects_at(heat->objects, TRAX_LOCAL_BASE)];
+  if (!op->access_bytes)
+    return;
+  count(local, op, 0, counts->executed);
+  for (unsigned outcome = 0; counts->region && outcome < TRAX_OUTCOMES; outcome++)
+    if (counts->outcomes[outcome]) {
+      count(&heat->regions[counts->region - heat->objects->regions], op, outcome, counts->outcomes[outcome]);
+      count(local, op, 0, -counts->outcomes[outcome]);
     }
 }
 
 static void add_passage(void *self, const struct trax_passage *passage) {
   struct heat *heat = self;
-  const bool lines = heat->reader.explain->options.heat_lines;
-  for (size_t i = 0; i < passage->pieces; i++)
-    trax_count_executed(heat->executed, &passage->piece[i]);
-  for (size_t i = 0; i < passage->accessed_count; i++) {
+  for (size_t i = 0; heat->reader.explain->options.heat_lines && i < passage->accessed_count; i++) {
     const struct trax_accessed *accessed = &passage->accessed[i];
-    const uint32_t index = accessed->index;
-    const struct trax_region *region = heat->latest[index];
-    uint32_t *times = &heat->outcomes[index][accessed->outcome & 15];
-    if (!region || accessed->address - region->begin > region->last - region->begin || *times == UINT32_MAX) {
-      flush(heat, index);
-      heat->latest[index] = trax_objects_region(&heat->objects, accessed->address);
-    }
-    ++*times;
-  }
-  for (size_t i = 0; lines && i < passage->accessed_count; i++) {
-    const struct trax_accessed *accessed = &passage->accessed[i];
+    const uint32_t index = trax_passage_index(passage, accessed->at);
     struct heat_counts *line = line_at(heat, accessed->address);
     if (line)
-      count(line, &trax_op_table[trax_places_inst(heat->reader.explain->places, accessed->index)->op],
-            accessed->outcome, 1);
+      count(line, &trax_op_table[trax_places_inst(heat->reader.explain->places, index)->op], accessed->outcome, 1);
   }
 }
 
 static void add_regions(struct heat *heat) {
   const struct trax_explain_options *options = &heat->reader.explain->options;
-  for (size_t i = 0; i < heat->objects.region_count; i++) {
-    const uint32_t begin = heat->objects.regions[i].begin;
+  for (size_t i = 0; i < heat->objects->region_count; i++) {
+    const uint32_t begin = heat->objects->regions[i].begin;
     for (size_t k = 0; k < options->part_count; k++)
       if (begin - options->parts[k].address < options->parts[k].bytes)
         trax_counters_add(&heat->parts[k], &heat->regions[i], sizeof *heat->parts, 1);
-    trax_counters_add(&heat->counts[trax_objects_at(&heat->objects, begin)], &heat->regions[i], sizeof *heat->counts,
-                      1);
+    trax_counters_add(&heat->counts[trax_objects_at(heat->objects, begin)], &heat->regions[i], sizeof *heat->counts, 1);
   }
 }
 
-/* Accesses that were not to global memory were to local memory. */
 static trax_status end_heat(void *self, trax_error *error) {
-  struct heat *heat = self;
-  struct trax_places *places = heat->reader.explain->places;
-  struct heat_counts *local = &heat->counts[trax_objects_at(&heat->objects, TRAX_LOCAL_BASE)];
   (void)error;
-  for (uint32_t i = 0; i < trax_places_count(places) + 2; i++)
-    if (heat->latest[i])
-      flush(heat, i);
-  add_regions(heat);
-  trax_sum_executed(heat->executed, trax_places_count(places));
-  for (uint32_t i = 0; i < trax_places_count(places); i++)
-    if (trax_op_table[trax_places_inst(places, i)->op].access_bytes)
-      count(local, &trax_op_table[trax_places_inst(places, i)->op], 0, heat->executed[i] - heat->global[i]);
+  add_regions(self);
   return TRAX_OK;
 }
 
@@ -152,8 +125,8 @@ static trax_status put_objects(void *self, FILE *out, trax_error *error) {
   const struct heat *heat = self;
   (void)error;
   put_head(out);
-  for (size_t i = 0; i < heat->objects.count; i++) {
-    const struct trax_object *object = &heat->objects.objects[i];
+  for (size_t i = 0; i < heat->objects->count; i++) {
+    const struct trax_object *object = &heat->objects->objects[i];
     put_row(out, object->name, object->begin, object->end - object->begin, &heat->counts[i]);
   }
   return TRAX_OK;
@@ -180,7 +153,7 @@ static trax_status put_lines(void *self, FILE *out, trax_error *error) {
         continue;
       const uint32_t address = page << PAGE_SHIFT | i << LINE_SHIFT;
       /* The object of the line's first byte. That of all other addresses begins at 0. */
-      const struct trax_object *object = &heat->objects.objects[trax_objects_at(&heat->objects, address)];
+      const struct trax_object *object = &heat->objects->objects[trax_objects_at(heat->objects, address)];
       fprintf(out, "0x%08x,", address);
       trax_objects_put_name(out, object->name);
       fprintf(out, ",%" PRIu64 ",", address - object->begin);
@@ -192,34 +165,20 @@ static trax_status put_lines(void *self, FILE *out, trax_error *error) {
 
 static trax_status open_heat(void *self, trax_error *error) {
   struct heat *heat = self;
-  if (trax_objects_list(&heat->objects, heat->reader.explain, error) != TRAX_OK)
-    return TRAX_ERROR;
-  heat->counts = trax_explain_array(heat->objects.count, sizeof *heat->counts, error);
+  heat->objects = &heat->reader.explain->objects;
+  heat->counts = trax_explain_array(heat->objects->count, sizeof *heat->counts, error);
   heat->parts = trax_explain_array(heat->reader.explain->options.part_count, sizeof *heat->parts, error);
-  const size_t places = (size_t)trax_places_count(heat->reader.explain->places) + 3;
-  heat->regions = trax_explain_array(heat->objects.region_count, sizeof *heat->regions, error);
-  heat->latest = trax_explain_array(places, sizeof *heat->latest, error);
-  heat->outcomes = trax_explain_array(places, sizeof *heat->outcomes, error);
-  heat->executed = trax_explain_array(places, sizeof *heat->executed, error);
-  heat->global = trax_explain_array(places, sizeof *heat->global, error);
-  return heat->counts && heat->parts && heat->regions && heat->latest && heat->outcomes && heat->executed &&
-                 heat->global
-             ? TRAX_OK
-             : TRAX_ERROR;
+  heat->regions = trax_explain_array(heat->objects->region_count, sizeof *heat->regions, error);
+  return heat->counts && heat->parts && heat->regions ? TRAX_OK : TRAX_ERROR;
 }
 
 static void close_heat(void *self) {
   struct heat *heat = self;
   for (uint32_t page = 0; page < PAGES; page++)
     free(heat->pages[page]);
-  trax_objects_release(&heat->objects);
   free(heat->counts);
   free(heat->parts);
   free(heat->regions);
-  free(heat->latest);
-  free(heat->outcomes);
-  free(heat->executed);
-  free(heat->global);
 }
 
 const struct trax_reader_kind trax_heat_reader = {
@@ -230,5 +189,6 @@ const struct trax_reader_kind trax_heat_reader = {
     .in_page = true,
     .open = open_heat,
     .passage = add_passage,
+    .counts = add_counts,
     .end = end_heat,
     .close = close_heat};

@@ -115,10 +115,11 @@ static void add_rays(struct item_thread *thread, const struct trax_passage *pass
 
 /* The place of a later store to the buffer counts. */
 static void find_place(const struct items *items, struct item_thread *thread, const struct trax_passage *passage) {
-  for (size_t i = 0; i < passage->accessed_count; i++) {
-    const uint32_t offset = passage->accessed[i].address - items->buffer_begin;
-    const trax_inst *inst = trax_places_inst(items->reader.explain->places, passage->accessed[i].index);
-    if (offset < items->buffer_bytes && trax_op_table[inst->op].flags & TRAX_IS_STORE)
+  const struct trax_places *places = items->reader.explain->places;
+  for (size_t i = 0; passage->stores && i < passage->accessed_count; i++) {
+    const uint32_t offset = passage->accessed[i].address - items->buffer_begin,
+                   index = trax_passage_index(passage, passage->accessed[i].at);
+    if (offset < items->buffer_bytes && trax_op_table[trax_places_inst(places, index)->op].flags & TRAX_IS_STORE)
       thread->place = offset / items->reader.explain->options.item_bytes;
   }
 }

@@ -1,4 +1,4 @@
-#include "explain/objects.h"
+#include "explain/span.h"
 #include "trax/grow.h"
 
 #include <stdlib.h>

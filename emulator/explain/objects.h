@@ -3,7 +3,7 @@
 #ifndef TRAX_EXPLAIN_OBJECTS_H
 #define TRAX_EXPLAIN_OBJECTS_H
 
-#include "explain/span.h"
+#include "trax/explain.h"
 
 struct trax_object {
   const char *name;
@@ -15,6 +15,8 @@ struct trax_region {
   uint32_t begin, last;
   size_t number; /* of the first part; without one, of the object */
 };
+
+struct trax_explain;
 
 struct trax_objects {
   struct trax_object *objects; /* by address, not overlapping; the last is for all other addresses */

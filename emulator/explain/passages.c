@@ -1,6 +1,8 @@
 #include "explain/passages.h"
 #include "explain/places.h"
+#include "explain/reading.h"
 #include "explain/stories.h"
+#include "machine/ray_cycles.h"
 #include "trax/grow.h"
 #include "trax/pool.h"
 
@@ -13,13 +15,13 @@ struct stored {
   uint32_t thread, next_pc, result;
   uint16_t count, pieces, accessed;
   bool is_refused, has_cycles; /* it has refusals, cycles */
+  bool stores, misses;
   uint32_t charged;
 };
 
 enum {
-  PADDING = 32, /* bytes behind the refusals, which readers load by vectors */
-  MUCH = 4096,  /* new in the logs, after which few are read at once */
-  BATCH = 64    /* passages that one reader reads after the other, if there is one thread: they stay in its caches */
+  PADDING = 8, /* bytes behind the refusals, which readers load by vectors */
+  MUCH = 4096, /* new in the logs, after which few are read at once */
 };
 
 /* What a TM has added. */
@@ -33,8 +35,10 @@ struct log {
   struct passage {
     struct trax_passage passage;
     uint64_t cycle;
-  } * passages; /* [stretches], when they are read */
+  } * passages; /* [stretches], when they are read: `placed` of them exist, and `ordered` are in the chip's order */
   size_t passages_capacity;
+  size_t placed_bytes;
+  uint32_t placed, ordered;
 };
 
 struct trax_passages {
@@ -42,19 +46,21 @@ struct trax_passages {
   uint32_t tms;
   struct log *sets[TRAX_PASSAGES_ROUNDS]; /* each [tms]; without stories the first one alone is used */
   struct log *logs;                       /* the present one of these */
-  struct trax_passage **order; /* of all logs */
+  struct trax_passage **order;            /* of all logs */
   size_t count, order_capacity;
   uint32_t most; /* instructions in the logs */
   bool holds;
   struct trax_charged *charged;            /* of the observer's logs, when the passages were held, */
   size_t charged_capacity, *charged_count; /* [threads] */
-  struct trax_pool *placers, *readers; /* items: TMs, readers; NULL: there is one thread */
+  uint64_t cycle;                          /* of the latest passage that was ordered */
+  struct trax_reading *reading;
+  struct trax_pool *placers; /* its items are TMs; NULL: there is one thread */
 };
 
 /* --- adding --- */
 
 static size_t refused_bytes(bool is_refused, uint32_t count) {
-  return is_refused ? (2 * (size_t)count + 7) / 8 * 8 : 0;
+  return is_refused ? ((size_t)count + 7) / 8 * 8 : 0;
 }
 
 static size_t cycles_bytes(bool has_cycles) {
@@ -110,6 +116,8 @@ void trax_passages_add(struct trax_passages *passages, const struct trax_stretch
                                 .charged = (uint32_t)charged,
                                 .accessed = (uint16_t)stretch->accessed_count,
                                 .is_refused = stretch->refused != NULL,
+                                .stores = stretch->stores,
+                                .misses = stretch->misses,
                                 .has_cycles = stretch->cycles != NULL};
   const size_t refused = refused_bytes(stored.is_refused, stretch->count), cycles = cycles_bytes(stored.has_cycles);
   const size_t arrays = stretch->pieces * sizeof *stretch->piece + charged * sizeof *thread->charged +
@@ -121,7 +129,7 @@ void trax_passages_add(struct trax_passages *passages, const struct trax_stretch
     append(log, thread->charged, charged * sizeof *thread->charged);
     append(log, stretch->accessed, stretch->accessed_count * sizeof *stretch->accessed);
     log->now.used += gap;
-    append(log, stretch->refused, 2 * (size_t)(refused ? stretch->count : 0));
+    append(log, stretch->refused, refused ? stretch->count : 0);
     log->now.used = (log->now.used + 7) / 8 * 8;
     append(log, stretch->cycles, cycles);
     log->now.stretches++;
@@ -141,27 +149,16 @@ void trax_passages_add(struct trax_passages *passages, const struct trax_stretch
 
 /* --- placing --- */
 
-/* Sets the indices of what belongs to a piece whose first instruction has the number `at`. Returns the charges;
- *accessed becomes the accesses. */
-static size_t place_piece(const struct trax_piece *piece, unsigned at, struct trax_passage *passage, size_t charged,
-                          size_t *accessed) {
-  const unsigned end = at + piece->count;
-  size_t i = *accessed;
-  for (; i < passage->accessed_count && passage->accessed[i].at < end; i++)
-    passage->accessed[i].index = piece->index + (passage->accessed[i].at - at);
-  *accessed = i;
-  for (i = charged; i < passage->charged_count && passage->charged[i].at < end; i++)
-    passage->charged[i].index = piece->index + (passage->charged[i].at - at);
-  return i;
-}
-
-static void place(struct trax_explain *explain, struct trax_passage *passage) {
+static void place(struct trax_explain *explain, struct trax_passage *passage, const struct trax_places_range **range) {
   struct trax_open_thread *open = &explain->open_threads[passage->thread];
-  size_t charged = 0, accessed = 0;
+  struct trax_charged *charged = passage->charged, *const charged_end = charged + passage->charged_count;
   unsigned at = 0;
-  for (size_t i = 0; i < passage->pieces; at += passage->piece[i++].count) {
-    passage->piece[i].index = trax_places_index(explain->places, passage->piece[i].pc);
-    charged = place_piece(&passage->piece[i], at, passage, charged, &accessed);
+  for (size_t i = 0; i < passage->pieces; i++) {
+    struct trax_piece *piece = &passage->piece[i];
+    piece->index = trax_places_index_again(explain->places, piece->pc, range);
+    for (; charged < charged_end && charged->at < at + piece->count; charged++)
+      charged->index = piece->index + (charged->at - at);
+    at += piece->count;
   }
   const struct trax_piece *last = &passage->piece[passage->pieces - 1];
   passage->last = last->index + last->count - 1;
@@ -169,81 +166,89 @@ static void place(struct trax_explain *explain, struct trax_passage *passage) {
   open->end_pc = passage->next_pc;
 }
 
-/* Makes the passages of a TM's log. */
-static void place_log(void *context, uint32_t tm) {
-  struct trax_passages *passages = context;
-  struct log *log = &passages->logs[tm];
-  size_t count = 0;
-  if (!trax_grow_to((void **)&log->passages, log->now.stretches, &log->passages_capacity, sizeof *log->passages)) {
-    __atomic_store_n(&passages->explain->observer.lost, true, __ATOMIC_RELAXED);
-    log->now.stretches = 0;
-    return;
+/* Makes the next passage of a TM's log. */
+static void place_next(const struct trax_passages *passages, struct log *log, const struct trax_places_range **range) {
+  uint8_t *at = log->bytes + log->placed_bytes;
+  const struct stored *stored = (const void *)at;
+  struct trax_piece *piece = (void *)(at + sizeof *stored);
+  struct trax_charged *charged = (void *)(piece + stored->pieces);
+  const struct trax_accessed *accessed = (const void *)(charged + stored->charged);
+  const uintptr_t arrays_end = (uintptr_t)(accessed + stored->accessed);
+  uint8_t *refused = (uint8_t *)(accessed + stored->accessed) + (-arrays_end & 7);
+  struct passage *placed = &log->passages[log->placed++];
+  struct trax_passage *passage = &placed->passage;
+  placed->cycle = stored->cycle;
+  *passage = (struct trax_passage){.thread = stored->thread,
+                                   .count = stored->count,
+                                   .piece = piece,
+                                   .pieces = stored->pieces,
+                                   .charged = charged,
+                                   .charged_count = stored->charged,
+                                   .accessed = accessed,
+                                   .accessed_count = stored->accessed,
+                                   .stores = stored->stores,
+                                   .misses = stored->misses,
+                                   .kind = TRAX_NO_RAY,
+                                   .refused = stored->is_refused ? (const void *)refused : NULL,
+                                   .next_pc = stored->next_pc,
+                                   .result = stored->result};
+  place(passages->explain, passage, range);
+  at = refused + refused_bytes(stored->is_refused, stored->count);
+  if (stored->has_cycles) {
+    uint64_t *cycles = (void *)at;
+    trax_counters_add(cycles, passages->explain->open_threads[passage->thread].begin_cycles, cycles_bytes(true), -1);
+    passage->cycles = cycles;
   }
-  for (uint8_t *at = log->bytes, *const end = at + log->now.used; at < end;) {
-    const struct stored *stored = (const void *)at;
-    struct trax_piece *piece = (void *)(at + sizeof *stored);
-    struct trax_charged *charged = (void *)(piece + stored->pieces);
-    struct trax_accessed *accessed = (void *)(charged + stored->charged);
-    const uintptr_t arrays_end = (uintptr_t)(accessed + stored->accessed);
-    uint8_t *refused = (uint8_t *)(accessed + stored->accessed) + (-arrays_end & 7);
-    struct trax_passage *passage = &log->passages[count].passage;
-    log->passages[count++].cycle = stored->cycle;
-    *passage = (struct trax_passage){.thread = stored->thread,
-                                     .count = stored->count,
-                                     .piece = piece,
-                                     .pieces = stored->pieces,
-                                     .charged = charged,
-                                     .charged_count = stored->charged,
-                                     .accessed = accessed,
-                                     .accessed_count = stored->accessed,
-                                     .refused = stored->is_refused ? (const void *)refused : NULL,
-                                     .next_pc = stored->next_pc,
-                                     .result = stored->result};
-    place(passages->explain, passage);
-    at = refused + refused_bytes(stored->is_refused, stored->count);
-    if (stored->has_cycles) {
-      uint64_t *cycles = (void *)at;
-      trax_counters_add(cycles, passages->explain->open_threads[passage->thread].begin_cycles, cycles_bytes(true), -1);
-      passage->cycles = cycles;
-    }
-    at += cycles_bytes(stored->has_cycles);
-  }
+  log->placed_bytes = (size_t)(at + cycles_bytes(stored->has_cycles) - log->bytes);
 }
 
-/* Orders the passages by their cycles and TMs. False: out of memory. */
-static bool order(struct trax_passages *passages) {
-  size_t next[TRAX_MAX_TMS] = {0}, count = 0;
-  for (uint32_t tm = 0; tm < passages->tms; tm++)
-    count += passages->logs[tm].now.stretches;
-  if (!trax_grow_to((void **)&passages->order, count, &passages->order_capacity, sizeof *passages->order))
-    return false;
-  for (passages->count = 0; passages->count < count; passages->count++) {
-    uint32_t first = 0;
+/* Makes the passages of a TM's log. */
+static void place_log(void *context, uint32_t tm) {
+  const struct trax_passages *passages = context;
+  const struct trax_places_range *range = NULL;
+  while (passages->logs[tm].placed < passages->logs[tm].now.stretches)
+    place_next(passages, &passages->logs[tm], &range);
+}
+
+/* Makes place for all passages. Returns their number; 0: out of memory. */
+static size_t prepare(struct trax_passages *passages) {
+  size_t count = 0;
+  for (uint32_t tm = 0; tm < passages->tms; tm++) {
+    struct log *log = &passages->logs[tm];
+    if (!trax_grow_to((void **)&log->passages, log->now.stretches, &log->passages_capacity, sizeof *log->passages))
+      return 0;
+    log->placed = log->ordered = 0;
+    log->placed_bytes = 0;
+    count += log->now.stretches;
+  }
+  passages->count = 0;
+  return trax_grow_to((void **)&passages->order, count, &passages->order_capacity, sizeof *passages->order) ? count : 0;
+}
+
+/* Orders the passages up to number `end` by their cycles and TMs. Those that do not exist are made just before they are
+   read, so that they are in the host's caches. */
+static void order(struct trax_passages *passages, size_t end) {
+  const struct trax_places_range *range = NULL;
+  while (passages->count < end) {
+    struct log *first = NULL;
     uint64_t cycle = UINT64_MAX;
     for (uint32_t tm = 0; tm < passages->tms; tm++) {
-      const struct log *log = &passages->logs[tm];
-      if (next[tm] < log->now.stretches && log->passages[next[tm]].cycle < cycle) {
-        first = tm;
-        cycle = log->passages[next[tm]].cycle;
+      struct log *log = &passages->logs[tm];
+      if (log->ordered == log->now.stretches)
+        continue;
+      if (log->ordered == log->placed)
+        place_next(passages, log, &range);
+      if (log->passages[log->ordered].cycle < cycle) {
+        first = log;
+        cycle = log->passages[log->ordered].cycle;
       }
     }
-    passages->order[passages->count] = &passages->logs[first].passages[next[first]++].passage;
+    passages->cycle = cycle;
+    passages->order[passages->count++] = &first->passages[first->ordered++].passage;
   }
-  return true;
 }
 
 /* --- reading --- */
-
-static void read_part(const struct trax_passages *passages, uint32_t reader, size_t begin, size_t end) {
-  struct trax_reader *it = passages->explain->readers[reader];
-  for (size_t i = begin; it->kind->passage && i < end && i < passages->count; i++)
-    it->kind->passage(it, passages->order[i]);
-}
-
-static void read_all(void *context, uint32_t reader) {
-  const struct trax_passages *passages = context;
-  read_part(passages, reader, 0, passages->count);
-}
 
 static void empty_logs(struct trax_passages *passages) {
   for (uint32_t tm = 0; tm < passages->tms; tm++) {
@@ -257,19 +262,17 @@ static void read_logs(struct trax_passages *passages) {
     instructions += passages->logs[tm].now.instructions;
   if (!instructions)
     return;
-  if (passages->placers)
-    trax_pool_run(passages->placers);
-  for (uint32_t tm = 0; !passages->placers && tm < passages->tms; tm++)
-    place_log(passages, tm);
   passages->explain->found = 0;
-  if (!order(passages))
+  const size_t count = prepare(passages), batch = trax_reading_batch(passages->reading);
+  if (!count)
     passages->explain->observer.lost = true;
-  else if (passages->readers)
-    trax_pool_run(passages->readers);
-  else
-    for (size_t begin = 0; begin < passages->count; begin += BATCH)
-      for (unsigned i = 0; i < passages->explain->reader_count; i++)
-        read_part(passages, i, begin, begin + BATCH);
+  if (count && passages->placers)
+    trax_pool_run(passages->placers);
+  for (size_t begin = 0; begin < count; begin = passages->count) {
+    order(passages, count - begin < batch ? count : begin + batch);
+    trax_reading_read(passages->reading, passages->order + begin, passages->count - begin);
+  }
+  trax_reading_drain(passages->reading, passages->cycle);
   passages->most = passages->explain->found < MUCH ? TRAX_PASSAGES_MANY : TRAX_PASSAGES_FEW;
   if (passages->explain->stories) {
     passages->logs = passages->sets[++passages->explain->round % TRAX_PASSAGES_ROUNDS];
@@ -349,30 +352,30 @@ struct trax_passages *trax_passages_create(struct trax_explain *explain) {
   }
   passages->logs = passages->sets[0];
   passages->charged_count = calloc(explain->machine->stats.threads, sizeof *passages->charged_count);
-  if (complete && passages->charged_count)
+  passages->reading = trax_reading_create(explain);
+  if (complete && passages->charged_count && passages->reading)
     return passages;
   trax_passages_destroy(passages);
   return NULL;
 }
 
-void trax_passages_start(struct trax_passages *passages, unsigned threads) {
-  trax_error error; /* without pools, one thread reads */
-  unsigned readers = 0;
-  for (unsigned i = 0; i < passages->explain->reader_count; i++)
-    readers += passages->explain->readers[i]->kind->passage != NULL;
-  if (passages->readers || threads < 2 || readers < 2)
-    return;
-  passages->placers =
-      trax_pool_create(threads < passages->tms ? threads : passages->tms, passages->tms, place_log, passages, &error);
-  passages->readers = trax_pool_create(threads < readers ? threads : readers, passages->explain->reader_count, read_all,
-                                       passages, &error);
+bool trax_passages_start(struct trax_passages *passages, unsigned threads) {
+  trax_error error; /* without a pool, the passages are made one by one */
+  if (threads > 1 && !passages->placers)
+    passages->placers =
+        trax_pool_create(threads < passages->tms ? threads : passages->tms, passages->tms, place_log, passages, &error);
+  return trax_reading_start(passages->reading, threads);
+}
+
+void trax_passages_end(struct trax_passages *passages) {
+  trax_reading_flush(passages->reading);
 }
 
 void trax_passages_destroy(struct trax_passages *passages) {
   if (!passages)
     return;
   trax_pool_destroy(passages->placers);
-  trax_pool_destroy(passages->readers);
+  trax_reading_destroy(passages->reading);
   for (unsigned i = 0; i < TRAX_PASSAGES_ROUNDS; i++) {
     for (uint32_t tm = 0; passages->sets[i] && tm < passages->tms; tm++) {
       free(passages->sets[i][tm].bytes);

@@ -1,7 +1,7 @@
 /* The way of passages from the engine to their readers. The engine's stretches are copied to a log of each TM, to which
    a thread of the host may add while others add to those of other TMs. When the logs are full, or the engine no longer
-   goes back behind what is in them (trax_observer.keep), they are read in the order of their cycles and TMs: each
-   reader reads all passages, and several threads of the host run several readers at the same time. */
+   goes back behind what is in them (trax_observer.keep), they are read in the order of their cycles and TMs
+   (explain/reading.h). */
 #ifndef TRAX_EXPLAIN_PASSAGES_H
 #define TRAX_EXPLAIN_PASSAGES_H
 
@@ -16,14 +16,16 @@ enum { TRAX_PASSAGES_ROUNDS = 8 };
 
 /* NULL: out of memory. */
 struct trax_passages *trax_passages_create(struct trax_explain *explain);
-/* Reads with so many threads of the host from now on. */
-void trax_passages_start(struct trax_passages *passages, unsigned threads);
+/* Reads with so many threads of the host from now on. The readers are open. False: out of memory. */
+bool trax_passages_start(struct trax_passages *passages, unsigned threads);
 void trax_passages_add(struct trax_passages *passages, const struct trax_stretch *stretch, struct trax_thread_log *log);
 /* What has been added stays; it may be read at once. holds: what will be added from now on is not read before the next
    call, and goes away with trax_passages_go_back. */
 void trax_passages_keep(struct trax_passages *passages, bool holds);
 /* Reads all that has been added; it is not held. */
 void trax_passages_finish(struct trax_passages *passages);
+/* Gives the counts of all that has been read to the readers. */
+void trax_passages_end(struct trax_passages *passages);
 void trax_passages_go_back(struct trax_passages *passages);
 void trax_passages_destroy(struct trax_passages *passages); /* which may be NULL */
 

@@ -10,14 +10,9 @@
 
 enum { MAX_FRAMES = 64 };
 
-struct range {
-  uint32_t address, count; /* instructions */
-  uint32_t first;          /* the index of its first instruction */
-};
-
 struct trax_places {
   const trax_machine *machine;
-  struct range *ranges;
+  struct trax_places_range *ranges;
   size_t range_count;
   uint32_t count;
   struct trax_place *place; /* [count + 2]; `frames` is NULL until the first look-up */
@@ -52,7 +47,8 @@ struct trax_places *trax_places_create(const trax_machine *machine) {
     const struct trax_segment *segment = &machine->space.segments[i];
     if (!(segment->permissions & TRAX_PERMIT_EXECUTE))
       continue;
-    places->ranges[places->range_count++] = (struct range){segment->address, segment->bytes / 4, places->count};
+    places->ranges[places->range_count++] =
+        (struct trax_places_range){segment->address, segment->bytes / 4, places->count};
     places->count += segment->bytes / 4;
   }
   places->place = calloc((size_t)places->count + 2, sizeof *places->place);
@@ -91,11 +87,16 @@ uint32_t trax_places_count(const struct trax_places *places) {
   return places->count;
 }
 
-uint32_t trax_places_index(const struct trax_places *places, uint32_t pc) {
+const struct trax_places_range *trax_places_range(const struct trax_places *places, uint32_t pc) {
   for (size_t i = 0; i < places->range_count; i++)
     if ((pc - places->ranges[i].address) / 4 < places->ranges[i].count)
-      return places->ranges[i].first + (pc - places->ranges[i].address) / 4;
-  return places->count + 1;
+      return &places->ranges[i];
+  return NULL;
+}
+
+uint32_t trax_places_index(const struct trax_places *places, uint32_t pc) {
+  const struct trax_places_range *range = NULL;
+  return trax_places_index_again(places, pc, &range);
 }
 
 uint32_t trax_places_pc(const struct trax_places *places, uint32_t index) {

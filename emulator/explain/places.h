@@ -27,6 +27,20 @@ void trax_places_destroy(struct trax_places *places);
 uint32_t trax_places_count(const struct trax_places *places); /* without these two */
 uint32_t trax_places_index(const struct trax_places *places, uint32_t pc);
 uint32_t trax_places_pc(const struct trax_places *places, uint32_t index);
+/* Neighbouring instructions. */
+struct trax_places_range {
+  uint32_t address, count;
+  uint32_t first; /* the index of the first one */
+};
+/* The range that contains a pc; NULL: none. */
+const struct trax_places_range *trax_places_range(const struct trax_places *places, uint32_t pc);
+/* The index of a pc, if it is probably in the range in which the latest one was. */
+static inline uint32_t trax_places_index_again(const struct trax_places *places, uint32_t pc,
+                                               const struct trax_places_range **latest) {
+  if (!*latest || (pc - (*latest)->address) / 4 >= (*latest)->count)
+    *latest = trax_places_range(places, pc);
+  return *latest ? (*latest)->first + (pc - (*latest)->address) / 4 : trax_places_count(places) + 1;
+}
 const trax_inst *trax_places_inst(const struct trax_places *places, uint32_t index);
 /* [count + 2]: how the instruction accesses memory. */
 enum trax_access_class { TRAX_ACCESS_NONE, TRAX_ACCESS_LOAD, TRAX_ACCESS_STORE, TRAX_ACCESS_PAST_CACHE };

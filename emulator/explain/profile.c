@@ -15,10 +15,9 @@ enum {
   MAX_DEPTH = 512,
   /* No new stack is kept beyond this number of records, or of calls in all stacks. */
   MAX_RECORDS = 1 << 18,
-  MAX_CALLS = 1 << 22,
-  MOST_SUMMED = UINT16_MAX /* passages after which no sum of bytes can exceed 32 bits */
+  MAX_CALLS = 1 << 22
 };
-_Static_assert((uint64_t)MOST_SUMMED *TRAX_MOST_STRETCH *UINT8_MAX <= UINT32_MAX, "");
+_Static_assert(TRAX_MOST_STRETCH <= UINT8_MAX, "a byte holds the length of a piece");
 
 struct call {
   uint32_t return_pc, stack_pointer, context; /* context: of the callee */
@@ -42,8 +41,8 @@ static __attribute__((noinline)) uint32_t find_record(struct trax_profile *profi
   if (!entry ||
       !trax_grow((void **)&profile->records, profile->record_count, &profile->record_capacity,
                  sizeof *profile->records) ||
-      !trax_grow((void **)&profile->pieces, profile->record_count, &profile->pieces_capacity,
-                 sizeof *profile->pieces)) {
+      !trax_grow((void **)&profile->longest, profile->record_count, &profile->longest_capacity,
+                 sizeof *profile->longest)) {
     profile->reader.explain->out_of_memory = true;
     return UINT32_MAX;
   }
@@ -52,7 +51,7 @@ static __attribute__((noinline)) uint32_t find_record(struct trax_profile *profi
     if (record == MAX_RECORDS / 2)
       profile->reader.explain->observer.single = true;
     profile->reader.explain->found++;
-    profile->pieces[record] = (struct trax_profile_pieces){0};
+    profile->longest[record] = 0;
     profile->records[profile->record_count++] = (struct trax_profile_record){.context = context, .index = index};
   }
   profile->latest_of[index] = (struct trax_profile_latest){context, record + 1};
@@ -157,18 +156,14 @@ static void follow(struct trax_profile *profile, struct trax_profile_thread *thr
 
 /* --- the reader --- */
 
+/* Makes records for the instructions of a piece. */
 static void add_piece(struct trax_profile *profile, uint32_t context, const struct trax_piece *piece) {
   const uint32_t first = record_at(profile, context, piece->index);
-  if (first == UINT32_MAX)
+  if (first == UINT32_MAX || profile->longest[first] >= piece->count)
     return;
-  for (uint32_t i = profile->pieces[first].longest; i < piece->count; i++)
+  for (uint32_t i = profile->longest[first]; i < piece->count; i++)
     record_at(profile, context, piece->index + i);
-  if (profile->pieces[first].longest < piece->count)
-    profile->pieces[first].longest = piece->count;
-  const uint32_t last = record_at(profile, context, piece->index + piece->count - 1);
-  profile->pieces[first].begun++;
-  if (last != UINT32_MAX)
-    profile->pieces[last].ended++;
+  profile->longest[first] = (uint8_t)piece->count;
 }
 
 static void add_charges(struct trax_profile *profile, const struct trax_profile_thread *thread, uint32_t context,
@@ -190,141 +185,31 @@ static void add_charges(struct trax_profile *profile, const struct trax_profile_
   }
 }
 
-/* --- sums --- */
-
-/* Returns the sums of a context; NULL: it has none. */
-static const struct trax_profile_sums *sums_of(struct trax_profile *profile, uint32_t context) {
-  struct trax_profile_sums *sums = context < TRAX_PROFILE_SUMS ? &profile->sums[context] : NULL;
-  if (sums && !sums->fetch) {
-    const size_t places = (size_t)trax_places_count(profile->reader.explain->places) + 2 + 8;
-    if (!(sums->fetch = calloc(4 * places, sizeof *sums->fetch)))
-      return NULL;
-    sums->others = sums->fetch + places;
-    sums->loads = sums->others + places;
-    sums->missed = sums->loads + places;
-  }
-  return sums;
-}
-
-static void take_sums(struct trax_profile *profile) {
-  const struct trax_places *places = profile->reader.explain->places;
-  const uint8_t *const refusals = trax_places_refusals(places);
-  for (uint32_t context = 0; context < TRAX_PROFILE_SUMS; context++) {
-    const struct trax_profile_sums *sums = &profile->sums[context];
-    for (uint32_t i = 0; sums->fetch && i < trax_places_count(places); i++) {
-      if (!(sums->fetch[i] | sums->others[i] | sums->loads[i]))
-        continue;
-      struct trax_profile_counts *counts = counts_of(profile, context, i);
-      counts->cycles[TRAX_CAUSE_ICACHE_BANK] += sums->fetch[i];
-      counts->cycles[refusals[i]] += sums->others[i];
-      counts->loads += sums->loads[i];
-      counts->hits += sums->loads[i] - sums->missed[i];
-      sums->fetch[i] = sums->others[i] = sums->loads[i] = sums->missed[i] = 0;
-    }
-  }
-  profile->summed = 0;
-}
-
-typedef uint16_t halves __attribute__((vector_size(16), aligned(2), may_alias));
-typedef uint32_t words __attribute__((vector_size(32), aligned(4), may_alias));
-
-/* Adds the refusals of `count` neighbouring instructions to sums. */
-static void add_to_sums(uint32_t *fetch, uint32_t *others, const uint16_t *refused, uint32_t count) {
-  const halves number = {0, 1, 2, 3, 4, 5, 6, 7};
-  for (uint32_t i = 0; i < count; i += 8) {
-    halves some = *(const halves *)(refused + i);
-    if (count - i < 8)
-      some &= (halves)(number < (uint16_t)(count - i));
-    *(words *)(fetch + i) += __builtin_convertvector(some & 0xFF, words);
-    *(words *)(others + i) += __builtin_convertvector(some >> 8, words);
-  }
-}
-
-static void add_refused(struct trax_profile *profile, uint32_t context, const struct trax_passage *passage) {
-  const struct trax_profile_sums *sums = sums_of(profile, context);
-  const uint8_t *const refusals = trax_places_refusals(profile->reader.explain->places);
-  const uint16_t *refused = passage->refused;
-  for (size_t i = 0; i < passage->pieces; refused += passage->piece[i++].count) {
-    const struct trax_piece *piece = &passage->piece[i];
-    if (sums)
-      add_to_sums(sums->fetch + piece->index, sums->others + piece->index, refused, piece->count);
-    for (uint32_t k = 0; !sums && k < piece->count; k++)
-      if (refused[k]) {
-        struct trax_profile_counts *counts = counts_of(profile, context, piece->index + k);
-        counts->cycles[TRAX_CAUSE_ICACHE_BANK] += refused[k] & 0xFF;
-        counts->cycles[refusals[piece->index + k]] += refused[k] >> 8;
-      }
-  }
-}
-
-static void add_accesses(struct trax_profile *profile, uint32_t context, const struct trax_passage *passage) {
-  const uint8_t *const accesses = trax_places_accesses(profile->reader.explain->places);
-  const struct trax_profile_sums *sums = sums_of(profile, context);
-  for (size_t i = 0; i < passage->accessed_count; i++) {
-    const struct trax_accessed *accessed = &passage->accessed[i];
-    if (!accessed->outcome || accesses[accessed->index] != TRAX_ACCESS_LOAD)
-      continue;
-    if (sums) {
-      sums->loads[accessed->index]++;
-      if (!(accessed->outcome & TRAX_OUTCOME_HIT)) /* few */
-        sums->missed[accessed->index]++;
-      continue;
-    }
-    struct trax_profile_counts *counts = counts_of(profile, context, accessed->index);
-    counts->loads++;
-    counts->hits += accessed->outcome & TRAX_OUTCOME_HIT;
-  }
-}
-
-static void add_passage(void *self, const struct trax_passage *passage) {
+static void follow_passage(void *self, struct trax_passage *passage) {
   struct trax_profile *profile = self;
   struct trax_profile_thread *thread = &profile->threads[passage->thread];
-  const uint32_t context = thread->context;
+  passage->context = thread->context;
   for (size_t i = 0; i < passage->pieces; i++)
-    add_piece(profile, context, &passage->piece[i]);
-  add_charges(profile, thread, context, passage);
-  if (passage->refused)
-    add_refused(profile, context, passage);
-  add_accesses(profile, context, passage);
-  if (++profile->summed == MOST_SUMMED)
-    take_sums(profile);
+    add_piece(profile, passage->context, &passage->piece[i]);
+  add_charges(profile, thread, passage->context, passage);
   if (!passage->count)
     return;
   thread->latest = passage->last;
-  thread->latest_context = context;
+  thread->latest_context = passage->context;
   follow(profile, thread, passage);
 }
 
-struct order {
-  uint32_t context, index, record;
-};
-
-static int by_place(const void *a, const void *b) {
-  const struct order *x = a, *y = b;
-  if (x->context != y->context)
-    return x->context < y->context ? -1 : 1;
-  return x->index < y->index ? -1 : x->index > y->index;
-}
-
-/* Sets the executions of each record. */
-static trax_status add_issued(void *self, trax_error *error) {
+static void add_counts(void *self, const struct trax_counts *counts) {
   struct trax_profile *profile = self;
-  take_sums(profile);
-  struct order *order = trax_explain_array(profile->record_count, sizeof *order, error);
-  uint64_t executed = 0; /* by the pieces that have begun and not ended */
-  if (!order)
-    return TRAX_ERROR;
-  for (size_t i = 0; i < profile->record_count; i++)
-    order[i] = (struct order){profile->records[i].context, profile->records[i].index, (uint32_t)i};
-  qsort(order, profile->record_count, sizeof *order, by_place);
-  for (size_t i = 0; i < profile->record_count; i++) {
-    const struct trax_profile_pieces *pieces = &profile->pieces[order[i].record];
-    executed += pieces->begun;
-    profile->records[order[i].record].counts.cycles[TRAX_CAUSE_ISSUED] = executed;
-    executed -= pieces->ended;
+  const struct trax_places *places = profile->reader.explain->places;
+  struct trax_profile_counts *sum = counts_of(profile, counts->context, counts->index);
+  sum->cycles[TRAX_CAUSE_ISSUED] += counts->executed;
+  sum->cycles[TRAX_CAUSE_ICACHE_BANK] += counts->fetch;
+  sum->cycles[trax_places_refusals(places)[counts->index]] += counts->others;
+  for (unsigned i = 1; i < TRAX_OUTCOMES && trax_places_accesses(places)[counts->index] == TRAX_ACCESS_LOAD; i++) {
+    sum->loads += counts->outcomes[i];
+    sum->hits += i & TRAX_OUTCOME_HIT ? counts->outcomes[i] : 0;
   }
-  free(order);
-  return TRAX_OK;
 }
 
 static trax_status open_profile(void *self, trax_error *error) {
@@ -352,11 +237,9 @@ static void close_profile(void *self) {
   free(profile->threads);
   free(profile->contexts);
   free(profile->records);
-  free(profile->pieces);
+  free(profile->longest);
   free(profile->latest_of);
   free(profile->first_of);
-  for (unsigned i = 0; i < TRAX_PROFILE_SUMS; i++)
-    free(profile->sums[i].fetch);
   trax_map_free(&profile->context_of);
   trax_map_free(&profile->record_of);
 }
@@ -368,7 +251,7 @@ const struct trax_reader_kind trax_profile_reader = {
               {.path = TRAX_EXPLAIN_PATH(sample), .put = trax_profile_put_sample}},
     .in_page = true,
     .open = open_profile,
-    .passage = add_passage,
-    .end = add_issued,
+    .follow = follow_passage,
+    .counts = add_counts,
     .put_members = trax_profile_put_members,
     .close = close_profile};

@@ -6,8 +6,6 @@
 #include "explain/span.h"
 #include "trax/map.h"
 
-enum { TRAX_PROFILE_SUMS = 64 };
-
 /* The counts of one instruction in one context, or a sum of such counts. */
 struct trax_profile_counts {
   uint64_t cycles[TRAX_CAUSE_COUNT]; /* thread-cycles; those issued are the instructions */
@@ -37,19 +35,9 @@ struct trax_profile {
 
   struct trax_profile_record *records;
   size_t record_count, record_capacity;
-  /* [record_count]: the pieces of its context that begin and that end with the instruction, from which its executions
-     follow at the end, and the length of the longest that began there: those instructions have records. */
-  struct trax_profile_pieces {
-    uint64_t begun, ended;
-    uint32_t longest;
-  } * pieces;
-  size_t pieces_capacity;
-  /* [TRAX_PROFILE_SUMS]: of the first contexts, sums by instruction that are not in the records yet. */
-  struct trax_profile_sums {
-    uint32_t *fetch, *others; /* refusals (trax_stretch.refused); [places + 8]; NULL: none yet */
-    uint32_t *loads, *missed; /* missed: those that did not hit */
-  } sums[TRAX_PROFILE_SUMS];
-  uint32_t summed;           /* passages in them */
+  uint8_t *longest; /* [record_count]: of the pieces of its context that begin with the instruction, whose instructions
+                       have records */
+  size_t longest_capacity;
   struct trax_map record_of; /* (context, index) */
   struct trax_profile_latest {
     uint32_t context, record; /* its number + 1; 0: none */

@@ -16,12 +16,11 @@ enum { KINDS = TRAX_RAY_KIND_COUNT + 1 };
 struct ray_kinds {
   struct trax_reader reader;
   struct trax_tm_stats kinds[KINDS];
-  uint64_t *executed[KINDS]; /* each [places]: executions of the instruction, as differences */
   struct ray_thread {
-    uint64_t cycles[TRAX_CAUSE_COUNT]; /* that are charged to kinds */
-    uint8_t working;                   /* the kind of ray that the thread works for */
-  } * threads;                         /* [threads] */
-  uint64_t outcomes[KINDS][2][16];     /* of accesses through the data cache: of loads, of stores, by their outcome */
+    uint64_t cycles[TRAX_CAUSE_COUNT];        /* that are charged to kinds */
+    uint8_t working;                          /* the kind of ray that the thread works for */
+  } * threads;                                /* [threads] */
+  uint64_t outcomes[KINDS][2][TRAX_OUTCOMES]; /* of accesses through the data cache: of loads, of stores */
 };
 
 /* --- the counters, as the engines count them --- */
@@ -34,14 +33,14 @@ static uint64_t transfer_bytes(const struct trax_config *config, uint32_t addres
 
 static uint64_t with(const uint64_t *outcomes, unsigned outcome) {
   uint64_t sum = 0;
-  for (unsigned i = 0; i < 16; i++)
+  for (unsigned i = 0; i < TRAX_OUTCOMES; i++)
     sum += i & outcome ? outcomes[i] : 0;
   return sum;
 }
 
 static uint64_t sum_of(const uint64_t *outcomes) {
   uint64_t sum = 0;
-  for (unsigned i = 0; i < 16; i++)
+  for (unsigned i = 0; i < TRAX_OUTCOMES; i++)
     sum += outcomes[i];
   return sum;
 }
@@ -96,10 +95,8 @@ static void charge(struct ray_kinds *rays, const struct trax_passage *passage) {
   memcpy(thread->cycles, passage->cycles, sizeof thread->cycles);
 }
 
-static void add_passage(void *self, const struct trax_passage *passage) {
+static void follow(void *self, struct trax_passage *passage) {
   struct ray_kinds *rays = self;
-  const struct trax_places *places = rays->reader.explain->places;
-  const uint8_t *const accesses = trax_places_accesses(places);
   struct ray_thread *thread = &rays->threads[passage->thread];
   const unsigned kind = trax_counted_kind(passage);
   const bool ends_item = trax_ends_item(passage);
@@ -107,45 +104,37 @@ static void add_passage(void *self, const struct trax_passage *passage) {
     charge(rays, passage);
   if (kind != TRAX_NO_RAY)
     thread->working = (uint8_t)kind;
+  passage->kind = thread->working;
+  if (!passage->count)
+    return;
   struct trax_tm_stats *to = &rays->kinds[thread->working];
-  uint64_t(*const outcomes)[16] = rays->outcomes[thread->working];
-  uint32_t pc = 0;
-  for (size_t i = 0; i < passage->pieces; i++) {
-    trax_count_executed(rays->executed[thread->working], &passage->piece[i]);
-    pc = passage->piece[i].pc + 4 * passage->piece[i].count;
-  }
-  if (passage->count) /* from one piece to the next, and behind the last */
-    to->taken_branches += passage->pieces - 1 + (passage->next_pc != pc);
-  uint64_t hits = 0;
-  for (size_t i = 0; i < passage->accessed_count; i++) {
-    const struct trax_accessed *accessed = &passage->accessed[i];
-    const uint8_t access = accesses[accessed->index];
-    if (access == TRAX_ACCESS_LOAD && accessed->outcome == TRAX_OUTCOME_HIT) /* most are so */
-      hits++;
-    else if (access == TRAX_ACCESS_PAST_CACHE)
-      count_past_cache(to, &rays->reader.explain->machine->config, accessed,
-                       trax_op_table[trax_places_inst(places, accessed->index)->op].flags);
-    else
-      outcomes[access == TRAX_ACCESS_STORE][accessed->outcome & 15]++;
-  }
-  outcomes[0][TRAX_OUTCOME_HIT] += hits;
+  const struct trax_piece *last = &passage->piece[passage->pieces - 1];
+  to->taken_branches += passage->pieces - 1 + (passage->next_pc != last->pc + 4 * last->count);
+  const unsigned flags = trax_op_table[passage->inst.op].flags;
+  if (passage->accessed_count && flags & (TRAX_IS_NONTEMPORAL | TRAX_IS_ATOMIC)) /* a passage of its own */
+    count_past_cache(to, &rays->reader.explain->machine->config, passage->accessed, flags);
   if (ends_item) {
     rays->kinds[TRAX_NO_RAY].items += passage->result;
     thread->working = TRAX_NO_RAY;
   }
 }
 
-static trax_status add_executed(void *self, trax_error *error) {
+static void add_counts(void *self, const struct trax_counts *counts) {
   struct ray_kinds *rays = self;
   const struct trax_places *places = rays->reader.explain->places;
+  const uint8_t access = trax_places_accesses(places)[counts->index];
+  count_instructions(&rays->kinds[counts->kind], trax_places_inst(places, counts->index)->op, counts->executed);
+  if (access == TRAX_ACCESS_LOAD || access == TRAX_ACCESS_STORE)
+    for (unsigned i = 0; i < TRAX_OUTCOMES; i++)
+      rays->outcomes[counts->kind][access == TRAX_ACCESS_STORE][i] += counts->outcomes[i];
+}
+
+static trax_status end_counts(void *self, trax_error *error) {
+  struct ray_kinds *rays = self;
   (void)error;
-  for (unsigned kind = 0; kind < KINDS; kind++) {
-    trax_sum_executed(rays->executed[kind], trax_places_count(places));
-    for (uint32_t i = 0; i < trax_places_count(places); i++)
-      count_instructions(&rays->kinds[kind], trax_places_inst(places, i)->op, rays->executed[kind][i]);
+  for (unsigned kind = 0; kind < KINDS; kind++)
     count_outcomes(&rays->kinds[kind], &rays->reader.explain->machine->config, rays->outcomes[kind][0],
                    rays->outcomes[kind][1]);
-  }
   return TRAX_OK;
 }
 
@@ -227,18 +216,12 @@ static trax_status open_ray_kinds(void *self, trax_error *error) {
     return TRAX_ERROR;
   for (size_t i = 0; i < threads; i++)
     rays->threads[i].working = TRAX_NO_RAY;
-  for (unsigned kind = 0; kind < KINDS; kind++)
-    if (!(rays->executed[kind] =
-              trax_explain_array(trax_places_count(rays->reader.explain->places) + 3, sizeof(uint64_t), error)))
-      return TRAX_ERROR;
   return TRAX_OK;
 }
 
 static void close_ray_kinds(void *self) {
   struct ray_kinds *rays = self;
   free(rays->threads);
-  for (unsigned kind = 0; kind < KINDS; kind++)
-    free(rays->executed[kind]);
 }
 
 const struct trax_reader_kind trax_ray_kinds_reader = {
@@ -246,6 +229,7 @@ const struct trax_reader_kind trax_ray_kinds_reader = {
     .files = {{.path = TRAX_EXPLAIN_PATH(ray_kinds), .put = put_table, .member = "ray_kinds"}},
     .in_page = true,
     .open = open_ray_kinds,
-    .passage = add_passage,
-    .end = add_executed,
+    .follow = follow,
+    .counts = add_counts,
+    .end = end_counts,
     .close = close_ray_kinds};

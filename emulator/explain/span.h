@@ -9,6 +9,7 @@
 #define TRAX_EXPLAIN_SPAN_H
 
 #include "engine/run.h"
+#include "explain/objects.h"
 #include "program/program.h"
 #include "report/statistics.h"
 #include "trax/explain.h"
@@ -35,14 +36,17 @@ struct trax_span {
 
 struct trax_passage {
   uint32_t thread;
-  uint32_t count; /* instructions; 0: at the end of the run, the charges since the thread's last instruction */
+  uint32_t count;   /* instructions; 0: at the end of the run, the charges since the thread's last instruction */
+  uint32_t context; /* the thread's call chain, a number of the profile's; 0 without one */
+  uint8_t kind;     /* of the ray that the thread works for, the passage's included (explain/ray_kinds.h) */
   struct trax_piece *piece; /* [pieces]; each index is one of the places */
   size_t pieces;
   struct trax_charged *charged; /* [charged_count]; those before an instruction come before its access */
   size_t charged_count;
-  struct trax_accessed *accessed; /* [accessed_count] */
+  const struct trax_accessed *accessed; /* [accessed_count] */
   size_t accessed_count;
-  const uint16_t *refused;  /* trax_stretch.refused, followed by 32 bytes that may be read */
+  bool stores, misses;      /* trax_stretch */
+  const uint8_t *refused;   /* trax_stretch.refused, followed by 8 bytes that may be read */
   const uint64_t *cycles;   /* [TRAX_CAUSE_COUNT]: of the thread so far, with this passage; only if it is a trap, or
                                at the end of the run */
   uint32_t next_pc, result; /* of the last instruction */
@@ -58,18 +62,16 @@ static inline uint32_t trax_passage_index(const struct trax_passage *passage, un
   return piece->index + at;
 }
 
-/* Counts the execution of a piece's instructions as differences: [i] becomes the executions of the instruction i, less
-   those of the one before. */
-static inline void trax_count_executed(uint64_t *differences, const struct trax_piece *piece) {
-  differences[piece->index]++;
-  differences[piece->index + piece->count]--;
-}
+enum { TRAX_OUTCOMES = 16 };
 
-/* Makes executions of differences. */
-static inline void trax_sum_executed(uint64_t *differences, size_t count) {
-  for (size_t i = 1; i < count; i++)
-    differences[i] += differences[i - 1];
-}
+/* Counts of an instruction over many passages. */
+struct trax_counts {
+  uint32_t context, index;
+  unsigned kind;
+  uint64_t executed, fetch, others; /* fetch, others: its refusals (trax_stretch.refused) */
+  const struct trax_region *region; /* of its accesses to global memory; NULL: it has none */
+  uint64_t outcomes[TRAX_OUTCOMES]; /* such accesses by their outcome */
+};
 
 enum { TRAX_READER_FILES = 3 };
 
@@ -86,7 +88,13 @@ struct trax_reader_kind {
   bool (*is_wanted)(const struct trax_explain_options *options); /* whether other options need it */
   trax_status (*open)(void *self, trax_error *error);
   void (*span)(void *self, const struct trax_span *span);
+  /* Called for each passage before `passage`, in the order of the chip, by one thread of the host; sets the passage's
+     context or kind. */
+  void (*follow)(void *self, struct trax_passage *passage);
   void (*passage)(void *self, const struct trax_passage *passage);
+  /* Called with the counts of all passages: those of an instruction, context and kind may come in several parts, each
+     with another region. */
+  void (*counts)(void *self, const struct trax_counts *counts);
   /* Called in the order of (cycle, TM), before the spans that end with issues of the same cycle and TM. */
   void (*arrival)(void *self, const struct trax_arrival *arrival);
   trax_status (*end)(void *self, trax_error *error); /* called after the last span, before the files are written */
@@ -137,14 +145,15 @@ struct trax_explain {
   trax_machine *machine;
   struct trax_explain_options options;
   struct trax_observer observer;
-  struct trax_open_span *open_spans; /* [threads]: since the latest issue of each */
-  bool has_spans, has_passages;      /* readers take them */
+  struct trax_open_span *open_spans;     /* [threads]: since the latest issue of each */
+  bool has_spans, has_passages;          /* readers take them */
   struct trax_open_thread *open_threads; /* [threads] */
   bool begun, by_issue;                  /* the run has begun; the engine tells of each issue and charge */
   uint64_t round;                        /* number of rounds in which passages were read (explain/passages.h) */
   uint32_t found;                        /* what is new in the passages that are read (explain/passages.h) */
   struct trax_passages *passages;
   struct trax_places *places;
+  struct trax_objects objects;
   struct trax_reader *readers[TRAX_READER_KINDS];
   unsigned reader_count;
   struct trax_arrival *arrivals; /* those of which the readers have not been notified yet */

@@ -138,7 +138,7 @@ static bool add_passage(const struct trax_stories *stories, struct draft *draft,
                         uint32_t latest) {
   const uint8_t *const refusals = trax_places_refusals(stories->explain->places);
   const struct trax_charged *charged = passage->charged, *const end = charged + passage->charged_count;
-  const uint16_t *const refused = passage->refused;
+  const uint8_t *const refused = passage->refused;
   const unsigned kind = trax_counted_kind(passage); /* of the ray that begins with the passage */
   uint32_t at = 0;                                  /* the number of the instruction in the passage */
   for (const struct trax_piece *piece = passage->piece; piece < passage->piece + passage->pieces; piece++) {
@@ -152,10 +152,10 @@ static bool add_passage(const struct trax_stories *stories, struct draft *draft,
         add_code(draft, charged->cause == TRAX_CAUSE_BRANCH ? latest : index, charged->cause, charged->cycles);
         add_cycles(draft, charged->cause, charged->cycles);
       }
-      if (refused && refused[at] & 0xFF)
-        add_before(draft, index, TRAX_CAUSE_ICACHE_BANK, refused[at] & 0xFF, &issued);
-      if (refused && refused[at] >> 8)
-        add_before(draft, index, refusals[index], refused[at] >> 8, &issued);
+      if (refused && trax_refused_fetch(refused[at]))
+        add_before(draft, index, TRAX_CAUSE_ICACHE_BANK, trax_refused_fetch(refused[at]), &issued);
+      if (refused && trax_refused_others(refused[at]))
+        add_before(draft, index, refusals[index], trax_refused_others(refused[at]), &issued);
     }
     if (kind != TRAX_NO_RAY && !begin_ray(draft, kind)) /* a trap, which is a passage of its own */
       return false;

@@ -34,17 +34,13 @@ struct record {
 
 struct waits {
   struct trax_reader reader;
-  struct trax_objects objects;
   struct writer (*writers)[TRAX_NUM_REGISTERS]; /* [threads] */
   struct record *records;
   size_t count, capacity;
-  struct trax_map pair_of, record_of; /* (awaited, waiting) to a number; (this number, object) to that of a record */
-  uint32_t *latest_of;                /* [places]: the latest record of the waiting instruction, + 1 */
+  struct trax_map pair_of, record_of;   /* (awaited, waiting) to a number; (this number, object) to that of a record */
+  uint32_t *latest_of;                  /* [places]: the latest record of the waiting instruction, + 1 */
   const struct trax_region **region_of; /* [places]: of the latest access of the instruction that was waited for */
-  struct bank {
-    uint32_t begin, last, object; /* of the latest access that waited for its bank */
-    uint32_t cycles;              /* that are not in a record yet */
-  } * banks;                      /* [places] */
+  bool hits_are_awaited;                /* else the result of a load that hits is usable at once */
   uint8_t *slow;    /* [places]: the register, if it may be waited for, + SLOW_ACCESS of a memory access */
   uint32_t *others; /* [places + 1]: of the instructions before, those that are waited for without global memory */
 };
@@ -71,43 +67,16 @@ static struct record *record_of(struct waits *waits, struct record wanted) {
 }
 
 static void add(struct waits *waits, const struct writer *awaited, uint32_t waiting, unsigned column, uint64_t cycles) {
-  const uint32_t object = awaited->accesses ? (uint32_t)trax_objects_region_again(&waits->objects, awaited->address,
-                                                                                  &waits->region_of[awaited->index])
-                                                      ->number +
-                                                  1
-                                            : 0;
+  const uint32_t object = awaited->accesses
+                              ? (uint32_t)trax_objects_region_again(&waits->reader.explain->objects, awaited->address,
+                                                                    &waits->region_of[awaited->index])
+                                        ->number +
+                                    1
+                              : 0;
   struct record *record =
       record_of(waits, (struct record){.awaited = awaited->index, .object = object, .waiting = waiting});
   if (record)
     record->cycles[column] += cycles;
-}
-
-static void add_bank(struct waits *waits, uint32_t index) {
-  struct bank *bank = &waits->banks[index];
-  struct record *record =
-      bank->cycles ? record_of(waits, (struct record){.awaited = index, .object = bank->object, .waiting = index})
-                   : NULL;
-  if (record)
-    record->cycles[BANK] += bank->cycles;
-  bank->cycles = 0;
-}
-
-static __attribute__((noinline)) void change_bank(struct waits *waits, uint32_t index,
-                                                  const struct trax_accessed *accessed) {
-  struct bank *bank = &waits->banks[index];
-  add_bank(waits, index);
-  const struct trax_region *region = accessed ? trax_objects_region(&waits->objects, accessed->address) : NULL;
-  *bank = region ? (struct bank){region->begin, region->last, (uint32_t)region->number + 1, 0} : (struct bank){0};
-}
-
-/* An access waits for its bank. An access that has not been issued has no address. */
-static inline void wait_for_bank(struct waits *waits, uint32_t index, const struct trax_accessed *accessed,
-                                 uint32_t cycles) {
-  struct bank *bank = &waits->banks[index];
-  if (bank->cycles > UINT32_MAX / 2 ||
-      (accessed ? accessed->address - bank->begin > bank->last - bank->begin || !bank->object : bank->object != 0))
-    change_bank(waits, index, accessed);
-  bank->cycles += cycles;
 }
 
 /* What the instructions before `end` of a passage have written. */
@@ -128,7 +97,9 @@ static bool has_loads_alone(const struct waits *waits, const struct trax_passage
 static void write_up_to(const struct waits *waits, struct writer *writers, struct written *written, uint32_t end) {
   if (written->loads_alone) {
     for (; written->accessed < written->accessed_end && written->accessed->at < end; written->accessed++) {
-      const uint32_t index = written->accessed->index;
+      for (; written->accessed->at - written->of_piece >= written->piece->count; written->piece++)
+        written->of_piece += written->piece->count;
+      const uint32_t index = written->piece->index + (written->accessed->at - written->of_piece);
       writers[waits->slow[index] % TRAX_NUM_REGISTERS] = (struct writer){index, written->accessed->address, true};
     }
     return;
@@ -154,8 +125,10 @@ static void add_passage(void *self, const struct trax_passage *passage) {
   struct waits *waits = self;
   struct writer *writers = waits->writers[passage->thread];
   const struct trax_accessed *own = passage->accessed, *const end = own + passage->accessed_count;
-  struct written written = {
-      .piece = passage->piece, .accessed = own, .accessed_end = end, .loads_alone = has_loads_alone(waits, passage)};
+  struct written written = {.piece = passage->piece, .accessed = own, .accessed_end = end};
+  written.loads_alone = has_loads_alone(waits, passage);
+  if (written.loads_alone && !passage->misses && !waits->hits_are_awaited)
+    written.accessed = end;
   for (size_t i = 0; i < passage->charged_count; i++) {
     const struct trax_charged *charged = &passage->charged[i];
     if (charged->cause != TRAX_CAUSE_DCACHE_BANK && !trax_is_wait((trax_cause)charged->cause))
@@ -165,29 +138,26 @@ static void add_passage(void *self, const struct trax_passage *passage) {
     /* Only a memory access waits for a bank. If it has not been issued, its address is not known. A fence that waits
        for its thread's stores waits for no register. */
     const bool accesses = own < end && own->at == charged->at;
-    if (charged->cause == TRAX_CAUSE_DCACHE_BANK) {
-      wait_for_bank(waits, charged->index, accesses ? own : NULL, charged->cycles);
-      continue;
-    }
+    const bool waits_for_bank = charged->cause == TRAX_CAUSE_DCACHE_BANK;
     const struct writer itself = {charged->index, accesses ? own->address : 0, accesses};
-    if (passage->count)
+    if (passage->count && !waits_for_bank)
       write_up_to(waits, writers, &written, charged->at);
-    add(waits, charged->rd ? &writers[charged->rd] : &itself, charged->index, charged->cause - TRAX_CAUSE_DATA_LOCAL,
-        charged->cycles);
-  }
-  if (written.loads_alone && passage->refused) { /* both at once */
-    for (own = passage->accessed; own < end; own++) {
-      if (own >= written.accessed)
-        writers[waits->slow[own->index] % TRAX_NUM_REGISTERS] = (struct writer){own->index, own->address, true};
-      if (passage->refused[own->at] >> 8)
-        wait_for_bank(waits, own->index, own, passage->refused[own->at] >> 8);
-    }
-    return;
+    add(waits, charged->rd ? &writers[charged->rd] : &itself, charged->index,
+        waits_for_bank ? BANK : charged->cause - TRAX_CAUSE_DATA_LOCAL, charged->cycles);
   }
   write_up_to(waits, writers, &written, passage->count);
-  for (own = passage->accessed; passage->refused && own < end; own++)
-    if (passage->refused[own->at] >> 8)
-      wait_for_bank(waits, own->index, own, passage->refused[own->at] >> 8);
+}
+
+/* Refusals of an access are of its bank. */
+static void add_counts(void *self, const struct trax_counts *counts) {
+  struct waits *waits = self;
+  if (!counts->others || trax_places_accesses(waits->reader.explain->places)[counts->index] == TRAX_ACCESS_NONE)
+    return;
+  const uint32_t object = counts->region ? (uint32_t)counts->region->number + 1 : 0;
+  struct record *record =
+      record_of(waits, (struct record){.awaited = counts->index, .object = object, .waiting = counts->index});
+  if (record)
+    record->cycles[BANK] += counts->others;
 }
 
 /* --- the table --- */
@@ -223,7 +193,8 @@ static trax_status put_table(void *self, FILE *out, trax_error *error) {
   for (size_t i = 0; i < waits->count; i++) {
     const struct record *record = &waits->records[i];
     put_place(waits, record->awaited, out);
-    trax_objects_put_name(out, record->object ? trax_objects_name(&waits->objects, record->object - 1) : "");
+    trax_objects_put_name(out,
+                          record->object ? trax_objects_name(&waits->reader.explain->objects, record->object - 1) : "");
     fputc(',', out);
     put_place(waits, record->waiting, out);
     for (unsigned column = 0; column < COLUMNS; column++)
@@ -232,28 +203,18 @@ static trax_status put_table(void *self, FILE *out, trax_error *error) {
   return TRAX_OK;
 }
 
-static trax_status add_banks(void *self, trax_error *error) {
-  struct waits *waits = self;
-  (void)error;
-  for (uint32_t i = 0; i < trax_places_count(waits->reader.explain->places); i++)
-    add_bank(waits, i);
-  return TRAX_OK;
-}
-
 static trax_status open_waits(void *self, trax_error *error) {
   struct waits *waits = self;
   const struct trax_explain *explain = waits->reader.explain;
-  if (trax_objects_list(&waits->objects, explain, error) != TRAX_OK)
-    return TRAX_ERROR;
   waits->writers = trax_explain_array(explain->machine->stats.threads, sizeof *waits->writers, error);
   waits->latest_of = trax_explain_array(trax_places_count(explain->places) + 2, sizeof *waits->latest_of, error);
   waits->slow = trax_explain_array(trax_places_count(explain->places) + 2, sizeof *waits->slow, error);
   waits->others = trax_explain_array(trax_places_count(explain->places) + 3, sizeof *waits->others, error);
   waits->region_of = trax_explain_array(trax_places_count(explain->places) + 2, sizeof *waits->region_of, error);
-  waits->banks = trax_explain_array(trax_places_count(explain->places) + 2, sizeof *waits->banks, error);
-  if (!waits->writers || !waits->latest_of || !waits->region_of || !waits->banks || !waits->slow || !waits->others)
+  if (!waits->writers || !waits->latest_of || !waits->region_of || !waits->slow || !waits->others)
     return TRAX_ERROR;
   const uint32_t local = explain->machine->config.tp.local_latency_cycles;
+  waits->hits_are_awaited = explain->machine->config.dcache.hit_latency_cycles > 1;
   for (uint32_t i = 0; i < trax_places_count(explain->places); i++) {
     const trax_inst *inst = trax_places_inst(explain->places, i);
     waits->others[i + 1] = waits->others[i];
@@ -270,11 +231,9 @@ static trax_status open_waits(void *self, trax_error *error) {
 
 static void close_waits(void *self) {
   struct waits *waits = self;
-  trax_objects_release(&waits->objects);
   free(waits->writers);
   free(waits->latest_of);
   free(waits->region_of);
-  free(waits->banks);
   free(waits->slow);
   free(waits->others);
   free(waits->records);
@@ -288,5 +247,5 @@ const struct trax_reader_kind trax_waits_reader = {
     .in_page = true,
     .open = open_waits,
     .passage = add_passage,
-    .end = add_banks,
+    .counts = add_counts,
     .close = close_waits};

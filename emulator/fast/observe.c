@@ -130,6 +130,8 @@ void trax_fast_tell_single(struct trax_tm *tm, unsigned number, uint32_t pc, con
                                   .pieces = 1,
                                   .accessed = &accessed,
                                   .accessed_count = is_global,
+                                  .stores = inst->is_store,
+                                  .misses = accessed.outcome != TRAX_OUTCOME_HIT,
                                   .cycles = inst->op == TRAX_OP_TRAP ? cycles : NULL,
                                   .next_pc = tp->pc,
                                   .result = result_of(tp, inst)});
@@ -170,25 +172,30 @@ static inline unsigned accesses_of_16(const uint16_t *step) {
 }
 _Static_assert((int)TRAX_CHUNK >= 16, "so many steps may follow the last one");
 
-/* Lists the accesses to global memory of the steps from `begin` to `end`. */
-static size_t list_accesses(const struct trax_tm *tm, unsigned number, unsigned begin, unsigned end,
-                            struct trax_accessed *accessed) {
+/* Lists the accesses to global memory of the steps from `begin` to `end`, and clears their outcomes. *misses: not all
+   have hit. */
+static size_t list_accesses(struct trax_tm *tm, unsigned number, unsigned begin, unsigned end,
+                            struct trax_accessed *accessed, bool *misses) {
   const struct trax_burst *const burst = &tm->tp[number].burst;
-  const uint8_t *const outcomes = tm->observed->outcomes[number];
+  uint8_t *const outcomes = tm->observed->outcomes[number];
   unsigned load = tm->observed->told_loads[number];
   size_t count = 0;
+  unsigned all = TRAX_FAST_NO_OUTCOME;
   for (unsigned first = begin; first < end; first += 16) {
     unsigned rest = accesses_of_16(&burst->step[first]);
     if (end - first < 16)
       rest &= (1u << (end - first)) - 1;
     for (; rest; rest &= rest - 1, load++) {
       const uint8_t outcome = outcomes[load];
+      outcomes[load] = TRAX_FAST_NO_OUTCOME;
+      all &= outcome;
       accessed[count++] =
           (struct trax_accessed){.address = burst->access[load].address,
                                  .at = (uint8_t)(first - begin + trax_first(rest)),
                                  .outcome = outcome == TRAX_FAST_NO_OUTCOME ? TRAX_OUTCOME_HIT : outcome};
     }
   }
+  *misses = all != TRAX_FAST_NO_OUTCOME;
   return count;
 }
 
@@ -199,6 +206,7 @@ void trax_fast_tell_steps(struct trax_tm *tm, unsigned number, unsigned end, uin
   struct trax_accessed accessed[TRAX_BURST + 1];
   const unsigned begin = observed->told[number];
   size_t count = 0;
+  bool misses;
   if (begin == end)
     return;
   for (unsigned at = begin; at < end;) {
@@ -207,7 +215,7 @@ void trax_fast_tell_steps(struct trax_tm *tm, unsigned number, unsigned end, uin
     pieces[count++] = (struct trax_piece){pc, next - at, 0};
     at = next;
   }
-  const size_t accessed_count = list_accesses(tm, number, begin, end, accessed);
+  const size_t accessed_count = list_accesses(tm, number, begin, end, accessed, &misses);
   tell(tm, &(struct trax_stretch){.cycle = tm->now,
                                   .tm = tm->number,
                                   .tp = number,
@@ -216,10 +224,11 @@ void trax_fast_tell_steps(struct trax_tm *tm, unsigned number, unsigned end, uin
                                   .pieces = count,
                                   .accessed = accessed,
                                   .accessed_count = accessed_count,
+                                  .stores = tm->storing >> number & 1,
+                                  .misses = misses,
                                   .refused = &observed->refused[number][begin],
                                   .next_pc = next_pc});
   memset(&observed->refused[number][begin], 0, (end - begin) * sizeof observed->refused[number][0]);
-  memset(&observed->outcomes[number][observed->told_loads[number]], TRAX_FAST_NO_OUTCOME, accessed_count);
   observed->told_loads[number] += (uint8_t)accessed_count;
   observed->told[number] = (uint8_t)end;
 }
@@ -232,12 +241,12 @@ void trax_fast_tell_issued(struct trax_tm *tm, unsigned number) {
 
 void trax_fast_tell_before(struct trax_tm *tm, unsigned number) {
   struct trax_fast_observed *const observed = tm->observed;
-  uint16_t *const refused = &observed->refused[number][tm->heads.at[number]];
+  uint8_t *const refused = &observed->refused[number][tm->heads.at[number]];
   trax_fast_tell_issued(tm, number);
   uint8_t *const outcome =
       &observed->outcomes[number][observed->told_loads[number]]; /* of the head, if it issues now */
-  observed->fetch[number] = (uint8_t)*refused;
-  observed->others[number] = (uint8_t)(*refused >> 8);
+  observed->fetch[number] = (uint8_t)trax_refused_fetch(*refused);
+  observed->others[number] = (uint8_t)trax_refused_others(*refused);
   observed->tps |= (uint64_t)1 << number;
   trax_fast_log_refusals(tm, (uint64_t)1 << number);
   *refused = 0;

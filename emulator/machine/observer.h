@@ -61,8 +61,8 @@ struct trax_piece {
   uint32_t pc, count, index;
 };
 
-/* Charges and accesses name the instruction by its number in the stretch. A charge belongs to the instruction before
-   whose issue it came. Neighbouring charges may have the same cause. They are small, since they are many. */
+/* Charges and accesses name the instruction by its number in the stretch (`at`). A charge belongs to the instruction
+   before whose issue it came. Neighbouring charges may have the same cause. They are small, since they are many. */
 struct trax_charged {
   uint32_t index;
   uint32_t at : 8, cause : 5, rd : 5, cycles : 14;
@@ -72,9 +72,18 @@ _Static_assert(TRAX_CAUSE_COUNT <= 32 && TRAX_NUM_REGISTERS <= 32, "the bits of 
 
 /* Of global memory. */
 struct trax_accessed {
-  uint32_t address, index;
+  uint32_t address;
   uint8_t at, outcome;
 };
+
+/* An instruction's refusals in a byte; more are charges. */
+enum { TRAX_REFUSED_SHIFT = 4, TRAX_MOST_REFUSED = (1 << TRAX_REFUSED_SHIFT) - 1 };
+static inline unsigned trax_refused_fetch(uint8_t refused) {
+  return refused & TRAX_MOST_REFUSED;
+}
+static inline unsigned trax_refused_others(uint8_t refused) {
+  return refused >> TRAX_REFUSED_SHIFT;
+}
 
 /* What a TP was charged since its latest stretch, except for what trax_stretch.refused has: the observer's memory, to
    which the engine adds. The observer takes out what belongs to a stretch, and subtracts the stretch's instructions
@@ -91,9 +100,10 @@ struct trax_stretch {
   size_t pieces;
   struct trax_accessed *accessed; /* [accessed_count] */
   size_t accessed_count;
-  /* [count], or NULL: cycles in which the instruction was refused the bank of the instruction cache, in the low byte,
-     and then its unit or its bank of the data cache. They follow the charges of the log. */
-  const uint16_t *refused;
+  bool stores, misses; /* false: no access stores; all are TRAX_OUTCOME_HIT alone */
+  /* [count], or NULL: cycles in which the instruction was refused the bank of the instruction cache, and then its unit
+     or its bank of the data cache, as trax_refused_.... They follow the charges of the log. */
+  const uint8_t *refused;
   /* Of a trap, [TRAX_CAUSE_COUNT]: what the thread was charged since the begin of the run, the trap included, as in
      trax_tp_stats; else NULL. */
   const uint64_t *cycles;

@@ -591,7 +591,7 @@ MUTANTS = [
     ("fast/time/refusals.h", "    trax_fast_log_refusals(tm, full);", "    (void)full;"),
     ("fast/observe.c", "    trax_fast_log_refusals(tm, (uint64_t)1 << tp);\n    trax_log_charge",
      "    trax_log_charge"),
-    ("fast/time/cycle.c", "    record_refusals(tm, granted & tm->observed->tps);\n", ""),
+    ("fast/time/cycle.c", "    record_refusals(tm, wide, granted & tm->observed->tps);\n", ""),
     ("fast/time/refusals.h", "    trax_fast_log_refusals(tm, single);", "    (void)single;"),
     ("fast/observe.c", "    trax_fast_read_charges(tm, number, cycles);", "    memset(cycles, 0, sizeof cycles);"),
     ("fast/epochs.c", "    chip->machine->observer->go_back(chip->machine->observer->context);", "    (void)chip;"),

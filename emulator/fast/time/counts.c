@@ -55,9 +55,12 @@ static unsigned issued_of_burst(const struct trax_tm *tm, unsigned tp) {
 static void read_charges(const struct trax_tm *tm, unsigned number, uint64_t *charges) {
   memcpy(charges, tm->tp_stats[number].cycles, sizeof tm->tp_stats[number].cycles);
   charges[TRAX_CAUSE_ISSUED] += tm->tp[number].issued + issued_of_burst(tm, number);
-  for (unsigned bit = 0; bit < 64; bit++)
-    for (unsigned refused = 0; refused < TRAX_FAST_REFUSALS; refused++)
-      charges[trax_fast_refusal_causes[refused]] += (tm->refusal_counts.planes[bit][refused] >> number & 1) << bit;
+  uint64_t counts[TRAX_FAST_COUNTERS] = {0};
+  for (unsigned bit = 0; bit < 64 && (tm->now + 1) >> bit; bit++) /* a TP has not more refusals than cycles */
+    for (unsigned refused = 0; refused < TRAX_FAST_COUNTERS; refused++)
+      counts[refused] += (tm->refusal_counts.planes[bit][refused] >> number & 1) << bit;
+  for (unsigned refused = 0; refused < TRAX_FAST_REFUSALS; refused++)
+    charges[trax_fast_refusal_causes[refused]] += counts[refused];
 }
 
 void trax_fast_read_charges(struct trax_tm *tm, unsigned number, uint64_t *charges) {

@@ -203,7 +203,7 @@ static ALWAYS_INLINE void issue(struct trax_tm *tm, const bool wide, const bool 
       issue_observed(tm, quick, slow, t);
       return;
     }
-    record_refusals(tm, granted & tm->observed->tps);
+    record_refusals(tm, wide, granted & tm->observed->tps);
     trax_fast_record_outcomes(tm, granted & banks);
   }
   for (uint64_t loads = quick & banks; loads; loads &= loads - 1)

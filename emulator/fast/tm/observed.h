@@ -16,7 +16,7 @@ struct trax_fast_observed {
      `refused` when the head of a burst issues, and otherwise to the log. */
   uint64_t tps;
   _Alignas(64) uint8_t fetch[TRAX_MAX_TPS_PER_TM], others[TRAX_MAX_TPS_PER_TM];
-  uint16_t refused[TRAX_MAX_TPS_PER_TM][TRAX_BURST];     /* of each step: trax_stretch.refused */
+  uint8_t refused[TRAX_MAX_TPS_PER_TM][TRAX_BURST];      /* of each step: trax_stretch.refused */
   uint8_t outcomes[TRAX_MAX_TPS_PER_TM][TRAX_BURST + 1]; /* of each access to global memory of the burst */
 };
 
