@@ -9,7 +9,7 @@
 #include <stdlib.h>
 
 /* A thread that finds nothing to do spins for about as long as a quantum takes, and then yields the processor. It takes
-   TMs of other threads only after some time, since it takes their data from those threads' caches. */
+   a TM of another thread only after some time, and keeps it, since its data come from that thread's caches. */
 enum { STEAL_AFTER = 200 /* polls */, SPINS = 1000 };
 
 enum { LEAST_QUANTUM = 8 /* cycles */ };
@@ -17,6 +17,7 @@ enum { LEAST_QUANTUM = 8 /* cycles */ };
 /* A TM in the epoch. */
 struct progress {
   _Alignas(64) atomic_uint at; /* twice the number of its next quantum; + 1: a thread simulates it */
+  atomic_uint thread;          /* that simulated it last; at first as the pool's items */
 };
 
 struct trax_quanta {
@@ -41,6 +42,11 @@ static uint64_t begin_of(const struct trax_quanta *quanta, unsigned quantum) {
 
 static unsigned side_of(const struct trax_quanta *quanta, unsigned quantum) {
   return quantum % (quanta->ahead + 1);
+}
+
+/* Returns the thread that has the TM at first: as in pool.c. */
+static unsigned first_thread(const struct trax_quanta *quanta, uint32_t tm) {
+  return (unsigned)((((uint64_t)tm + 1) * quanta->threads - 1) / quanta->chip->tms);
 }
 
 static void simulate(struct trax_quanta *quanta, struct trax_tm *tm, unsigned quantum) {
@@ -72,32 +78,32 @@ static bool serve(struct trax_quanta *quanta) {
   return found;
 }
 
-/* Takes one of the TMs from `begin` to `end` whose next quantum may begin, an earlier quantum first, and searches from
- *at on. NULL: there is none. */
-static struct trax_tm *take(struct trax_quanta *quanta, uint32_t begin, uint32_t end, uint32_t *at) {
+/* Takes a TM of the thread whose next quantum may begin, an earlier quantum first, and searches from *last on. `any`:
+   of any thread. NULL: there is none. */
+static struct trax_tm *take(struct trax_quanta *quanta, unsigned thread, bool any, uint32_t *last) {
   const unsigned served = atomic_load(&quanta->served);
   for (unsigned quantum = served; quantum <= served + quanta->ahead && quantum < quanta->count; quantum++)
-    for (uint32_t i = begin; i < end; i++) {
+    for (uint32_t i = 0; i < quanta->chip->tms; i++) {
+      const uint32_t number = (*last + i) % quanta->chip->tms;
+      struct progress *const progress = &quanta->progress[number];
       unsigned expected = 2 * quantum;
-      const uint32_t number = *at;
-      *at = number + 1 < end ? number + 1 : begin;
-      if (atomic_load_explicit(&quanta->progress[number].at, memory_order_relaxed) == expected &&
-          atomic_compare_exchange_strong(&quanta->progress[number].at, &expected, expected + 1))
+      if (atomic_load_explicit(&progress->at, memory_order_relaxed) == expected &&
+          (any || atomic_load_explicit(&progress->thread, memory_order_relaxed) == thread) &&
+          atomic_compare_exchange_strong(&progress->at, &expected, expected + 1)) {
+        atomic_store_explicit(&progress->thread, thread, memory_order_relaxed);
+        *last = number;
         return &quanta->chip->tm[number];
+      }
     }
   return NULL;
 }
 
 void trax_quanta_run(struct trax_quanta *quanta, uint32_t first) {
-  const uint32_t tms = quanta->chip->tms;
-  const unsigned thread = (unsigned)(((uint64_t)first + 1) * quanta->threads - 1) / tms; /* its TMs: as in pool.c */
-  const uint32_t begin = (uint32_t)((uint64_t)tms * thread / quanta->threads),
-                 end = (uint32_t)((uint64_t)tms * (thread + 1) / quanta->threads);
-  uint32_t at = first, other = first;
+  const unsigned thread = first_thread(quanta, first);
+  uint32_t last = first;
   for (unsigned polls = 0; atomic_load(&quanta->served) < quanta->count && !trax_merge_has_failed(quanta->merge);) {
     struct trax_tm *tm = NULL;
-    if (serve(quanta) || (tm = take(quanta, begin, end, &at)) ||
-        (polls >= STEAL_AFTER && (tm = take(quanta, 0, tms, &other)))) {
+    if (serve(quanta) || (tm = take(quanta, thread, polls >= STEAL_AFTER, &last))) {
       if (tm)
         simulate(quanta, tm, atomic_load_explicit(&quanta->progress[tm->number].at, memory_order_relaxed) / 2);
       polls = 0;
@@ -134,6 +140,8 @@ struct trax_quanta *trax_quanta_create(struct trax_chip *chip, struct trax_merge
   const unsigned ahead = threads > 1 && latency >= TRAX_SIDES * LEAST_QUANTUM ? TRAX_SIDES - 1 : 0;
   *quanta = (struct trax_quanta){
       .chip = chip, .merge = merge, .threads = threads, .ahead = ahead, .latency = latency, .progress = progress};
+  for (uint32_t i = 0; i < chip->tms; i++)
+    atomic_init(&progress[i].thread, first_thread(quanta, i));
   return quanta;
 }
 

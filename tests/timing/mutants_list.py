@@ -460,8 +460,6 @@ MUTANTS = [
     ("fast/merge.c", "if (merge->undo[i].writer != BY_CONTROLLER && trax_fast_is_loaded(",
      "if (merge->undo[i].writer == BY_SEVERAL && trax_fast_is_loaded("),
     ("fast/merge.c", "    if (trax_fast_is_loaded(&merge->chip->blocks, merge->increments[i]))\n      return false;\n", ""),
-    # What is being incremented is not loaded ahead.
-    ("fast/merge.c", "    trax_fast_set_written(&merge->chip->blocks, merge->increments[i], TRAX_BLOCK_SHARED);\n", ""),
     # A block from which bursts have loaded is not shared without their going back.
     ("fast/function/blocks.h", "  if (!trax_fast_is_loaded(blocks, address))\n    __atomic_store_n", "  __atomic_store_n"),
     # Stores of a cycle in the TMs' order.
