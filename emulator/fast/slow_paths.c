@@ -43,7 +43,7 @@ void trax_fast_report(const struct trax_chip *chip, uint64_t cycles) {
   ROW("fetches bank by bank", first->simple_fetch ? 0 : cycles, TRAX_OF_CYCLES, fetch_reason(config));
   ROW("adders group by group", first->fp.even ? 0 : cycles, TRAX_OF_CYCLES,
       "the groups do not have one adder and one multiplier each, or differ in size");
-  ROW("data banks by fours", first->dcache.banks > 2 * TRAX_FAST_LANES ? cycles : 0, TRAX_OF_CYCLES,
+  ROW("data banks one by one", first->dcache.banks > 2 * TRAX_FAST_LANES ? cycles : 0, TRAX_OF_CYCLES,
       "dcache.tps_per_bank makes more than 8 banks");
   ROW("lines looked up", looked_up, TRAX_OF_FETCHES,
       chip->program.lines == TRAX_FAST_LINES

@@ -116,7 +116,7 @@ slow "fetches bank by bank .* 100.00 % of the cycles" "icache.tps_per_cache is n
 slow "fetches bank by bank .* 100.00 % of the cycles" "icache.ports_per_bank is above 1" --set icache.ports_per_bank=2
 slow "fetches bank by bank .* 100.00 % of the cycles" "icache.banks is above 16" --set icache.banks=32
 slow "adders group by group .* 100.00 % of the cycles" "do not have one adder and one multiplier each" --set fpu.adders_per_cluster=2
-slow "data banks by fours .* 100.00 % of the cycles" "more than 8 banks" --set dcache.tps_per_bank=2
+slow "data banks one by one .* 100.00 % of the cycles" "more than 8 banks" --set dcache.tps_per_bank=2
 slow "TMs cycle by cycle .* of the cycles" "the memory latency is too short" --set memory.latency_cycles=1
 grep '^  TMs cycle by cycle' quick.txt | grep -q 'stops close together (0 cycles)' || fail "quick.txt: stops"
 run 0 --config 2x32 --report report.txt --checkpoint often.bin --checkpoint-every 10 mix.elf

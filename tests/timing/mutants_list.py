@@ -150,7 +150,14 @@ MUTANTS = [
     # --- steps 3 and 4 ---
     ("fast/time/grant.h", "const unsigned pointer = tm->queue_arbiter % 64;", "const unsigned pointer = 0;"),
     ("fast/time/grant.h", "tm->load_hits & ~tm->executes_at_issue & ~", "tm->load_hits & ~"),
-    ("fast/time/grant.h", " & ~(tm->storing & bit[0]);", ";"),
+    ("fast/time/grant.h", " & ~(tm->storing & ready.slow);", ";"),
+    # Few TPs are awake: banks one after the other.
+    ("fast/time/few.h", "requesters & rr_mask ? requesters & rr_mask : requesters;", "requesters;"),
+    ("fast/time/few.h", "losers |= here ^ winner;", "(void)here;"),
+    ("fast/time/few.h", "*rr_mask = (uint16_t)(-2 * winner >> cache);", "(void)cache;"),
+    ("fast/time/few.h", "*rr_mask = -2 * winner;", "(void)rr_mask;"),
+    ("fast/time/few.h", "(uint64_t)0xFFFF << cache, ", "~(uint64_t)0, "),
+    ("fast/time/grant.h", "ready->slow |= (uint64_t)(low & TRAX_STEP_SLOW) << trax_first(rest);", "(void)low;"),
     ("fast/time/grant.h", "if (!tm->serial_hits)", "if (1)"),
     # Whether the next load's line is resident: after arrivals, evictions and fences.
     ("fast/time/cycle.c", "    trax_fast_find_line(tm, trax_first(rest));", "    (void)tm;"),
@@ -507,8 +514,9 @@ MUTANTS = [
     ("fast/epochs.c", "piece_count * (part + 1) / parts;",
      "piece_count * (part + 1) / parts - part;"),
     # A TM sees its own stores.
-    ("fast/store_buffer.c", "if (own)\n    word",
-     "if (own && own->mask == ~0u)\n    word"),
+    ("fast/store_buffer.c", "own && i < bytes", "own && i < 1"),
+    ("fast/store_buffer.c", "if (own->entry.value >> (at + i) & 1)", "if (1)"),
+    ("fast/store_buffer.c", "((1u << bytes) - 1) << at", "1u << at"),
     # --- DRAM: one module of both engines, so timing-dram-test notices most ---
     ("dram/dram.c", "latest(now, bank->activate_from)", "now"),
     ("dram/dram.c", "latest(rank->activate_from, rank->window_from", "latest(now, rank->window_from"),
@@ -554,7 +562,7 @@ MUTANTS = [
     # --- Line fills ---
     ("fast/tm/dcache.c", "(*end > t ? *end : t) + config->dcache.fill_cycles", "t + config->dcache.fill_cycles"),
     ("fast/tm/dcache.c", "i < words && i < dcache->banks; i++", "i < dcache->banks; i++"),
-    ("fast/time/grant.h", "tm->dcache.fills_end[bank] > t", "tm->dcache.fills_end[bank] > t + 1"),
+    ("fast/time/grant.h", "trax_first(rest))] > t ?", "trax_first(rest))] > t + 1 ?"),
     ("reference/data_cache.c", "filling ? -1 : ", "filling && !filling ? -1 : "),
     # --- One TP, one thread ---
     ("fast/time/alone.c", "used.data_banks |= (uint64_t)1 << (step >> TRAX_STEP_BANK_SHIFT & 63);", ";"),

@@ -1,5 +1,5 @@
-/* Banks of cycles in which few TPs are awake, one TP after the other: operations on all TPs of a TM would cost more.
-   Included by grant.h. */
+/* Banks that are granted one TP after the other, in cycles in which few TPs are awake: operations on all TPs of a TM
+   would cost more. Included by grant.h. */
 #ifndef TRAX_FAST_FEW_H
 #define TRAX_FAST_FEW_H
 
@@ -15,6 +15,11 @@ static inline bool are_few(uint64_t tps) {
 
 static inline unsigned step_of(const struct trax_tm *tm, unsigned tp) {
   return tm->heads.low[tp] | (unsigned)tm->heads.high[tp] << 8;
+}
+
+/* Returns the data bank of the head's step, or what stands in its place. */
+static inline unsigned bank_of(const struct trax_tm *tm, unsigned tp) {
+  return step_of(tm, tp) >> TRAX_STEP_BANK_SHIFT & 63;
 }
 
 /* Returns those of the TPs, which are some, whose steps are equal to the first one's in the bits of `mask`. */
@@ -51,7 +56,7 @@ static ALWAYS_INLINE uint64_t refuse_few_fetches(struct trax_tm *tm, uint64_t re
 static ALWAYS_INLINE uint64_t grant_few_banks(struct trax_tm *tm, uint64_t requesters) {
   uint64_t *const rr_masks = (uint64_t *)tm->data_bank_rr_masks, winners = 0;
   for (uint64_t rest = requesters, here; rest; rest &= ~here) {
-    uint64_t *const rr_mask = &rr_masks[step_of(tm, trax_first(rest)) >> TRAX_STEP_BANK_SHIFT & 63];
+    uint64_t *const rr_mask = &rr_masks[bank_of(tm, trax_first(rest))];
     here = like_first(tm, rest, 63 << TRAX_STEP_BANK_SHIFT);
     const uint64_t winner = win(here, *rr_mask);
     *rr_mask = -2 * winner;

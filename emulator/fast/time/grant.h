@@ -8,54 +8,30 @@ static inline unsigned count_bits(uint64_t mask) {
   return (unsigned)__builtin_popcountll(mask);
 }
 
-/* Grants the banks of the data cache and returns the winners; bit: the planes of the banks' numbers. */
-static ALWAYS_INLINE uint64_t grant_banks(struct trax_tm *tm, const bool wide, uint64_t requesters, uint64_t *bit) {
+/* Grants the banks of the data cache, of which there are at most two vectors, and returns the winners; bit: the planes
+   of the banks' numbers. */
+static ALWAYS_INLINE uint64_t grant_banks(struct trax_tm *tm, uint64_t requesters, const uint64_t *bit) {
   const trax_fast_lanes none = {0}, even = {~(uint64_t)0, 0, ~(uint64_t)0, 0},
                         lower = {~(uint64_t)0, ~(uint64_t)0, 0, 0};
   /* Lane i: the TPs whose bank number has i in its lowest two bits. */
   const trax_fast_lanes by_low_bits = ((none + bit[0]) ^ even) & ((none + bit[1]) ^ lower);
+  const trax_fast_lanes first = by_low_bits & (none + (requesters & ~bit[2]));
   trax_fast_lanes winner;
-  if (__builtin_expect(tm->dcache.banks <= 2 * TRAX_FAST_LANES, true)) {
-    const trax_fast_lanes first = by_low_bits & (none + (requesters & ~bit[2]));
-    TRAX_FAST_ARBITRATE(trax_fast_lanes, &tm->data_bank_rr_masks[0], first, &winner);
-    if (tm->dcache.banks > TRAX_FAST_LANES) {
-      const trax_fast_lanes second = by_low_bits & (none + (requesters & bit[2]));
-      trax_fast_lanes other;
-      TRAX_FAST_ARBITRATE(trax_fast_lanes, &tm->data_bank_rr_masks[1], second, &other);
-      winner |= other;
-    }
-  } else {
-    winner = none;
-    trax_fast_transpose(&tm->heads, wide, TRAX_STEP_BANK_SHIFT + 3, 1, bit + 3);
-    trax_fast_transpose(&tm->heads, wide, TRAX_STEP_BANK_SHIFT + 4, 2, bit + 4);
-    for (uint32_t first = 0; first < tm->dcache.banks; first += TRAX_FAST_LANES) {
-      uint64_t requesting = requesters;
-      for (uint32_t k = 2; k < TRAX_FAST_BANK_BITS; k++)
-        requesting &= first >> k & 1 ? bit[k] : ~bit[k];
-      const trax_fast_lanes four = by_low_bits & (none + requesting);
-      trax_fast_lanes other;
-      TRAX_FAST_ARBITRATE(trax_fast_lanes, &tm->data_bank_rr_masks[first / TRAX_FAST_LANES], four, &other);
-      winner |= other;
-    }
+  TRAX_FAST_ARBITRATE(trax_fast_lanes, &tm->data_bank_rr_masks[0], first, &winner);
+  if (tm->dcache.banks > TRAX_FAST_LANES) {
+    const trax_fast_lanes second = by_low_bits & (none + (requesters & bit[2]));
+    trax_fast_lanes other;
+    TRAX_FAST_ARBITRATE(trax_fast_lanes, &tm->data_bank_rr_masks[1], second, &other);
+    winner |= other;
   }
   return trax_fast_any(&winner);
 }
 
-/* Returns those of the TPs whose bank is being filled; the bits are planes of the banks' numbers. (Passed one by one,
-   since an array of them must not leave grant().) */
-static __attribute__((noinline)) uint64_t in_filling_banks(struct trax_tm *tm, uint64_t requesters, uint64_t bit0,
-                                                           uint64_t bit1, uint64_t bit2, uint64_t t) {
-  uint64_t bit[TRAX_FAST_BANK_BITS] = {bit0, bit1, bit2};
+/* Returns those of the TPs whose data bank is being filled. */
+static __attribute__((noinline)) uint64_t in_filling_banks(const struct trax_tm *tm, uint64_t requesters, uint64_t t) {
   uint64_t found = 0;
-  trax_fast_transpose(&tm->heads, tm->wide, TRAX_STEP_BANK_SHIFT + 3, 1, bit + 3);
-  trax_fast_transpose(&tm->heads, tm->wide, TRAX_STEP_BANK_SHIFT + 4, 2, bit + 4);
-  for (uint32_t bank = 0; bank < tm->dcache.banks; bank++)
-    if (tm->dcache.fills_end[bank] > t) {
-      uint64_t here = requesters;
-      for (uint32_t k = 0; k < TRAX_FAST_BANK_BITS; k++)
-        here &= bank >> k & 1 ? bit[k] : ~bit[k];
-      found |= here;
-    }
+  for (uint64_t rest = requesters; rest; rest &= rest - 1)
+    found |= tm->dcache.fills_end[bank_of(tm, trax_first(rest))] > t ? rest & -rest : 0;
   return found;
 }
 
@@ -135,16 +111,14 @@ static ALWAYS_INLINE trax_fast_pair grant_fp(struct trax_tm *tm, trax_fast_pair 
 
 _Static_assert(TRAX_SHARED_COUNT - TRAX_FAST_FURTHER <= 8, "three bits of a step say which of them");
 
-/* Grants the kinds of units that steps encode by a number; bit: the planes of that number. Returns the winners. */
-static ALWAYS_INLINE uint64_t grant_further(struct trax_tm *tm, struct trax_fast_refused *refused, uint64_t requesters,
-                                            const uint64_t *bit, uint64_t t) {
-  uint64_t granted = 0;
-#pragma GCC unroll 8
-  for (unsigned unit = TRAX_FAST_FURTHER; unit < TRAX_SHARED_COUNT; unit++) {
-    uint64_t here = requesters;
-    for (unsigned k = 0; k < 3; k++)
-      here &= (unit - TRAX_FAST_FURTHER) >> k & 1 ? bit[k] : ~bit[k];
-    granted |= here ^ (refused->unit[unit] = refuse_any(tm, unit, here, t));
+/* Grants the kinds of units that steps encode by a number in the place of a bank's. Returns the winners. */
+static __attribute__((noinline)) uint64_t grant_further(struct trax_tm *tm, struct trax_fast_refused *refused,
+                                                        uint64_t requesters, uint64_t t) {
+  uint64_t granted = requesters;
+  for (uint64_t rest = requesters, here; rest; rest &= ~here) {
+    const trax_shared unit = TRAX_FAST_FURTHER + bank_of(tm, trax_first(rest));
+    here = like_first(tm, rest, 63 << TRAX_STEP_BANK_SHIFT);
+    granted ^= refused->unit[unit] = refuse_any(tm, unit, here, t);
   }
   return granted;
 }
@@ -166,7 +140,7 @@ static ALWAYS_INLINE void sort_few(const struct trax_tm *tm, struct ready *ready
    `banks` those that request a data bank. */
 static ALWAYS_INLINE uint64_t grant(struct trax_tm *tm, const bool wide, const bool few,
                                     struct trax_fast_refused *refused, uint64_t *slow, uint64_t *banks, uint64_t t) {
-  uint64_t bit[TRAX_STEP_BANK_SHIFT + TRAX_FAST_BANK_BITS];
+  uint64_t bit[TRAX_STEP_BANK_SHIFT + 3];
   struct ready ready = {0};
   if (few) {
     sort_few(tm, &ready);
@@ -192,20 +166,17 @@ static ALWAYS_INLINE uint64_t grant(struct trax_tm *tm, const bool wide, const b
     granted |= requesters ^ (refused->unit[TRAX_SHARED_INT_MUL] = refuse_any(tm, TRAX_SHARED_INT_MUL, requesters, t));
   if ((requesters = OF(TRAX_STEP_SPECIAL)))
     granted |= requesters ^ (refused->unit[TRAX_SHARED_SPECIAL] = refuse_any(tm, TRAX_SHARED_SPECIAL, requesters, t));
-  const bool filling_any = __builtin_expect(tm->dcache.all_fills_end > t, false);
-  if (few && (filling_any || OF(TRAX_STEP_FURTHER)))
-    trax_fast_transpose(&tm->heads, true, TRAX_STEP_BANK_SHIFT, 3, bit + TRAX_STEP_BANK_SHIFT);
-  if ((unsigned)TRAX_SHARED_COUNT > TRAX_FAST_FURTHER && OF(TRAX_STEP_FURTHER))
-    granted |= grant_further(tm, refused, OF(TRAX_STEP_FURTHER), bit + TRAX_STEP_BANK_SHIFT, t);
+  if (OF(TRAX_STEP_FURTHER))
+    granted |= grant_further(tm, refused, OF(TRAX_STEP_FURTHER), t);
   uint64_t queue_requesters = OF(TRAX_STEP_QUEUE);
   *banks = requesters = OF(TRAX_STEP_BANK);
   if (requesters) {
     uint64_t hits = 0, filling = 0;
-    if (filling_any)
-      filling = in_filling_banks(tm, requesters, bit[TRAX_STEP_BANK_SHIFT], bit[TRAX_STEP_BANK_SHIFT + 1],
-                                 bit[TRAX_STEP_BANK_SHIFT + 2], t);
-    won = few ? grant_few_banks(tm, requesters & ~filling)
-              : grant_banks(tm, wide, requesters & ~filling, bit + TRAX_STEP_BANK_SHIFT);
+    if (__builtin_expect(tm->dcache.all_fills_end > t, false))
+      filling = in_filling_banks(tm, requesters, t);
+    won = few || __builtin_expect(tm->dcache.banks > 2 * TRAX_FAST_LANES, false)
+              ? grant_few_banks(tm, requesters & ~filling)
+              : grant_banks(tm, requesters & ~filling, bit + TRAX_STEP_BANK_SHIFT);
     refused->bank = requesters & ~won;
     if (!tm->serial_hits) /* else serve() handles them, as it does stores */
       hits = won & tm->load_hits & ~tm->executes_at_issue & ~(tm->storing & ready.slow);
