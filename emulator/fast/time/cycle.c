@@ -250,7 +250,7 @@ static void run_quantum(struct trax_tm *tm, uint64_t end) {
   unsigned prefetched = tm->chip->is_large ? 0 : tm->tps;
   while (tm->next_cycle < end && !tm->buffer->stop && !tm->fault.kind) {
     if (prefetched < tm->tps)
-      prefetch_tp(next, prefetched++, tm->epoch);
+      prefetch_tp(next, prefetched++);
     if (!trax_tm_has_one_awake(tm) || !trax_fast_run_alone(tm, tm->next_cycle, end))
       run_cycle(tm, tm->next_cycle);
   }

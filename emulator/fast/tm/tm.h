@@ -17,9 +17,9 @@
 
 struct trax_chip;
 
-/* Some of trax_fast_heads at the end of an epoch (time/prefetch.h). */
+/* Some of trax_fast_heads at the end of a quantum, a byte for each TP (time/prefetch.h). */
 struct trax_fast_outlook {
-  uint8_t at[TRAX_MAX_TPS_PER_TM], last[TRAX_MAX_TPS_PER_TM], load[TRAX_MAX_TPS_PER_TM];
+  uint64_t at[TRAX_MAX_TPS_PER_TM / 8], last[TRAX_MAX_TPS_PER_TM / 8], load[TRAX_MAX_TPS_PER_TM / 8];
 };
 
 /* A TP is awake; or it sleeps until a cycle (in the wheel), until an arrival (in `awaiting`, or in the list of an
@@ -98,9 +98,8 @@ struct trax_tm {
   uint64_t looked_up, single_hits, at_issue; /* fetches, hits and instructions that were slow */
   struct trax_fast_refusal_counts refusal_counts;
   struct trax_shared_unit unit[TRAX_SHARED_COUNT];
-  struct trax_fault fault;             /* of the current cycle, of the lowest TP with one */
-  struct trax_fast_outlook outlook[2]; /* [epoch % 2]: others read it in the next epoch */
-  unsigned epoch;                      /* number of epochs, of all TMs alike */
+  struct trax_fault fault;          /* of the current cycle, of the lowest TP with one */
+  struct trax_fast_outlook outlook; /* which other threads may read */
 };
 
 /* Charges sleeping TPs for the cycles before `t`, which are over. */
