@@ -139,8 +139,8 @@ def never_written():
     yield "", "word *p = block(8); p = realloc(p, 16); OPAQUE(p); if (p[1] == 1) sink = 1; free(p);", None
     yield "", "word *p = block(8); p = realloc(p, 16); OPAQUE(p); if (p[3] == 1) sink = 1; free(p);", BRANCH
     for index, finding in (("n - 1", None), ("n", OUTSIDE)):
-        yield "", (f"byte *p = malloc(20); OPAQUE(p); unsigned n = malloc_usable_size(p); fill(p, n); sink = p[{index}]; "
-                   "free(p);"), finding
+        yield "", ("byte *p = malloc(20); OPAQUE(p); unsigned n = malloc_usable_size(p); fill(p, n); "
+                   f"sink = p[{index}]; free(p);"), finding
 
 
 def leaks():
