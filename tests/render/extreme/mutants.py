@@ -73,9 +73,9 @@ def noticed(folder, build, mutant):
     make(folder, build)
     run = subprocess.run([folder / "render-extreme", "--program-directory", folder, "--case", mutant.case],
                          capture_output=True, text=True, timeout=600, check=False)
-    return sorted({
-        line.split(": ", 2)[2]
-        for line in run.stderr.splitlines() if line.startswith(("FAILED: ", "render-extreme: error: "))})
+    said = {line.split(": ", 2)[2]
+            for line in run.stderr.splitlines() if line.startswith(("FAILED: ", "render-extreme: error: "))}
+    return sorted(said) + ([f"ends by signal {-run.returncode}"] if run.returncode < 0 else [])
 
 
 if __name__ == "__main__":
