@@ -13,3 +13,8 @@ def changed_copy(folder, tests, mutant):
         shutil.rmtree(folder / part, ignore_errors=True)
         shutil.copytree(ROOT / part, folder / part)
     (folder / "raytracer/device" / mutant.file).write_text(mutant.changed(DEVICE))
+
+
+def first_in(folder):
+    """Options of a compiler that includes "layouts/..." from the copy."""
+    return "-iquote", folder / "raytracer"

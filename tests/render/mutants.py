@@ -12,7 +12,7 @@ import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 from mutation import ROOT, Mutant, compile_as, ended, link_as, main  # noqa: E402
-from device_copy import DEVICE, changed_copy  # noqa: E402
+from device_copy import DEVICE, changed_copy, first_in  # noqa: E402
 
 COMPILED = "tests/render/CMakeFiles/render-light-test.dir/light_test.c.o"
 TESTS = [("render-light-test", "tests/render/light_test.c", []),
@@ -90,7 +90,7 @@ def noticed(folder, build, mutant):
     for test, program, macros in TESTS:
         made = folder / f"{test}.o"
         compile_as(build, COMPILED, ROOT / "tests/render/light_test.c", folder / program, made, *macros,
-                   "-ffp-contract=off", "-fcommon", "-O1")  # the twin takes long to optimise
+                   *first_in(folder), "-ffp-contract=off", "-fcommon", "-O1")  # the twin takes long to optimise
         link_as(build, f"tests/bin/{test}", folder / test, [made], without=["light_test.c.o"])
         failed += failures(folder / test)
     return failed

@@ -15,7 +15,7 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = map(str, (HERE.parent, HERE.parents[1]))
-from device_copy import DEVICE, changed_copy  # noqa: E402
+from device_copy import DEVICE, changed_copy, first_in  # noqa: E402
 from mutation import ROOT, Mutant, command, compile_as, main  # noqa: E402
 
 TESTS = "tests/render/extreme"
@@ -54,14 +54,15 @@ def make(folder, build):
     """Compiles the query programs and the suite with them."""
     query = TESTS + "/query.c"
     for program in (build / "lib/trax").glob("query-*.elf"):
-        compile_as(build, f"lib/trax/{program.name}", ROOT / query, folder / query, folder / program.name)
+        compile_as(build, f"lib/trax/{program.name}", ROOT / query, folder / query, folder / program.name,
+                   *first_in(folder))
     for program in ("trax-raytracer.elf", "trax-raytracer-exact.elf"):
         shutil.copy(build / "lib/trax" / program, folder)
     link = command(build, "tests/bin/render-extreme")
     for i, word in enumerate(link):
         if word.endswith("/query.c.o"):
             link[i] = folder / f"{i}.o"
-            compile_as(build, word, ROOT / query, folder / query, link[i])
+            compile_as(build, word, ROOT / query, folder / query, link[i], *first_in(folder))
     link[link.index("-o") + 1] = folder / "render-extreme"
     subprocess.run(link, check=True, cwd=build)
 
@@ -72,9 +73,9 @@ def noticed(folder, build, mutant):
     make(folder, build)
     run = subprocess.run([folder / "render-extreme", "--program-directory", folder, "--case", mutant.case],
                          capture_output=True, text=True, timeout=600, check=False)
-    return sorted({
-        line.split(": ", 2)[2]
-        for line in run.stderr.splitlines() if line.startswith(("FAILED: ", "render-extreme: error: "))})
+    said = {line.split(": ", 2)[2]
+            for line in run.stderr.splitlines() if line.startswith(("FAILED: ", "render-extreme: error: "))}
+    return sorted(said) + ([f"ends by signal {-run.returncode}"] if run.returncode < 0 else [])
 
 
 if __name__ == "__main__":
