@@ -85,11 +85,12 @@ static void offer_start_work(ld_context *ctx) {
     ld_symbols_offer(ctx, "__trax_end_program");
 }
 
-static const ld_object *last_with_stack(const ld_context *ctx, uint32_t stack) {
-  for (size_t i = ctx->objects.count; i > 0; i--)
-    if (ctx->objects.items[i - 1]->stack == stack)
-      return ctx->objects.items[i - 1];
-  return NULL;
+/* The last object for the program's stack. There is one. */
+static const char *last_with_stack(const ld_context *ctx) {
+  size_t i = ctx->objects.count - 1;
+  while (ctx->objects.items[i]->stack != ctx->stack)
+    i--;
+  return ctx->objects.items[i]->name;
 }
 
 /* Code for a stack in local memory takes automatic objects for the thread's own, and loses what other threads do to
@@ -103,13 +104,13 @@ static void check_stacks(ld_context *ctx) {
       ctx->stack = object->stack;
     if (object->stack && object->stack != ctx->stack)
       ld_error(ctx, "%s: is for stacks in %s, %s for stacks in %s: compile and link both with the same -mstack",
-               object->name, places[object->stack], last_with_stack(ctx, ctx->stack)->name, places[ctx->stack]);
+               object->name, places[object->stack], last_with_stack(ctx), places[ctx->stack]);
   }
   const ld_symbol *size = ld_symbol_find(ctx, "__trax_stack_size");
   const bool is_global = size && size->kind != LD_UNDEFINED && size->kind != LD_LAZY;
   if (ctx->error_count == errors && ctx->stack && is_global != (ctx->stack == TRAX_EF_STACK_GLOBAL))
     ld_error(ctx, "%s: is for stacks in %s, but __trax_stack_size is %s: compile and link with the same -mstack",
-             last_with_stack(ctx, ctx->stack)->name, places[ctx->stack], is_global ? "defined" : "not defined");
+             last_with_stack(ctx), places[ctx->stack], is_global ? "defined" : "not defined");
 }
 
 bool ld_load_inputs(ld_context *ctx) {
