@@ -84,12 +84,13 @@ static void record_refused(struct bench *bench, const struct trax_stretch *stret
   const struct trax_config *config = &bench->machine->config;
   const trax_shared unit = trax_op_table[op].access_bytes ? TRAX_SHARED_NONE : trax_timing_of(op, config).unit;
   const uint64_t *until = &told(bench, stretch->tm, stretch->tp)->until;
-  if (stretch->refused[at] & 0xFF)
-    record_charge(bench, stretch->tm, stretch->tp, TRAX_CAUSE_ICACHE_BANK, 0, *until, stretch->refused[at] & 0xFF);
-  if (stretch->refused[at] >> 8)
+  const unsigned fetch = trax_refused_fetch(stretch->refused[at]), others = trax_refused_others(stretch->refused[at]);
+  if (fetch)
+    record_charge(bench, stretch->tm, stretch->tp, TRAX_CAUSE_ICACHE_BANK, 0, *until, fetch);
+  if (others)
     record_charge(bench, stretch->tm, stretch->tp,
                   unit == TRAX_SHARED_NONE ? TRAX_CAUSE_DCACHE_BANK : trax_shared_kind(unit, config).refused, 0, *until,
-                  stretch->refused[at] >> 8);
+                  others);
 }
 
 static pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER; /* threads of the host record at the same time */
