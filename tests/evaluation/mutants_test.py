@@ -102,8 +102,8 @@ def test_commands(folder, inside, scratch):
     (scratch / "meshes/triangle.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
     small = [{"name": "y", "meshes": [str(scratch / "meshes/triangle.obj")], "view": "forest"}]
     cheap = {key: value for key, value in GOOD.items() if key not in ("workloads", "ray_kinds", "series", "set")}
-    good.write_text(
-        json.dumps(cheap | {"scenes": small, "y": "configuration.chip", "y_per": "status", "x": "configuration"}))
+    words = {"y": "configuration.memory.model", "y_per": "status", "x": "memory.model"}
+    good.write_text(json.dumps(cheap | {"scenes": small} | words))
     deep.write_text('{"name":' + "[" * 200000)
     (scratch / "binary.json").write_bytes(bytes(range(256)) * 64)
     (scratch / "zero.json").symlink_to("/dev/zero")

@@ -466,9 +466,11 @@ MUTANTS = [
     # What was loaded ahead and is written or incremented is loaded again.
     ("fast/merge.c", "if (merge->undo[i].writer != BY_CONTROLLER && trax_fast_is_loaded(",
      "if (merge->undo[i].writer == BY_SEVERAL && trax_fast_is_loaded("),
-    ("fast/merge.c", "    if (trax_fast_is_loaded(&merge->chip->blocks, merge->increments[i]))\n      return false;\n", ""),
+    ("fast/merge.c",
+     "    if (trax_fast_is_loaded(&merge->chip->blocks, merge->increments[i]))\n      return false;\n", ""),
     # A block from which bursts have loaded is not shared without their going back.
-    ("fast/function/blocks.h", "  if (!trax_fast_is_loaded(blocks, address))\n    __atomic_store_n", "  __atomic_store_n"),
+    ("fast/function/blocks.h",
+     "  if (!trax_fast_is_loaded(blocks, address))\n    __atomic_store_n", "  __atomic_store_n"),
     # Stores of a cycle in the TMs' order.
     ("fast/merge.c", "const uint32_t tm = trax_first(rest);\n    struct trax_store_buffer_side *buffer",
      "const uint32_t first = trax_first(rest);\n"
@@ -496,7 +498,8 @@ MUTANTS = [
     # Stores take effect at its end, and are seen by their TM before, also in later quanta.
     ("fast/merge.c", "&word, sizeof word);\n    trax_fast_set", "&word, 1);\n    trax_fast_set"),
     ("fast/store_buffer.c", "  buffer->side = &buffer->sides[side];",
-     "  trax_map_empty(&buffer->words, sizeof(struct trax_store_buffer_word));\n  buffer->side = &buffer->sides[side];"),
+     "  trax_map_empty(&buffer->lines, sizeof(struct trax_store_buffer_line));\n"
+     "  buffer->side = &buffer->sides[side];"),
     # Reads of all quanta count.
     ("fast/store_buffer.c", "  buffer->side = &buffer->sides[side];",
      "  buffer->read_count = 0;\n  buffer->side = &buffer->sides[side];"),
