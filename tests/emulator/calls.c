@@ -6,6 +6,7 @@ struct trax_buffer results;
 unsigned next[2]; /* two queues, of the even and of the odd items; a TM begins with its own */
 volatile float divisor = 3;
 volatile unsigned table[256];
+_Alignas(64) volatile unsigned even[64], odd[64];
 
 __attribute__((noinline)) unsigned leaf(unsigned x) {
   return x * 2654435761u ^ x >> 7;
@@ -25,6 +26,11 @@ __attribute__((noinline)) unsigned tail(unsigned x) {
 
 __attribute__((noinline)) unsigned recursive(unsigned depth) {
   return depth ? leaf(recursive(depth - 1)) + depth : 0;
+}
+
+/* One load, of two objects by turns. */
+__attribute__((noinline)) unsigned alternate(unsigned x) {
+  return (x & 1 ? odd : even)[x >> 1 & 63] + 1;
 }
 
 __attribute__((noinline)) unsigned divide(unsigned x) {
@@ -51,6 +57,7 @@ int main(void) {
   for (unsigned tried = 0; tried < 2; tried++, queue ^= 1)
     while ((slot = 2 * trax_atomic_inc(&next[queue]) + queue) < results.size / 4) {
       unsigned value = tail(slot) + recursive(slot & 3) + catcher(slot) + pointer(slot);
+      value += alternate(value);
       table[slot & 255] = value;
       trax_store_nt(&out[slot], value);
       trax_count_items(1);

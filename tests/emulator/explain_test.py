@@ -141,9 +141,10 @@ def check_folded(directory, stats):
     equal({stack for stack in stacks if "recursive" not in stack},
           {"_start", "_start;main", "_start;main;trax_tm", "_start;main;trax_atomic_inc", "_start;main;trax_store_nt",
            "_start;main;trax_count_items", "_start;main;tail", "_start;main;last",  # by a tail call: main called it
-           "_start;main;last;leaf", "_start;main;last;inlined", "_start;main;divide", "_start;main;catcher",
-           "_start;main;catcher;setjmp", "_start;main;catcher;thrower", "_start;main;catcher;thrower;leaf",
-           "_start;main;catcher;thrower;longjmp", "_start;main;catcher;leaf",  # after the longjmp
+           "_start;main;last;leaf", "_start;main;last;inlined", "_start;main;divide", "_start;main;alternate",
+           "_start;main;catcher", "_start;main;catcher;setjmp", "_start;main;catcher;thrower",
+           "_start;main;catcher;thrower;leaf", "_start;main;catcher;thrower;longjmp",
+           "_start;main;catcher;leaf",  # after the longjmp
            "(halted)"}, "stacks")
 
 
@@ -193,9 +194,15 @@ def check_heat(directory, stats):
     total, lines, local = collections.Counter(), collections.Counter(), collections.Counter()
     for row in rows(directory, "heat"):
         (local if row["object"] == "(local memory)" else total).update(numbers(row, columns))
+    loads_by_line = collections.Counter()
     for row in rows(directory, "heat-lines"):
         lines.update(numbers(row, columns))
+        loads_by_line[row["object"]] += int(row["loads"])
     equal(+lines, +total, "heat by line and by object")
+    loads = {row["object"]: int(row["loads"]) for row in rows(directory, "heat")}
+    for name in "even", "odd":  # which have lines of their own
+        check(loads[name] > RESULTS / 4, name, "is hardly loaded")
+        equal(loads[name], loads_by_line[name], "loads of", name, "by line and by object")
     equal([total["hits"], total["misses"], total["merged"], total["atomics"], total["combined"]],
           [figure(stats, name) for name in
            ("dcache.hits", "dcache.misses", "dcache.merged", "atomics", "stores.combined")], "heat")
@@ -326,6 +333,13 @@ def main():
             "special.latency_cycles=40", files=["profile", "waits"])
     for name in "profile", "waits":
         equal(read(directory / "busy-fast", name), read(directory / "busy-reference", name), "a busy unit:", name)
+    # A hit is waited for, too, if it takes several cycles: by the instruction that uses it.
+    for engine in "reference", "fast":
+        run(directory / f"hits-{engine}", engine, *machine, "--set", "dcache.hit_latency_cycles=3", files=["waits"])
+        hits = {(row["function"], row["object"]) for row in rows(directory / f"hits-{engine}", "waits")
+                if row["wait_dcache_hit"] != "0"}
+        check({("alternate", "even"), ("alternate", "odd"), ("divide", "divisor")} <= hits, "waits for hits:", hits)
+        check(all(function in ("alternate", "divide", "inlined") for function, _ in hits), "waits for hits:", hits)
     run(directory / "plain", "fast", *machine, files=[])
     stats = json.loads(read(directory / "fast", "stats.json"))
     plain = json.loads(read(directory / "plain", "stats.json"))
