@@ -152,7 +152,8 @@ MUTANTS = [
     ("fast/time/grant.h", "tm->load_hits & ~tm->executes_at_issue & ~", "tm->load_hits & ~"),
     ("fast/time/grant.h", " & ~(tm->storing & ready.slow);", ";"),
     # Few TPs are awake: banks one after the other.
-    ("fast/time/few.h", "requesters & rr_mask ? requesters & rr_mask : requesters;", "requesters;"),
+    ("fast/time/few.h", "requesters & rr_mask ? requesters & rr_mask : requesters;",
+     "requesters & (rr_mask | requesters);"),
     ("fast/time/few.h", "losers |= here ^ winner;", "(void)here;"),
     ("fast/time/few.h", "*rr_mask = (uint16_t)(-2 * winner >> cache);", "(void)cache;"),
     ("fast/time/few.h", "*rr_mask = -2 * winner;", "(void)rr_mask;"),
