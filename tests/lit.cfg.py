@@ -33,7 +33,7 @@ config.environment["PATH"] = os.pathsep.join([config.trax_bin, config.llvm_bin, 
 config.environment["LC_ALL"] = "C"
 # lit's own "not" takes a crash for a failure: what FileCheck reads shows none.
 config.environment["FILECHECK_OPTS"] = "--implicit-check-not=Stack{{.}}dump:"
-# What sanitizer builds report goes through the exit status; leaks of a compiler that is about to exit are intended.
+# Reports of sanitizer builds set the exit status; leaks of a compiler that is about to exit are intended.
 for variable in ("ASAN_OPTIONS", "UBSAN_OPTIONS", "LSAN_OPTIONS", "TRAX_LEVELS"):
     if variable in os.environ:
         config.environment[variable] = os.environ[variable]

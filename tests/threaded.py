@@ -6,7 +6,7 @@ import shlex
 import sys
 
 C = os.path.join(os.path.dirname(os.path.abspath(__file__)), "c")
-# What a program for several threads contains; these have one, and on a machine of more print what each of them does.
+# Marks of a program for several threads; the others run on one, and each thread of a larger machine prints the same.
 SHARES = r"trax_thread|trax_atomic_inc|\b_Atomic\b|<stdatomic\.h>|<atomic>|<mutex>|<thread>|__atomic_"
 OF_ONE_THREAD = {"atomic_single.c", "cxx_library.cpp", "machine_operations.c"}
 

@@ -20,7 +20,7 @@ trax_status trax_compare(char **arguments, trax_error *error) {
   return trax_fail(error, "%s cannot be started: %s (it needs Python 3)", slash ? path : "trax-eval", strerror(errno));
 }
 
-/* What the child said, without the end of its last line. */
+/* Reads the child's message, without the end of its last line. */
 static void read_text(FILE *said, char *text, size_t size) {
   rewind(said);
   text[fread(text, 1, size - 1, said)] = 0;

@@ -128,8 +128,8 @@ int trax_folder_remove(struct trax_calls *calls, const struct trax_place *place)
 
 /* --- list.c --- */
 
-/* What the program finds in the folder at a place, in the order of the names' bytes: for each name its kind (f: a file,
-   d: a folder, l: a link, o: another), the name and a NUL; from malloc. */
+/* Lists the folder at a place as the program sees it, in the order of the names' bytes: for each name its kind (f: a
+   file, d: a folder, l: a link, o: another), the name and a NUL. *names is from malloc. */
 int trax_folder_list(struct trax_calls *calls, const struct trax_place *place, char **names, size_t *size);
 
 /* --- commit.c --- */
@@ -168,7 +168,7 @@ enum trax_opened_kind {
   TRAX_OPENED_FOLDER
 };
 
-/* What descriptors refer to: a file, a folder, a standard stream, or nothing (/dev/null). */
+/* The object of one or more descriptors: a file, a folder, a standard stream, or nothing (/dev/null). */
 struct trax_opened {
   enum trax_opened_kind kind;
   uint32_t flags;
@@ -192,7 +192,7 @@ struct trax_calls {
   bool used;     /* a call has been made */
 };
 
-/* What the descriptor refers to; NULL: it is not in use. */
+/* Returns the descriptor's object; NULL: the descriptor is not in use. */
 struct trax_opened *trax_descriptor_find(struct trax_calls *calls, uint32_t number);
 /* The lowest free descriptor from `number` on. */
 uint32_t trax_descriptor_free(const struct trax_calls *calls, uint32_t number);

@@ -180,7 +180,7 @@ static int32_t put_host_stat(struct trax_calls *calls, const struct trax_host_ca
                   trax_file_number(calls, place));
 }
 
-/* Of what the host has at the place. */
+/* Writes the stat of the host's file at the place. */
 static int32_t put_place_stat(struct trax_calls *calls, const struct trax_host_call *call,
                               const struct trax_place *place) {
   struct stat status;
@@ -192,7 +192,7 @@ static int32_t put_place_stat(struct trax_calls *calls, const struct trax_host_c
   return put_host_stat(calls, call, place, &status);
 }
 
-/* Of an open folder. */
+/* Writes the stat of an open folder. */
 static int32_t put_folder_stat(struct trax_calls *calls, const struct trax_host_call *call,
                                struct trax_folder *folder) {
   const struct trax_place place = {.folder = folder, .last = TRAX_LAST_HERE, .name = "."};

@@ -118,7 +118,7 @@ static void go_back(void *context) {
   trax_passages_go_back(explain->passages);
 }
 
-/* What the thread was charged after its last instruction. */
+/* Adds the charges of the thread after its last instruction. */
 static void end_passages(struct trax_explain *explain, uint32_t thread) {
   struct trax_thread_log *log = &explain->observer.logs[thread];
   struct trax_open_thread *open = &explain->open_threads[thread];

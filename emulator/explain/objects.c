@@ -22,7 +22,7 @@ static bool add(struct trax_objects *objects, const char *name, uint64_t begin, 
   return true;
 }
 
-/* Of overlapping objects, the first keeps the bytes. */
+/* The first of overlapping objects keeps the bytes. */
 static void sort(struct trax_objects *objects) {
   size_t kept = 0;
   if (objects->count) /* qsort's array is not to be NULL */

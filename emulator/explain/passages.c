@@ -24,7 +24,7 @@ enum {
   MUCH = 4096, /* new in the logs, after which few are read at once */
 };
 
-/* What a TM has added. */
+/* The additions of a TM. */
 struct log {
   _Alignas(64) uint8_t *bytes;
   size_t capacity;

@@ -19,8 +19,8 @@ struct trax_passages *trax_passages_create(struct trax_explain *explain);
 /* Reads with so many threads of the host from now on. The readers are open. False: out of memory. */
 bool trax_passages_start(struct trax_passages *passages, unsigned threads);
 void trax_passages_add(struct trax_passages *passages, const struct trax_stretch *stretch, struct trax_thread_log *log);
-/* What has been added stays; it may be read at once. holds: what will be added from now on is not read before the next
-   call, and goes away with trax_passages_go_back. */
+/* Keeps all additions so far; they may be read at once. holds: later additions are not read before the next call, and
+   trax_passages_go_back removes them. */
 void trax_passages_keep(struct trax_passages *passages, bool holds);
 /* Reads all that has been added; it is not held. */
 void trax_passages_finish(struct trax_passages *passages);

@@ -42,7 +42,7 @@ bool trax_pixel_rays_add(struct trax_pixel_rays *rays, uint32_t place, unsigned 
   return true;
 }
 
-/* Those of the stories, in place of too many. */
+/* Replaces too many rays by those of the stories. */
 static bool take_stories(struct trax_pixel_rays *rays, struct trax_stories *stories) {
   size_t count;
   const struct trax_story *story = trax_stories_sorted(stories, &count);

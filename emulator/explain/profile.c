@@ -30,8 +30,8 @@ struct trax_profile_thread {
   size_t depth, capacity;
 };
 
-/* What the limit of records leaves out must not depend on the engine's stretches, so they are single before. Calls come
-   in the order of the chip's issues in any case. */
+/* The records that the limit leaves out must not depend on the engine's stretches, so stretches are single before it is
+   reached. Calls come in the order of the chip's issues in any case. */
 _Static_assert(MAX_RECORDS / 2 > TRAX_PASSAGES_FEW, "stretches become single before the limit is reached");
 
 /* Returns the record of an instruction in a context; UINT32_MAX: out of memory. */

@@ -134,8 +134,8 @@ TRAX_READERS(DECLARE)
 enum { TRAX_READER_KINDS = 0 TRAX_READERS(COUNT) };
 #undef COUNT
 
-/* Of a thread: its cycles by cause at the begin of the run; its cycles so far, if the engine tells of each issue; where
-   its passages go on. */
+/* A thread's cycles by cause at the begin of the run; its cycles so far, if the engine tells of each issue; the place
+   where its passages go on. */
 struct trax_open_thread {
   uint64_t begin_cycles[TRAX_CAUSE_COUNT], cycles[TRAX_CAUSE_COUNT];
   uint32_t end_pc;

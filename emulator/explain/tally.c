@@ -22,7 +22,7 @@ struct accesses {
   uint32_t others;       /* those of the instruction's refusals that belong to earlier regions */
 };
 
-/* Of a call chain and a kind of ray. All are [places + BEHIND]. */
+/* Counts of a call chain and a kind of ray. All are [places + BEHIND]. */
 struct slot {
   uint32_t *executed;       /* as differences */
   uint32_t *fetch, *others; /* refusals (trax_stretch.refused) */

@@ -21,7 +21,7 @@ enum {
 
 enum { SLOW_ACCESS = TRAX_NUM_REGISTERS };
 
-/* What a thread's register is waited for. */
+/* The instruction that a thread's register waits for. */
 struct writer {
   uint32_t index, address;
   bool accesses;
@@ -79,7 +79,7 @@ static void add(struct waits *waits, const struct writer *awaited, uint32_t wait
     record->cycles[column] += cycles;
 }
 
-/* What the instructions before `end` of a passage have written. */
+/* The registers that the instructions before `end` of a passage have written. */
 struct written {
   const struct trax_piece *piece;
   const struct trax_accessed *accessed, *accessed_end;

@@ -22,7 +22,7 @@ enum {
   TRAX_REQUEST = 16   /* in the memory queue, at the place `address` */
 };
 
-/* Of a quantum. */
+/* The stores of a quantum. */
 struct trax_store_buffer_side {
   struct trax_store_buffer_entry *entries; /* [count], in the order of issue */
   size_t count, capacity, done;            /* done: those that have been merged */

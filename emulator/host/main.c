@@ -239,7 +239,7 @@ static void note(const char *text) {
   trax_message("trax-sim", TRAX_MESSAGE_NOTE, "%s", text);
 }
 
-/* What a run took and wrote, in a line on a terminal. */
+/* Prints the run's cycles, its time and the files that it wrote, in a line on a terminal. */
 static void print_summary(const trax_machine *machine, const struct trax_options *options) {
   const struct trax_stats *stats = &machine->stats;
   if (options->quiet || !isatty(STDERR_FILENO))

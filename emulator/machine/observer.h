@@ -70,7 +70,7 @@ struct trax_charged {
 enum { TRAX_MOST_CHARGED = (1 << 14) - 1 /* cycles */ };
 _Static_assert(TRAX_CAUSE_COUNT <= 32 && TRAX_NUM_REGISTERS <= 32, "the bits of a charge suffice");
 
-/* Of global memory. */
+/* An access to global memory. */
 struct trax_accessed {
   uint32_t address;
   uint8_t at, outcome;
@@ -85,8 +85,8 @@ static inline unsigned trax_refused_others(uint8_t refused) {
   return refused >> TRAX_REFUSED_SHIFT;
 }
 
-/* What a TP was charged since its latest stretch, except for what trax_stretch.refused has: the observer's memory, to
-   which the engine adds. The observer takes out what belongs to a stretch, and subtracts the stretch's instructions
+/* A TP's charges since its latest stretch, except for those in trax_stretch.refused: the observer's memory, to which
+   the engine adds. The observer removes the charges that belong to a stretch, and subtracts the stretch's instructions
    from the others' `at`. */
 struct trax_thread_log {
   struct trax_charged *charged; /* [charged_count] */
@@ -104,7 +104,7 @@ struct trax_stretch {
   /* [count], or NULL: cycles in which the instruction was refused the bank of the instruction cache, and then its unit
      or its bank of the data cache, as trax_refused_.... They follow the charges of the log. */
   const uint8_t *refused;
-  /* Of a trap, [TRAX_CAUSE_COUNT]: what the thread was charged since the begin of the run, the trap included, as in
+  /* After a trap, [TRAX_CAUSE_COUNT]: the thread's charges since the begin of the run, the trap included, as in
      trax_tp_stats; else NULL. */
   const uint64_t *cycles;
   uint32_t next_pc; /* of the last instruction */

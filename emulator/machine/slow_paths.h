@@ -1,4 +1,4 @@
-/* What made a run slower on the host than others are, as its engine reports it. No result depends on it. */
+/* Properties of a run that made it slow on the host, as its engine reports them. No result depends on them. */
 #ifndef TRAX_MACHINE_SLOW_PATHS_H
 #define TRAX_MACHINE_SLOW_PATHS_H
 

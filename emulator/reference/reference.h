@@ -184,7 +184,7 @@ static inline bool trax_ref_accesses_local(const struct trax_ref_tp *tp) {
   return trax_ref_accesses_memory(tp) && tp->address >= TRAX_LOCAL_BASE && !trax_ref_is(tp, TRAX_IS_ATOMIC);
 }
 
-/* Of an instruction that does not access memory. */
+/* The timing of an instruction that does not access memory. */
 static inline const struct trax_timing *trax_ref_timing(const struct trax_ref_tm *tm, const struct trax_ref_tp *tp) {
   return &tm->timing[tp->inst.op];
 }

@@ -23,7 +23,7 @@ void trax_slot_counts_destroy(struct trax_slot_counts *counts);
 /* Reads the counters in cycle t. The following calls add the difference to them. */
 void trax_slot_counts_begin(struct trax_slot_counts *counts, uint64_t t);
 void trax_slot_counts_add_exact(struct trax_slot_counts *counts, uint64_t t);
-/* Of a unit of the expected cost `size` that was drawn `draws` times. */
+/* Adds a unit of the expected cost `size` that was drawn `draws` times. */
 void trax_slot_counts_add_unit(struct trax_slot_counts *counts, size_t draws, double size, uint64_t t);
 /* Sets the machine's statistics, but for the cycles, which are set already, to the estimates. */
 void trax_slot_counts_estimate(struct trax_slot_counts *counts, const trax_slot_sampling *asked);

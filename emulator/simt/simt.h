@@ -51,7 +51,7 @@ struct trax_simt_warp {
   uint64_t slept_from; /* asleep: the first cycle for which the lanes of its group are not charged */
 };
 
-/* What a warp keeps of its latest fetches. */
+/* A warp's memory of its latest fetches. */
 struct trax_simt_fetched {
   struct trax_simt_inst inst; /* its instruction, if that is not in the first segment */
   uint32_t line;              /* the latest line that was found in the cache */
@@ -73,7 +73,7 @@ struct trax_simt_tm {
   struct trax_simt_warp warp[MOST];
   struct trax_simt_fetched fetched[MOST]; /* by warp */
   struct trax_simt_lane lane[MOST];
-  /* Of lanes, for Choice: */
+  /* Lanes, for Choice: */
   uint64_t place[MOST];       /* TRAX_SIMT_SURFACE less its depth, then its pc: the least goes first */
   uint64_t last_issued[MOST]; /* `issued` of its warp when it issued last */
   uint64_t lost_bank;         /* lanes that have asked a bank of the instruction cache in vain in this cycle */

@@ -1,7 +1,7 @@
 /* Warps that wait are not visited in every cycle. */
 #include "simt/simt.h"
 
-/* What the lane is charged for while its warp sleeps. */
+/* The cause to which the lane is charged while its warp sleeps. */
 static trax_cause cause_of(const struct trax_simt_tm *tm, const struct trax_simt_warp *warp, uint32_t lane) {
   if (!warp->left)
     return TRAX_CAUSE_ICACHE_MISS;

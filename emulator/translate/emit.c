@@ -4,8 +4,8 @@
 
 enum { RAX, RCX, RDX, RBX, RSP, RBP, RSI, RDI, R8, R9, R10, R11, R12, R13, R14, R15 };
 
-/* Those that the templates' calling convention keeps, but rbx, the state, and r15, the instructions left. With bursts,
-   r14 points to the trax_burst, and r15 is the number of its steps so far. */
+/* Registers that the templates' calling convention keeps, except for rbx, the state, and r15, the instructions left.
+   With bursts, r14 points to the trax_burst, and r15 is the number of its steps so far. */
 static const uint8_t kept[2][10] = {{RBP, RSI, RDI, R12, R13, R14}, {6, 7, 8, 9, 10, 11, 12, 13, 14, 15}};
 static const unsigned kept_count[2] = {6, 10};
 

@@ -13,7 +13,7 @@ BENCH = Path(__file__).resolve().parent
 ROOT = BENCH.parent.parent
 SECONDS = 600
 
-# What the library's square roots start from where there is no reciprocal square root: single precision suffices.
+# The start of the library's square roots where there is no reciprocal square root: single precision suffices.
 LIBRARY_SQRT = "-D__builtin_sqrt(x)=__builtin_sqrtf((float)(x))"
 COMMON = ["-std=c17", "-fno-math-errno", "-Wall", "-Wextra", "-Werror", "-I", str(ROOT / "raytracer/device"), "-I",
           str(ROOT / "raytracer/include"), "-I", str(ROOT / "raytracer"), "-I", str(ROOT / "isa/include")]

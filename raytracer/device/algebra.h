@@ -59,7 +59,7 @@ static inline float root(float square) {
   return float_bits(square) < float_bits(0x1p-80f) ? 0 : square * trax_rsqrt(square);
 }
 
-/* Of unit length; v must be longer than 2^-40. */
+/* v scaled to unit length; v must be longer than 2^-40. */
 static inline struct vector unit(struct vector v) {
   return times(trax_rsqrt(dot(v, v)), v);
 }

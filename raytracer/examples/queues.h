@@ -21,7 +21,7 @@ static inline bool slot_pixel(const struct trax_render_params *frame, unsigned s
   return *x < frame->width && *y < frame->height;
 }
 
-/* Of N queues, queue q has the tiles q, q + N, q + 2 N and so on. */
+/* Queue q of N has the tiles q, q + N, q + 2 N and so on. */
 static inline unsigned take_slot(const struct trax_render_params *frame, unsigned queue) {
   unsigned tile_bits = 2 * frame->tile_log2_side, number = trax_atomic_inc(&taken[queue]);
   return ((number >> tile_bits) * QUEUES + queue) << tile_bits | (number & ((1u << tile_bits) - 1));

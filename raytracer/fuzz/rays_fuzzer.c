@@ -16,7 +16,7 @@ static size_t file_size;
 
 trax_status __wrap_trax_read_file(const char *path, size_t limit, uint8_t **bytes, size_t *size, trax_error *error);
 
-/* Of exactly the file's bytes, so that a sanitizer sees reads beyond them. */
+/* Allocates exactly the file's bytes, so that a sanitizer sees reads beyond them. */
 trax_status __wrap_trax_read_file(const char *path, size_t limit, uint8_t **bytes, size_t *size, trax_error *error) {
   if (file_size > limit)
     return trax_fail(error, "%s: too large", path);

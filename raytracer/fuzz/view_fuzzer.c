@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of libconfig's own: the text of a string that never ends. */
+/* libconfig's own leak: the text of a string that never ends. */
 const char *__lsan_default_suppressions(void);
 const char *__lsan_default_suppressions(void) {
   return "leak:libconfig";

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Otherwise a cause (trax_stats_cause); instructions are the cycles issued. */
+/* Any other cost is a cause (trax_stats_cause); instructions are the cycles issued. */
 enum { COST_ISSUED, COST_CYCLES = 1 << 16 };
 
 trax_status trax_cost_find(const char *name, unsigned *what, trax_error *error) {

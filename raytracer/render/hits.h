@@ -9,8 +9,8 @@ struct trax_hits {
   uint32_t *triangles; /* numbers in the scene file, TRAX_NO_TRIANGLE: none; row by row from the top left */
 };
 
-/* By the device program compiled for the host, which records its hits (trax/record.h); twin.c. Holes are surfaces
-   unless run->holes. */
+/* Finds hits by the device program compiled for the host, which records them (trax/record.h); twin.c. Holes are
+   surfaces unless run->holes. */
 trax_status trax_hits_native(struct trax_hits *hits, const struct trax_frame *frame, unsigned threads,
                              struct trax_render_run *run, trax_error *error);
 /* Finds hits by Embree in robust mode; embree.c. */

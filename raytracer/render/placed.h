@@ -19,7 +19,8 @@ void trax_place(struct placed_triangle *out, const struct trax_scene *scene, uin
 /* Its normals, in the scene; of any length. */
 void trax_place_normals(double out[3][3], const struct trax_scene *scene, const struct placed_triangle *triangle);
 
-/* From places in the file, in bytes; TRAX_NO_TRIANGLE if no triangle is there. */
+/* The number of a triangle, which like its instance is given by its place in the file, in bytes; TRAX_NO_TRIANGLE if no
+   triangle is there. */
 uint32_t trax_number_of_hit(const struct trax_scene *scene, uint32_t triangle, uint32_t instance);
 /* The number among those that were imported; with instances, if all are flattened. */
 uint32_t trax_source_of(const struct trax_scene *scene, uint32_t number);

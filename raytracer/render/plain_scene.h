@@ -6,7 +6,7 @@
 
 #include "render.h"
 
-/* To those of the arrays' buffers that the machine's program defines. */
+/* Binds the arrays to those of their buffers that the machine's program defines. */
 trax_status trax_plain_scene_bind(trax_machine *machine, const struct trax_scene *scene, trax_error *error);
 
 #endif

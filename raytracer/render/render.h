@@ -84,7 +84,7 @@ struct trax_device_scene {
   uint32_t size;
 };
 
-/* With the sections that the frame's features need. */
+/* Makes a scene of the sections that the frame's features need. */
 trax_status trax_device_scene_init(struct trax_device_scene *scene, const struct trax_frame *frame, trax_error *error);
 void trax_device_scene_release(struct trax_device_scene *scene);
 /* Replaces the references of a scene at the device's `address`, below 2^31, by addresses; those of leaves are negated.

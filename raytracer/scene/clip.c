@@ -70,7 +70,7 @@ struct scene_box scene_clip_triangle(const float *const corners[3], const struct
   return rounded(&bounds, box);
 }
 
-/* Both sides of a triangle that is whole: one walk along its edges. */
+/* Finds the bounds on both sides of a triangle that is whole, by one walk along its edges. */
 static void split_whole(const float *const corners[3], int axis, float position, struct bounds sides[2]) {
   for (int corner = 0; corner < 3; corner++) {
     const float *a = corners[corner], *b = corners[corner < 2 ? corner + 1 : 0];

@@ -1,4 +1,4 @@
-/* What grows and lies in the generated forest. */
+/* Plants and stones of the generated forest. */
 #include "forest.h"
 
 void forest_broadleaf(struct forest *forest, struct point foot) {

@@ -67,7 +67,7 @@ static trax_status make_normals(const struct layout *layout, double cosine, trax
   return result;
 }
 
-/* What two threads do at the same time: the triangles, and the positions of nodes. */
+/* The work of two threads at the same time: the triangles, and the positions of nodes. */
 struct placing_work {
   struct layout *layout;
   size_t size; /* of the scene */

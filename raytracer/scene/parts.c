@@ -141,7 +141,7 @@ struct copy {
   const struct trax_triangle *triangle;
 };
 
-/* By vertices, then in the order of the file. */
+/* Orders by vertices, then by place in the file. */
 static int compare_copies(const void *a, const void *b) {
   const struct copy *left = a, *right = b;
   const int order = memcmp(left->triangle, right->triangle, 9 * sizeof(float));

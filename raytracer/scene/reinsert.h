@@ -49,7 +49,7 @@ struct place {
   uint32_t node, depth;
 };
 
-/* What one thread needs to search. */
+/* One thread's state of a search. */
 struct search {
   const struct scene_links *links;
   const struct foci *foci;

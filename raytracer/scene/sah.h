@@ -35,7 +35,7 @@ struct sah {
   float root_area;
 };
 
-/* Where a set is divided. */
+/* A division of a set. */
 struct sah_split {
   float cost; /* INFINITY: nowhere */
   int axis, bin;

@@ -19,7 +19,7 @@ struct spatial_bins {
 
 enum { MOST_CORNERS = 10 };
 
-/* What of a triangle is in the box of its primitive. */
+/* The part of a triangle in the box of its primitive. */
 struct outline {
   const float *triangle[3];
   double corners[MOST_CORNERS][3];

@@ -1,4 +1,4 @@
-/* What clang's header does not know: it includes this one. */
+/* Limits beyond clang's header, which includes this one. */
 #ifndef TRAX_LIMITS_H
 #define TRAX_LIMITS_H
 

@@ -1,4 +1,4 @@
-/* What glibc and musl tell about streams, as gnulib asks for it. */
+/* glibc's and musl's functions about the state of streams, for gnulib. */
 #ifndef TRAX_STDIO_EXT_H
 #define TRAX_STDIO_EXT_H
 

@@ -31,7 +31,7 @@ char *__trax_folder_path(int folder, const char *path) {
   }
 }
 
-/* What an operation by name does, given a path. */
+/* An operation on a path. */
 struct operation {
   int (*act)(const char *path, const struct operation *operation);
   int flags;

@@ -81,7 +81,7 @@ static int read_length(const char **format) {
   }
 }
 
-/* What follows a % up to its letter. */
+/* Reads a directive, from after its % up to its letter. */
 static struct directive read_directive(const char **format, va_list *arguments) {
   struct directive it = {.precision = -1};
   size_t flags = 0;

@@ -1,4 +1,4 @@
-/* What glibc and musl tell about streams. Standard output is always written at once. */
+/* The state of streams, as in glibc and musl. Standard output is always written at once. */
 
 #include "stream.h"
 

@@ -7,7 +7,7 @@
 // RUN:   --status 134 --fault "bad_optional_access was thrown in -fno-exceptions mode"
 // RUN: %run_c %s %t --levels -O2 --status 134 --fault "vector[] index out of bounds" \
 // RUN:   --cflags "-DINDEX -mstack=global -D_LIBCPP_HARDENING_MODE=_LIBCPP_HARDENING_MODE_FAST"
-// What ends a C++ program says so.
+// A C++ program that ends itself says why.
 #if defined(TERMINATE)
 #include <exception>
 #elif defined(EMPTY)

@@ -107,7 +107,7 @@ int main() {
   some<double, uint64_t>(100);
   printed = 60;
   some<float, uint32_t>(100);
-  // What does not fit, and what just does.
+  // Results that do not fit, and results that just fit.
   for (int size = 0; size < 8; size++) {
     std::memset(text, '#', 12);
     auto result = std::to_chars(text, text + size, -12.25);

@@ -125,7 +125,7 @@ static uint32_t next(void) {
   return (uint32_t)(state >> 32);
 }
 
-/* Of 1 to 32 bits. */
+/* A random number of 1 to 32 bits. */
 static uint32_t next_of_any_length(void) {
   uint32_t length = next() >> 27;
   return next() >> length;

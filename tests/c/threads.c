@@ -1,5 +1,5 @@
 // RUN: %run_c %s %t --simflags "--config 1x32"
-// What a thread knows of itself, items handed out by the atomic increment, and output that is not torn. (Expected
+// Numbers of threads, items handed out by the atomic increment, and output that is not torn. (Expected
 // output by hand.)
 #include <stdio.h>
 #include <trax.h>

@@ -1,4 +1,4 @@
-// What docs/compiler.md and docs/refusals.md say and no other test shows.
+// Statements of docs/compiler.md and docs/refusals.md that no other test shows.
 // RUN: %clang -O2 -S %s -o - | FileCheck %s
 // RUN: not %clang -DREFUSED -fsyntax-only %s 2>&1 | FileCheck %s --check-prefix=REFUSED
 // RUN: %clang -mstack=global -dM -E %s | FileCheck %s --check-prefix=STACK

@@ -1,4 +1,4 @@
-// What `clang --target=trax` adds, and that the user's options come after it.
+// `clang --target=trax` adds options, and the user's come after them.
 // RUN: %clang -### -c %s 2>&1 | FileCheck %s
 // CHECK: Target: trax
 // CHECK: "-cc1" "-triple" "trax" "-emit-obj"

@@ -7,7 +7,7 @@
 // RUN: not %clang -O2 -S -ffixed-r3 %s -o /dev/null 2>&1 | FileCheck %s --check-prefix=RANGE
 // RANGE: error: unsupported argument '3' to option '-ffixed-r' for target 'trax': there are 4 to 31
 
-// What the ABI needs cannot be kept free.
+// Registers that the ABI needs cannot be kept free.
 // RUN: not %clang -O2 -S -ffixed-r5 %s -o /dev/null 2>&1 | FileCheck %s --check-prefix=NEEDED
 // NEEDED: error: r5 is needed for an argument or a result, and -ffixed-rN keeps it free
 

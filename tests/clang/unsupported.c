@@ -1,4 +1,4 @@
-// What clang takes on other ELF targets but nobody here would carry out is refused, with its place.
+// Features of other ELF targets that do not exist here are refused, with their place.
 // RUN: not %clang -DIFUNC -fsyntax-only %s 2>&1 | FileCheck %s --check-prefix=IFUNC
 // RUN: not %clang -DEH -c %s -o %t.o 2>&1 | FileCheck %s --check-prefix=EH
 // RUN: not %clang -DREGISTER -c %s -o %t.o 2>&1 | FileCheck %s --check-prefix=REGISTER

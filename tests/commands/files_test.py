@@ -20,7 +20,7 @@ from common import BIN, TEST_BIN, accepted, end, fail, refused  # noqa: E402
 
 PICTURE = png_of([b"\x80\x40\x20" * 4] * 4)
 INPUT, TWICE = "is an input and the output", "is written twice"
-# What a mesh refers to is known when it has been read; an ending that no writer has is refused before.
+# A mesh's references are known when it has been read; an ending that no writer has is refused before.
 INPUT_OR_ENDING = (INPUT, "there is no writer for .")
 
 
@@ -90,7 +90,7 @@ def simulator():
         refused(INPUT, "trax-sim", "--resume", "state", "--stats", path, "hello.elf")
         refused(INPUT, "trax-sim", "--resume", "state", "--checkpoint", path, "hello.elf")
     refused(INPUT, "trax-sim", "--scene", "in.bin", "--stats", "./in.bin", "hello.elf")
-    # What is no file takes any number of outputs, and so does standard output, whatever it is and however it is called.
+    # Devices and pipes take any number of outputs, and so does standard output under any of its names.
     for path in ("/dev/null", "-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"):
         accepted("trax-sim", "--report", path, "--stats", path, "--post-mortem", "/dev/null", "hello.elf")
     with open("all.txt", "w") as file:

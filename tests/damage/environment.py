@@ -7,7 +7,7 @@ import tempfile
 
 from runs import CRASHED, run, with_message
 
-# What the environment may change nothing of: the files {o} and {o}2 of each command.
+# Commands whose files {o} and {o}2 do not depend on the environment.
 USUAL = [
     ["clang", "--target=trax", "-O1", "program.c", "-o", "{o}"],
     ["clang", "--target=trax", "-O1", "-S", "program.c", "-o", "{o}"],

@@ -5,7 +5,7 @@ import resource
 import subprocess
 
 MEMORY, PROCESSOR_SECONDS = 4 << 30, 60
-# Of libraries, interpreters and sanitizers: a program that prints them has not looked at its input.
+# Messages of libraries, interpreters and sanitizers: a program that prints them has not checked its input.
 CRASHED = re.compile(
     rb"PLEASE submit|PLEASE ATTACH|Stack dump|LLVM ERROR|Assertion|terminate called|Traceback \(most|"
     rb"runtime error:|ERROR: AddressSanitizer|core dumped|UNREACHABLE",

@@ -77,7 +77,7 @@ def main():
         linked = make.Site(folder / "linked", "https://trax.invalid/blob")
         text = linked.relinked("README.md", "[x](LICENSE) `[y](LICENSE)`")
         failed += check(text == "[x](https://trax.invalid/blob/LICENSE) `[y](LICENSE)`", f"a link becomes {text}")
-        # What is not a site is not replaced, even if it has a folder `search`.
+        # A folder that is not a site is not replaced, even if it contains a folder `search`.
         (folder / "mine/search").mkdir(parents=True)
         (folder / "mine/search/file").write_text("")
         for out in ("mine", "mine/search/file"):

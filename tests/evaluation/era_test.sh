@@ -22,7 +22,7 @@ picture() {
 picture "$source/box.obj" --view "$source/box.view" --size 64x36
 picture /usr/share/glmark2/models/bunny.obj --view bunny --size 96x54
 grep -q '"items": 5184' stats.json || fail "not every pixel was counted once"
-# What --keep writes runs to the same picture, which no machine changes.
+# The files of --keep run to the same picture, which no machine changes.
 "$bin/trax-sim" kept/manifest.json --quiet || fail "the manifest"
 cp kept/image.raw whole.raw
 "$bin/trax-sim" kept/manifest.json --config 1x48 --set fpu.compare_units=true --quiet || fail "the manifest on another machine"

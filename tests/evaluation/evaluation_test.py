@@ -319,8 +319,8 @@ def test_options(evaluation, scratch):
     run = evaluation.run(sweep, "options", "--variant", "dim", "--scene", "ball", "--chip", "1x32", "--dry-run")
     check(run.stdout == "0 of 3 runs are missing\n",
           f"--variant, which keeps the reference, --scene, --chip: {run.stdout}{run.stderr}")
-    # What trax-render tells of a picture, of a changed program, too; and seeds of samples, which an exact run has no
-    # use for.
+    # trax-render's figures of a picture, also for a changed program; and seeds of samples, which an exact run does not
+    # use.
     sweep = dict(SMALL, name="measured", series=0, chips="1x32", error=True, hits=True,
                  set=[{"name": "9 bits", "special.precision_bits": 9},
                       {"name": "changed", "program": "triangles/moller-trumbore"}])
@@ -493,7 +493,7 @@ def test_refusals(evaluation, scratch):
     check(
         sorted(one["status"] for one in evaluation.results("partly")["runs"]) == ["done", "failed"],
         "the other scene was not run")
-    # What keeps several inputs from being made is said once.
+    # A cause that keeps several inputs from being made is reported once.
     run = evaluation.run({"name": "x", "scenes": [{"name": "bunny", "meshes": [BUNNY], "view": "none"}],
                           "chips": ["1x32", "2x32"], "programs": "ours", "size": "8x8"}, "unseen")
     check(run.returncode == 1 and run.stderr.count("trax comes with no such view") == 1, f"no view: {run.stderr}")

@@ -166,7 +166,7 @@ def test_damage(folder):
             check(not differ, f"{path}, {name}: {differ} differ")
             check([one["status"] for one in folder.runs()] == ["done", "done"],
                   f"{path}, {name}: not all runs are done")
-    # What another sweep's command has left, and cannot be made by this one, is told.
+    # Runs of another sweep's command, which this one cannot make, are reported.
     folder(SWEEP | {"name": "other", "chips": ["1x48"]})
     others = [one for one in folder.runs() if one["experiments"] == ["other"]]
     victim = folder.out / others[0]["json"]

@@ -57,8 +57,8 @@
 // WRONG: trax-ld: error: --section-start=x=y: not a 32-bit number
 // RUN: not ls no
 
-// What --symbol-ordering-file lists comes first, in its order, local symbols too, code that is hot or cold by its name also; names that
-// nobody has, comments and empty lines do nothing; constructors keep the order of their priorities.
+// Symbols that --symbol-ordering-file lists come first, in its order, local ones and code that is hot or cold by its name
+// included. Unknown names, comments and empty lines do nothing. Constructors keep the order of their priorities.
 // RUN: printf '# order\n\n  cold \nnobody\nf3\r\nf1\nf3\nlater\n' > order
 // RUN: printf '.section .init_array.2, "aw", @init_array\nlater: .long f1\n.section .init_array.1, "aw", @init_array\n.long f1\n' > arrays.s
 // RUN: %trax_mc -filetype=obj arrays.s -o arrays.o

@@ -1,5 +1,5 @@
-/* What leaves by a tail call is not on the stack any more when the callee takes its frame: of middle's frame and last's
-   the larger one counts, not the sum, whichever it is. The program runs on no more than that.
+/* A function that leaves by a tail call has no frame any more when the callee takes its own: the larger one of middle's
+   and last's frames counts, not the sum. The program runs on no more than that.
 
    RUN: %clang -O2 -DMIDDLE=50 -DLAST=60 %s -o %t -Wl,--print-stack | FileCheck %s --check-prefix=SMALL
    SMALL:      stack: at most {{[0-9]+}} bytes, of 512 (local memory)

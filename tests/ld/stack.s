@@ -49,7 +49,7 @@
 
 //--- path.s
 // Two ways to f: the deeper one counts; so does a leaf below them. A weak function that nobody defines is never called.
-// What the entry cannot reach does not count. A frame of more than 127 bytes takes two bytes in the record.
+// Functions that the entry cannot reach do not count. A frame of more than 127 bytes takes two bytes in the record.
 //      CHECK:stack: at most 216 bytes, of 504 (512 of local memory less 8 of thread-local data)
 // CHECK-NEXT:     frame    depth  function
 // CHECK-NEXT:         8        8  _start, path.o:(.text._start)
@@ -290,7 +290,7 @@ second:
   .uleb128 24
 
 //--- tables.s
-// What runs the constructors calls what .init_array lists, and no more.
+// The code that runs the constructors calls the functions that .init_array lists, and no others.
 //      CHECK:stack: at most 40 bytes, of 512 (local memory)
 // CHECK-NEXT:     frame    depth  function
 // CHECK-NEXT:         4        4  _start, tables.o:(.text._start)

@@ -1,4 +1,4 @@
-/* Who finds the object initialised sees what it was initialised with. */
+/* A thread that finds the object initialised sees its initial values. */
 #define ROLES 2
 #include "litmus.h"
 

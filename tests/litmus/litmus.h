@@ -1,6 +1,6 @@
-/* What the litmus tests share: RUNS runs of ROLES roles each, on fresh locations, many at once on a machine of many
-   threads. A test defines ROLES, before this file, and behind it `part`, what a role does in a run, and `outcome`, what
-   came of one. It prints how many outcomes no order allowed (`weak`) and how many no machine of docs/isa.md gives,
+/* The common part of the litmus tests: RUNS runs of ROLES roles each, on fresh locations, many at once on a machine
+   of many threads. A test defines ROLES, before this file, and after it `part`, a role's work in a run, and `outcome`,
+   a run's result. It prints how many outcomes no order allowed (`weak`) and how many no machine of docs/isa.md gives,
    fences or not (`broken`).
 
    With RELAXED all orders are relaxed and there are no fences: then weak outcomes must come. */
@@ -39,7 +39,7 @@ struct data {
 struct shared {
   _Alignas(64) _Atomic unsigned word;
 };
-/* What a role has observed; always read and written as atomic words. */
+/* A role's observations; always read and written as atomic words. */
 struct seen {
   _Alignas(64) _Atomic unsigned word[ROLES][2];
 };

@@ -1,4 +1,4 @@
-/* What is done under a lock is seen by the next owner. */
+/* The next owner of a lock sees the stores of the one before. */
 #define ROLES 2
 #include "litmus.h"
 

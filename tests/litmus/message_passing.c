@@ -1,4 +1,4 @@
-/* Who has seen the flag sees the data. */
+/* A thread that has seen the flag sees the data. */
 #define ROLES 2
 #include "litmus.h"
 

@@ -1,4 +1,4 @@
-/* Who drops the last reference sees what all owners did to the object. */
+/* The thread that drops the last reference sees all owners' stores to the object. */
 #define ROLES 2
 #include "litmus.h"
 

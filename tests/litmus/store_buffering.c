@@ -1,4 +1,4 @@
-/* Of two threads that announce themselves and then look for the other, one sees the other. */
+/* Two threads announce themselves and then look for the other: at least one sees the other. */
 #define ROLES 2
 #include "litmus.h"
 

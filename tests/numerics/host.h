@@ -1,4 +1,4 @@
-/* What the runtime asks of its machine when it is compiled for the host (runtime/internal/machine.h). */
+/* The machine of a runtime that is compiled for the host (runtime/internal/machine.h). */
 #ifndef TRAX_TEST_HOST_H
 #define TRAX_TEST_HOST_H
 

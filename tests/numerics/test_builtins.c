@@ -82,7 +82,7 @@ static void integer_powers(void **unused) {
   }
 }
 
-/* What annex G of the C standard asks of a product or quotient: 0 finite, 1 infinite, 2 NaN. */
+/* The class of a product or quotient by annex G of the C standard: 0 finite, 1 infinite, 2 NaN. */
 static int complex_class(double re, double im) {
   return isinf(re) || isinf(im) ? 1 : re != re || im != im ? 2 : 0;
 }

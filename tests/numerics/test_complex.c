@@ -52,7 +52,7 @@ static double uniform(uint64_t *state) {
   return (double)(int64_t)random64(state) * 0x1p-63;
 }
 
-/* Of both signs, from 2^-6 to 2^3 in magnitude. */
+/* A number of either sign, from 2^-6 to 2^3 in magnitude. */
 static float part(uint64_t *state) {
   double x = uniform(state);
   return (float)ldexp(x < 0 ? x - 1 : x + 1, (int)(random64(state) % 9) - 6);

@@ -663,7 +663,7 @@ static void formatted_integers(void **unused) {
   CHECK_FORMAT("%.3s|%.0s|%s", "abcdef", "x", "");
 }
 
-/* What glibc does in a UTF-8 locale. It may read a character behind what the precision lets through. */
+/* Compares with glibc in a UTF-8 locale. It may read one character more than the precision allows. */
 static void formatted_wide(void **unused) {
   (void)unused;
   assert_non_null(setlocale(LC_CTYPE, "C.UTF-8"));

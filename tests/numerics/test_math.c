@@ -1,6 +1,6 @@
-/* What is exact in <math.h> and not in trax-accuracy's table or in sweep.c, compiled for the host, against the host's:
-   binary64, functions with two results, and those between the types. Bit by bit over special and random operands; exits
-   with status 1 if any differ. */
+/* Exact functions of <math.h> that neither trax-accuracy's table nor sweep.c has, compiled for the host, against the
+   host's: binary64, functions with two results, and those between the types. Bit by bit over special and random
+   operands; exits with status 1 if any differ. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What package_test.sh runs inside the new Debian.
+# The part of package_test.sh that runs inside the new Debian.
 set -euo pipefail
 cd /root/package
 quietly() { "$@" >log 2>&1 || { tail -n 20 log >&2; echo "FAILED: $*" >&2; exit 1; }; }

@@ -1,4 +1,4 @@
-/* What calls_test.py asks of files, a word after the other: see main. Each prints what came of it. */
+/* Operations on files for calls_test.py, a word after the other: see main. Each prints its result. */
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>

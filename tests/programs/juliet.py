@@ -26,7 +26,7 @@ FREED = ("freed block", "freed twice")
 INVALID = ("not the beginning of a block", )
 LEAK = "a block is lost"
 NULL = ("fault: access to the null page", )
-# What a report of the class says.
+# The words of a report, by class.
 CLASSES = {
     "121": BOUNDS, "122": BOUNDS, "124": BOUNDS, "126": BOUNDS + UNWRITTEN, "127": BOUNDS + UNWRITTEN,
     "401": (LEAK, ), "415": FREED, "416": FREED, "457": UNWRITTEN, "476": NULL, "562": BOUNDS + UNWRITTEN,
@@ -45,7 +45,7 @@ __attribute__((constructor)) static void take_the_heap(void) {
       }
 }
 """
-# What is missed, and why.
+# Missed cases, with reasons.
 MISSED = {
     r"CWE12[47] char_declare_":
         "a constant distance before an array: the compiler makes one address of both, that of a neighbour",

@@ -210,7 +210,7 @@ PROGRAMS = [
     Program("bc", "bc", "bc/bc", [
         Case(["-l", "sums.bc"]), Case([], b"1 + 2\n3 * 4 ^ 5\nquit\n")
     ], [["./configure", "--host=trax", "--build=x86_64-linux-gnu", CC], ["make", "-C", "lib"],
-        # What the build makes by running the program itself is the host's.
+        # The files that the build makes by running the program itself are made by the host's.
         [
             "sh", "-c",
             "if [ {kind} = host ]; then make -C bc bc; else cp {host}/bc/libmath.h bc && make -C bc -o libmath.h bc; fi"

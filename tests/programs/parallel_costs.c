@@ -1,4 +1,4 @@
-/* What work for all threads costs in cycles, beside the same written by hand (docs/parallel.md). */
+/* Costs in cycles of work for all threads, beside the same written by hand (docs/parallel.md). */
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -19,7 +19,7 @@ PARTS = [*(f"parallel/{name}" for name in ("conditions", "for", "tasks", "team",
                                         "wide", "wide_format", "wide_streams")),
          "stdio/ext", "stdlib/profile", "stdlib/quick_exit"]
 
-# What each needs of the parts.
+# The parts that each program needs.
 PROGRAMS = {
     "minimal.c": None,
     "snprintf.c": None,

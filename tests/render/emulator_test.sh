@@ -59,7 +59,7 @@ for name in cycles instructions; do
   [ "$(grep -m1 "\"$name\"" a.json)" = "$(grep -m1 "\"$name\"" b.json)" ] || fail "$name differ between two runs"
 done
 
-# What a pixel cost: with what belongs to no pixel, that is all there is; the same from both engines, in both formats.
+# Costs of pixels, with the rest that belongs to none, add up to the run; both engines and both formats have the same.
 thread_cycles=$(sed -n 's/^  "thread_cycles": \([0-9]*\).*/\1/p' a.json)
 instructions=$(sed -n 's/^  "instructions": \([0-9]*\).*/\1/p' a.json)
 for engine in fast reference; do
@@ -130,7 +130,7 @@ both deeper.trax --size 16x9 --config 1x32
 "$bin/trax-render" deeper.trax --size 16x9 --config 1x32 -o x.png --program "$bin/../lib/trax/trax-raytracer.elf" >.out 2>.err && fail "too deep for its stack"
 grep -q "the scene is deeper than this program's stack" .err || fail "too deep for its stack: $(cat .err)"
 code_bytes=4096
-# What the compiler folds is not what a less precise divider would compute.
+# A constant that the compiler folds differs from a less precise divider's result.
 for how in '' --no-specialise; do
   "$bin/trax-render" triangle.obj --size 1x1 --config 1x32 --set special.precision_bits=8 $how -o "8$how.png" >.out 2>.err || fail "8 bits of precision: $(cat .err)"
 done
@@ -188,7 +188,7 @@ grep -q "error: --mark-rays: there is no program for it: .*bin/trax-clang" .err 
 "$bin/trax-render" "$source/box.obj" $view --size 64x36 --no-specialise -o x.png >.out 2>.err || fail "--no-specialise"
 [ -s .err ] && fail "--no-specialise has a note: $(cat .err)"
 "$bin/trax-compare" -q x.png box.png || fail "--no-specialise: another picture"
-# What --keep writes runs by itself to the same picture.
+# The files of --keep run by themselves to the same picture.
 same "$source/box.obj" $view --size 16x9 --config 1x32 --keep kept
 "$bin/trax-sim" kept/manifest.json >.out 2>.err || fail "the manifest: $(cat .err)"
 [ "$(wc -c <kept/image.raw)" -eq 576 ] || fail "image.raw has $(wc -c <kept/image.raw) bytes"

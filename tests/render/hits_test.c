@@ -1,5 +1,5 @@
-/* What rays hit: the device program natively against exact arithmetic and Embree, on scenes where many pixels have two
-   right answers; that a wrong answer is told from those, and that holes are counted. */
+/* Hits of rays: the device program natively against exact arithmetic and Embree, on scenes where many pixels have two
+   right answers. A wrong answer is told from those, and holes are counted. */
 #include "hits.h"
 #include "meshes.h"
 

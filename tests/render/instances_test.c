@@ -180,7 +180,7 @@ static struct trax_view view_of(const struct family *family, double x, double y,
                    fov, (float)(o + 4 * s), (float)(-o + 5 * s), (float)(0.5 * o + 6 * s));
 }
 
-/* Of 2,560 pixels some 100 look at an edge or past a silhouette when coordinates are a million. */
+/* Some 100 of 2,560 pixels look at an edge or past a silhouette when coordinates are a million. */
 static void test_families(void **state) {
   (void)state;
   for (int i = 0; i < FAMILIES; i++) {
@@ -306,7 +306,7 @@ static void change(uint32_t *words, uint32_t count, uint32_t *seed) {
   }
 }
 
-/* What every part of the renderer does with a file that was accepted. Of some the hits are compared, too. */
+/* Runs every part of the renderer on a file that was accepted, and compares the hits of some. */
 static void render_changed(struct trax_scene *scene, unsigned number, bool compare) {
   struct trax_view view = view_from(0, 0.5f, 9, 0, 0, -1, 45, 4, 5, 6);
   const struct trax_frame_options options = {.width = 6,
@@ -374,7 +374,7 @@ static void test_sealed_changes(void **state) {
   trax_scene_release(&scene);
 }
 
-/* What follows from the matrix and the mesh is computed again, to the last bit. */
+/* The reader computes the words that follow from the matrix and the mesh again, to the last bit. */
 static void test_derived_words(void **state) {
   (void)state;
   static const size_t derived[] = {

@@ -347,15 +347,15 @@ static void test_scatter_is_unbiased(void **state) {
         taken += density > 0;
       }
       assert_true(fabs(mean - sent) < 0.006);
-      /* Of the ways that are chosen, those that do not lead into the surface are what the density adds up to. */
+      /* The density adds up to the share of chosen directions that do not lead into the surface. */
       assert_true(fabs(density_sum - (double)taken / SAMPLES) < 0.006);
     }
 }
 
 /* --- lights --- */
 
-/* Of a rectangle parallel to a surface, with a corner above the point: Howell, "A Catalog of Radiation Heat Transfer
-   Configuration Factors", B-3. */
+/* The factor of a rectangle parallel to a surface, with a corner above the point: Howell, "A Catalog of Radiation Heat
+   Transfer Configuration Factors", B-3. */
 static double corner_factor(double a, double b, double height) {
   const double x = a / height, y = b / height, rx = sqrt(1 + x * x), ry = sqrt(1 + y * y);
   return (x / rx * atan(y / rx) + y / ry * atan(x / ry)) / (2 * PI);

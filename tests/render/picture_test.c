@@ -148,7 +148,7 @@ static void test_convex_body_from_outside(void **state) {
         lit += (picture.pixels[p] & 0xFF) > 90;
         unlit += (picture.pixels[p] & 0xFF) <= 90;
       }
-    /* What is unlit lies in the outermost ring, where facets are seen edge-on. */
+    /* Unlit pixels lie in the outermost ring, where facets are seen edge-on. */
     assert_true(lit > 8000);
     assert_true(unlit < lit / 50);
     trax_picture_release(&picture);

@@ -1,4 +1,4 @@
-/* What is a closed room, and where one looks from in it. */
+/* Closed rooms, and cameras within them. */
 #include "meshes.h"
 #include "room.h"
 

@@ -54,7 +54,7 @@ static size_t count_of(const struct trax_picture *picture) {
   return 3 * (size_t)picture->width * picture->height;
 }
 
-/* Of a picture of floats; every one is a finite number. */
+/* The mean of a picture of floats, every one a finite number. */
 static double mean_of(const struct trax_picture *picture) {
   double sum = 0;
   for (size_t i = 0; i < count_of(picture); i++) {

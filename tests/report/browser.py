@@ -281,7 +281,7 @@ class PageTests:
         for name in sorted(self.pages, key=lambda name: name == self.CLOSELY):  # this one last
             self.load(name)
             self.assertLessEqual(self.browser.run("document.documentElement.scrollWidth"), 390, name)
-        # What is cut at the edge has a sign of it, and none once it is scrolled to its end: one style for all tables.
+        # A table that is cut at the edge has a sign of it, and none once it is scrolled to its end: one style for all.
         cut = "Array.from(document.querySelectorAll('.scroll:not(details:not([open]) *)'))" \
               ".filter(e => e.scrollWidth > e.clientWidth + 1)"
         count = self.browser.run(cut + ".length")

@@ -224,7 +224,7 @@ class DocsTest(unittest.TestCase):
         gaps = [heights[a] - heights[b] for a, b in zip(("0.0001", "0.001", "0.01"), ("0.001", "0.01", "0.1"))]
         self.assertLess(max(gaps) - min(gaps), 0.3)  # a decade is as high as any other
         self.assertGreater(min(gaps), 20)
-        # What no axis can have is left out; the rest is drawn, on every kind of axis.
+        # Values that no axis can have are left out; the rest is drawn, on every kind of axis.
         for values in ((5e-324, 1), (1e308, -1e308, 3), (1, 1), (2.5, 2.6), (-1e-90, 1e90)):
             for log_x, log_y in itertools.product((False, True), repeat=2):
                 series = [plots.Series("a", 1, [(x, y, f"{x} {y}") for x in values for y in values])]
@@ -435,7 +435,7 @@ class DocsTest(unittest.TestCase):
         rows = rows_of(self.page.read_text())[1:]
         self.assertEqual(sorted(row[0] for row in rows), sorted(example.CHIPS))
         for row in rows:
-            # Of two chips with the same figures the first is on the front.
+            # The first of two chips with the same figures is on the front.
             place = {name: (float(row[column]), -float(row[2]), rows.index(row)) for name, column in costs.items()}
             on = [name for name, column in costs.items()
                   if not any(other is not row and float(other[2]) >= float(row[2])

@@ -112,7 +112,7 @@ class Data(Scratch):
             for difference in columns[f"picture.{name}"]:
                 values.append(value := value + difference & 255)
             self.assertEqual(bytes(values), image[channel::4], name)
-        # Of the same run by trax-sim, which knows neither nodes nor triangles, as a file of their own has it.
+        # The same run by trax-sim, which knows neither nodes nor triangles: a file of their own has these.
         _, others = unpack(self.folder / "q.html")
         self.assertEqual({name: values for name, values in columns.items() if not name.startswith("counts.")}, others)
         for row in csv.DictReader(io.StringIO(self.text("items.csv"))):
@@ -572,7 +572,7 @@ class Page(PageTests, Scratch):
             self.assertEqual([row[1] for row in rows(table)], [f"{count:,}" for _, count in sums.most_common(10)])
         self.assertEqual(self.browser.run("document.querySelectorAll('#story-more svg .axis').length"),
                          len(story["rays"]))  # the rays' begins, and the axis
-        # What is shown by colour is the chosen cost.
+        # Colours show the chosen cost.
         self.browser.run(
             "(s => { s.value = Array.from(s.options).find(o => o.text === 'nodes').value; s.dispatchEvent(new "
             "Event('change')); })(document.getElementById('picture-what'))"
@@ -646,7 +646,7 @@ class Page(PageTests, Scratch):
                          [(f"{one[0]:08x}", f"{one[5][0]:,}") for one in mine])
         for (_, _, text), one in zip(below, mine):
             self.assertTrue(text.startswith(one[1]), text)
-        # What is waited for, by line: in the table of lines, in the listing, and the first row of their own table.
+        # Awaited lines: in the table of lines, in the listing, and the first row of their own table.
         awaited = collections.Counter()
         for wait in csv.DictReader(io.StringIO(data["waits"])):
             awaited[wait["line"]] += sum(int(value) for name, value in wait.items() if name in data["stats"]["causes"])

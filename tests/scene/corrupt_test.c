@@ -484,7 +484,7 @@ static const char *sparse_file(const char *name, off_t size) {
   return path;
 }
 
-/* What is too large is not read at all, and a signal ends the reading of what is not. */
+/* A file that is too large is not read at all, and a signal ends the reading of one that is not. */
 static void test_large_files(void **state) {
   (void)state;
   struct trax_scene scene;

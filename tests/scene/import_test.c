@@ -431,7 +431,7 @@ static void test_large_polygons(void **state) {
   }
 }
 
-/* What a packed file would unpack to is refused where it becomes too much, whatever its header says. */
+/* A packed file is refused where its contents become too large, whatever its header says. */
 static void test_unpack_limit(void **state) {
   (void)state;
   static const char head[] = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
@@ -846,7 +846,7 @@ static void test_gltf_primitives(void **state) {
   }
 }
 
-/* Of PLY files: faces of two vertices are lines, and only the first list of indices counts. */
+/* PLY files: faces of two vertices are lines, and only the first list of indices counts. */
 static void test_odd_faces(void **state) {
   (void)state;
   struct trax_mesh mesh;

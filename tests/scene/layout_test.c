@@ -61,7 +61,7 @@ static void walk(const struct trax_scene *scene, trax_scene_ref ref, double min[
     }
 }
 
-/* Of all kinds: one triangle, two, many; flat scenes; scenes far from the origin, tiny and huge. */
+/* Meshes of all kinds: one triangle, two, many; flat scenes; scenes far from the origin, tiny and huge. */
 static void make_mesh(struct trax_mesh *mesh, int kind) {
   static const uint32_t counts[] = {1, 2, 3, 5, 8, 9, 40, 1000, 777, 778};
   mesh_soup(mesh, counts[kind], 0.3f, (uint32_t)kind);
@@ -240,7 +240,7 @@ static void test_splits(void **state) {
           assert_memory_equal(&scene.triangles[i], &scene.triangles[k], sizeof *scene.triangles);
           assert_memory_equal(&scene.normals[i], &scene.normals[k], sizeof *scene.normals);
         }
-    /* What is accepted after a change still has every point. */
+    /* A scene that is accepted after a change still has every point. */
     const struct trax_scene_section *section = &scene.header->sections[TRAX_SCENE_NODES];
     uint16_t *halves = (uint16_t *)(void *)((unsigned char *)scene.bytes + section->offset);
     unsigned accepted = 0, refused = 0;

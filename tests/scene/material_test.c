@@ -322,7 +322,7 @@ static void test_resampling(void **state) {
   trax_mesh_release(&mesh);
 }
 
-/* What is opaque stays, however dark: an image that has alpha anywhere is a mask by its alpha, one that has none by its
+/* Opaque texels stay, however dark: an image that has alpha anywhere is a mask by its alpha, one that has none by its
    brightness. */
 static void test_dark_masks(void **state) {
   (void)state;
@@ -398,7 +398,7 @@ static void test_large_uvs(void **state) {
   trax_mesh_release(&mesh);
 }
 
-/* What is not read is said. */
+/* Properties that are not read are reported. */
 static void test_unread(void **state) {
   (void)state;
   static const struct {

@@ -235,7 +235,7 @@ static void test_what_options_do(void **state) {
   assert_true(figure(&changed, "bvh.leaves ") > leaves);
 }
 
-/* What is at the output stays when the input is bad. */
+/* The file at the output stays when the input is bad. */
 static void test_output_survives(void **state) {
   (void)state;
   struct outcome outcome;
@@ -248,7 +248,7 @@ static void test_output_survives(void **state) {
   assert_string_equal(text, "old");
 }
 
-/* What cannot be printed is an error. */
+/* Failure to print is an error. */
 static void test_full_output(void **state) {
   (void)state;
   const char *scene = test_path("full.trax");

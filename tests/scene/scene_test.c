@@ -120,7 +120,7 @@ static void test_awkward_meshes(void **state) {
       assert_true(scene.header->max_depth <= depth);
       trax_scene_release(&scene);
     }
-  /* What cannot be done is an error. */
+  /* Too few levels are an error. */
   struct trax_scene scene;
   trax_error error;
   assert_int_equal(trax_scene_build(&scene, &same, &(struct trax_build_options){.max_depth = 3}, &error), TRAX_ERROR);
@@ -554,7 +554,7 @@ static void test_write_and_read(void **state) {
   assert_int_equal(stat(path, &status), 0);
   assert_int_equal(status.st_mode & 0777, 0600);
   assert_int_equal(count_files(), files);
-  /* What is no regular file is written to, not replaced. */
+  /* A path that is no regular file is written to, not replaced. */
   assert_int_equal(trax_scene_write(&scene, "/dev/null", &error), TRAX_OK);
   assert_int_equal(stat("/dev/null", &status), 0);
   assert_true(S_ISCHR(status.st_mode));

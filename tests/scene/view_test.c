@@ -158,7 +158,7 @@ static void test_shipped_views(void **state) {
   assert_true(count >= 6);
 }
 
-/* What is written reads back. */
+/* A written view reads back. */
 static void test_writing(void **state) {
   (void)state;
   static const char *const texts[] = {

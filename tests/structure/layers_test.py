@@ -17,7 +17,7 @@ PAGE = "docs/architecture.md"
 PARTS = [("emulator", "## The emulator's layers", 10, 100), ("raytracer", "## The ray tracer's rooms", 6, 100),
          ("raytracer/evaluation", "## The packages of trax-eval", 3, 30)]
 C, PYTHON = (".c", ".cpp", ".h"), (".py",)
-# What other parts offer to the ray tracer as trax/*.h.
+# Headers that other parts offer to the ray tracer as trax/*.h.
 PUBLIC = {"emulator": "emulator/include/trax", "base": "emulator/base/include/trax", "isa": "isa/include/trax",
           "runtime": "runtime/include"}
 

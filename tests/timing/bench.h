@@ -36,7 +36,7 @@ struct bench_issues {
   size_t count, capacity;
 };
 
-/* What a thread's observer was told. */
+/* The reports to a thread's observer. */
 struct bench_told {
   uint64_t until; /* all cycles before it */
   uint64_t cycles[TRAX_CAUSE_COUNT];

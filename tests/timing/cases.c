@@ -82,7 +82,7 @@ struct random_case case_of_seed(unsigned seed) {
 
 /* --- comparisons --- */
 
-/* What docs/timing.md says of every run. */
+/* Rules of docs/timing.md for every run. */
 static bool violates_accounting(struct difference *to, const struct trax_machine *machine) {
   uint64_t sum = 0;
   for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
@@ -127,7 +127,7 @@ static void compare_engines(const struct random_case *c, struct comparison *to) 
   end(&reference);
 }
 
-/* What does not depend on time. */
+/* Results that do not depend on time. */
 static void compare_functional_mode(const struct random_case *c, struct comparison *to) {
   struct run timed = run_alone(&c->config, c->words, c->count, tested_engine, c->max_cycles, 1),
              functional = run_alone(&c->config, c->words, c->count, "functional", c->max_cycles, 1);

@@ -15,7 +15,7 @@ struct random_case {
   bool functional_mode; /* compared with the fast engine; else that with the reference */
 };
 
-/* What the runs have in common, if they are equal. */
+/* The common results of equal runs. */
 struct comparison {
   struct difference difference; /* "" if there is none */
   trax_status status;

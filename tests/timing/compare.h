@@ -39,7 +39,7 @@ struct run run_prepared(const struct trax_config *config, const uint32_t *progra
                         void *context);
 void end(struct run *run);
 
-/* What differs between two runs, in words. */
+/* The difference of two runs, in words. */
 struct difference {
   char text[512];
 };
@@ -54,7 +54,7 @@ void reduce_issues(struct bench_issues *issues);
 bool different_issues(struct difference *to, const struct bench_issues *a, const struct bench_issues *b);
 /* Outcome, cycles, every count and charge, memory and output. */
 bool different_runs(struct difference *to, const struct run *a, const struct run *b);
-/* Of runs from their beginning: what was taken for off-chip memory, and in which order. */
+/* Runs from their beginning: requests to off-chip memory, in order. */
 bool different_transfers(struct difference *to, const struct run *a, const struct run *b);
 /* Of them what does not depend on time: instructions, exit statuses, memory and output. */
 bool different_effects(struct difference *to, const struct run *a, const struct run *b);

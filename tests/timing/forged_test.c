@@ -39,7 +39,7 @@ struct piece {
   size_t at, size;
 };
 
-/* What is where in the state. */
+/* Places in the state. */
 static char names[MOST_NAMES][64]; /* structure.field */
 static bool refused[MOST_NAMES];   /* damaged somewhere */
 static unsigned name_count;

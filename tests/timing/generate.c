@@ -34,7 +34,7 @@ static uint32_t any_fence(void) {
   return trax_encode((trax_inst){.op = TRAX_OP_FENCE, .imm = (int32_t)any(TRAX_FENCE_R, TRAX_FENCE_RW)});
 }
 
-/* Of local memory. */
+/* An address of local memory. */
 static uint32_t any_local_word(unsigned rd, unsigned rb, int32_t offset) {
   switch (any(0, 7)) {
   case 0:

@@ -287,7 +287,7 @@ MUTANTS = [
     # The run becomes the union.
     ("fast/tm/tm.c", "tp->run_begin = begin < tp->run_begin ? begin : tp->run_begin;",
      "tp->run_begin = tp->run_begin;"),
-    # Who took a place moves the queue's turn.
+    # The TP that took a place moves the queue's turn.
     ("fast/tm/tm.c", "  trax_tm_request(tm, request);\n  trax_arbiter_to_back(&tm->queue_arbiter, tp);",
      "  trax_tm_request(tm, request);\n  (void)tp;"),
     # An atomic increment costs atomic_bytes.
@@ -296,7 +296,7 @@ MUTANTS = [
     # A wait for an atomic increment has its own cause.
     ("fast/tm/tm.c", "atomic ? TRAX_CAUSE_DATA_ATOMIC : TRAX_CAUSE_DATA_MISS",
      "TRAX_CAUSE_DATA_MISS"),
-    # Of several faults the first TP's is reported.
+    # The first TP's fault is reported, of several.
     ("fast/tm/tm.c", "tm->fault.kind && tm->fault.tp < number",
      "tm->fault.kind && tm->fault.tp > number"),
     # A store past the cache does not look into it.
@@ -314,7 +314,7 @@ MUTANTS = [
     # The run ends when the bus is idle.
     ("fast/chip.c", "idle_from > *t + 1 ? idle_from : *t + 1;",
      "idle_from ? *t + 1 : *t + 1;"),
-    # What arrives in t is used in t.
+    # Data that arrive in t are used in t.
     ("fast/time/cycle.c", "trax_queue_oldest(&tm->queue)->completion <= t;",
      "trax_queue_oldest(&tm->queue)->completion < t;"),
     # Losers of a fetch are charged.
@@ -362,7 +362,7 @@ MUTANTS = [
     # Arrived increments are forgotten.
     ("fast/time/head.c", "tp->atomics &= ~(rest & -rest);",
      "tp->atomics = 0;"),
-    # What a burst has not issued did not happen.
+    # Instructions that a burst has not issued did not happen.
     ("fast/time/head.c", "    tp->jumps -= next != trax_fast_index(tp, i) + 1;",
      "(void)next;"),
     # A line that was replaced is not there.
@@ -429,7 +429,7 @@ MUTANTS = [
     # Local memory is as it was.
     ("fast/function/blocks.c", ": tp->local + (undo->address - TRAX_LOCAL_BASE),",
      ": (uint8_t *)&tp->begin_reg[TRAX_NO_REGISTER],"),
-    # What translated bursts record.
+    # Records of translated bursts.
     ("translate/burst.c", "  run->burst->undo_begin = TRAX_BURST + 1;\n", ""),
     ("translate/burst.c", "(uint32_t)(TRAX_BURST - count)", "(uint32_t)(TRAX_BURST + 32 - count)"),
     ("translate/burst.c", "lines |= (uint64_t)1 << t->bursts->line[i] % 64;", "lines |= 1;"),
@@ -464,7 +464,7 @@ MUTANTS = [
      "if (written && written->writer != tm->number && written->writer < 64) {"),
     # A word that several wrote conflicts.
     ("fast/merge.c", "undo->writer = BY_SEVERAL;", "undo->writer = tm;"),
-    # What was loaded ahead and is written or incremented is loaded again.
+    # Data that were loaded ahead and are written or incremented are loaded again.
     ("fast/merge.c", "if (merge->undo[i].writer != BY_CONTROLLER && trax_fast_is_loaded(",
      "if (merge->undo[i].writer == BY_SEVERAL && trax_fast_is_loaded("),
     ("fast/merge.c",

@@ -108,7 +108,7 @@ static void write_behaviours(struct program *program, const enum behaviour *beha
 
 /* --- runs --- */
 
-/* What ends or disturbs a run; 0: nothing. */
+/* The event that ends or disturbs a run; 0: none. */
 struct end {
   uint64_t watchdog, max_cycles, interrupt, checkpoint_at;
 };

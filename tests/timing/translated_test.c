@@ -8,7 +8,7 @@
 
 enum { CASES = 60, MOST_CASES = 600 };
 
-/* What is compared. */
+/* The compared results. */
 struct engines {
   const char *interpreted, *translated;
   uint64_t most; /* instructions of a thread, or cycles: a wrong jump may loop */

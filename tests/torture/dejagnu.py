@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 TRIPLET = "trax-unknown-elf"
 
-# What programs may require and a bare machine with this ABI has not got. Everything else they ask for is taken as
+# Requirements of programs that a bare machine with this ABI does not meet. Everything else they ask for is taken as
 # present, so that a program is tried rather than skipped.
 LACKING = {
     "dfp": "decimal floating point",

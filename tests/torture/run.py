@@ -47,9 +47,9 @@ SIMULATOR = ["--engine", "fast", "--quiet", "--max-cycles", str(CYCLES), "--set"
 DIALECT = ["-w", "-std=gnu17", "-Wno-implicit-int", "-Wno-implicit-function-declaration", "-Wno-int-conversion",
            "-Wno-return-mismatch",
            "-Wno-incompatible-function-pointer-types"]
-# What our driver passes by itself, where a program asks to be skipped with it.
+# Options that our driver passes by itself, where a program asks to be skipped with them.
 TARGET_OPTIONS = ["-fomit-frame-pointer"]
-# What gcc's drivers (ieee.exp, builtins.exp) add for a folder.
+# Options that gcc's drivers (ieee.exp, builtins.exp) add for a folder.
 FOLDER_OPTIONS = {"execute/ieee": ["-fno-inline", "-DSIGNAL_SUPPRESS"],
                   "execute/builtins": ["-fno-inline-functions", "-Wl,--allow-multiple-definition"]}
 

@@ -1,4 +1,4 @@
-// What one sees first, causes, and time.
+// The head of the page, causes, and time.
 
 const locationOf = (run, line) => line.slice(line.lastIndexOf("/") + 1);
 

@@ -148,7 +148,7 @@ const COLOURS = {
   special_conflict: ["unit", -24], wait_special: ["unit", -40], ray_conflict: ["unit", -12],
   wait_atomic: ["atomic", 0], wait_other: ["other", 0], branch_bubble: ["other", 34], halted: ["ended", 0],
 };
-// Of a unit that was added to the machine, by its name.
+// The shade of a unit that was added to the machine, by its name.
 const shadeOf = (cause) => [46, -32, 20, -48][Array.from(cause).reduce((sum, letter) => sum + letter.charCodeAt(0), 0) % 4];
 const lookOf = (cause) => COLOURS[cause] ?? [cause.endsWith("_conflict") || cause.startsWith("wait_") ? "unit" : "other", shadeOf(cause)];
 function colourOf(cause) {

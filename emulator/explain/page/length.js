@@ -14,7 +14,7 @@ function threadsOf(columns) {
   return threads;
 }
 
-// What of the run is due to its end. Times of pixels to which several items belong are not known.
+// The share of the run that is due to its end. Times of pixels to which several items belong are not known.
 function endOf({ stats, run, columns }) {
   if (!run.picture || !columns.thread || columns.more || stats.partial) return null;
   const ends = Array.from(threadsOf(columns).values(), (pixels) => pixels[pixels.length - 1])

@@ -11,7 +11,7 @@ enum { TRAX_FAST_LINES = 1024 /* entries of `resident`; the last one stands for 
 /* The first kind of shared units that TRAX_STEP_FURTHER encodes. */
 #define TRAX_FAST_FURTHER ((unsigned)TRAX_SHARED_SPECIAL + 1)
 
-/* What the execution of an instruction needs: four to a line of the host's cache. */
+/* The execution's form of an instruction: four to a line of the host's cache. */
 struct trax_fast_inst {
   const void *operation; /* the label in burst_steps.h that executes it; of a chunk's first, the one that records it */
   int32_t imm;
@@ -19,7 +19,7 @@ struct trax_fast_inst {
   uint8_t rd, ra, rb;
 };
 
-/* What the timing of an instruction needs. */
+/* The timing's form of an instruction. */
 struct trax_fast_timing {
   const struct trax_decoded *decoded;
   uint32_t waits; /* mask of registers that must be usable */

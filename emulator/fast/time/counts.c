@@ -1,4 +1,4 @@
-/* What the engine counts in its own forms: instructions, and refusals of banks and units. */
+/* Counts that the engine keeps in forms of its own: instructions, and refusals of banks and units. */
 #include "fast/time/head.h"
 #include "fast/time/variant.h"
 

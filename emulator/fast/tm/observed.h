@@ -1,4 +1,4 @@
-/* What a TM records for an observer of stretches (machine/observer.h). */
+/* A TM's record for an observer of stretches (machine/observer.h). */
 #ifndef TRAX_FAST_OBSERVED_H
 #define TRAX_FAST_OBSERVED_H
 

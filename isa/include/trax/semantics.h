@@ -11,7 +11,7 @@
 #include <stdint.h>
 #include <string.h>
 
-/* What can be seen of the compiler's flags; tests/isa/oracle/builds.py looks at the flags themselves. */
+/* The compiler's flags that macros show; tests/isa/oracle/builds.py looks at the flags themselves. */
 #if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) ||                         \
     defined(__NO_SIGNED_ZEROS__) || __FINITE_MATH_ONLY__
 #error "trax/semantics.h needs strict IEEE arithmetic: do not compile it with -ffast-math or parts of it"

@@ -10,7 +10,7 @@ const shownValue = (value, unit = "") => value === undefined || value === null ?
 const shownChange = (value, unit) => signed(value, unit === "fraction" ? finePercent : (size) => shownValue(size, unit));
 const relativeOf = ({ a, b }) => typeof a === "number" && typeof b === "number" && a ? (b - a) / Math.abs(a) : undefined;
 
-// Of a share from -1 to 1.
+// A bar for a share from -1 to 1.
 const changeBar = (share, colour) => element("div", { "aria-hidden": "true" }, element("i",
   { style: `--c: ${colour}; width: ${50 * Math.min(1, Math.abs(share))}%; ${share < 0 ? "right" : "left"}: 50%` }));
 const breakable = (name) => element("span", {}, ...name.split(/(?<=_)/).flatMap((part) => [part, element("wbr")]));

@@ -19,7 +19,7 @@ SECTIONS = (
     ("other", "Other members", "relative", False),
 )
 
-# By the first part of a figure's name. The units follow from their figures; what is in no list is of the run.
+# Places by the first part of a figure's name. Units have theirs from their figures; all other figures are the run's.
 PLACES = {
     "rays": "work", "rays_by_kind": "work", "items": "work", "flops": "work",
     "icache": "caches", "dcache": "caches", "l2": "caches", "local": "caches",

@@ -13,7 +13,7 @@ from .sweeps import TITLES, interval_text
 from .table import Cell, Table, figure, words
 
 COME_WITH_TRAX = pathlib.Path(__file__).resolve().parent.parent / "sweeps"
-# What axes are, with units. Keys of the machine have theirs in their names.
+# Names of axes, with units. Keys of the machine have theirs in their names.
 LABELS = {
     "mrps": "million rays per second", "gflops": "billion FLOPs per second", "cycles": "cycles", "threads": "threads",
     "values.bytes_per_ray": "bytes a ray", "values.flops_per_ray": "FLOPs a ray", "values.area_units": "area (mm²)",
@@ -24,7 +24,7 @@ LABELS = {
     "kind.mrps": "million rays per second", "kind.bytes_per_ray": "bytes a ray",
     "kind.energy_per_ray": "energy a ray (nJ)", "issue.utilisation": "share of the thread-cycles with an instruction"
 }
-# What a rate costs: identity, statistic, title.
+# Costs of a rate: identity, statistic, title.
 COSTS = [("area", "values.area_units", "Rays and area"), ("power", "energy.average_power", "Rays and power"),
          ("bandwidth", "memory.bandwidth_gbps", "Rays and off-chip bandwidth in use")]
 MOST_BARS, MOST_LETTERS, LEAST_LETTERS = 40, 24, 5

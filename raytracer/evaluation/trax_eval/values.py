@@ -61,7 +61,7 @@ class Areas:
         return configuration["chip"]["tms"] * area
 
 
-# Of every run: name -> figure(statistics, area).
+# Figures of every run: name -> figure(statistics, area).
 OF_RUNS = {
     "bytes_per_ray": lambda stats, _: ratio(stats["memory"]["bytes"], stats["rays"]),
     "data_bytes_per_ray": lambda stats, _: ratio(stats["memory"]["data_read_bytes"], stats["rays"]),
@@ -71,7 +71,7 @@ OF_RUNS = {
     "mrps_per_mm2": lambda stats, area: ratio(stats["mrps"], area),
     "flop_utilisation": lambda stats, _: ratio(stats["gflops"], stats["peak_gflops"]),
 }
-# Of some runs, beside those of kinds of rays. What others compute has names of theirs.
+# Figures of some runs, beside those of kinds of rays. Other programs' figures have their names.
 OF_SOME_RUNS = ("mrps_low", "mrps_high", "scene_bytes", "picture.pixels_that_differ", "counters.*", "error.*", "hits.*",
                 "code.*", "scene.*")
 

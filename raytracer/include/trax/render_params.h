@@ -142,7 +142,7 @@ struct trax_environment_texel {
   float pdf; /* pi times the density in solid angle with which shadow rays to the environment go to a direction, divided
                 by the cube of |x| + |y| + |z| of the direction of unit length, inverted; 0: never */
 };
-/* Of the draws of a texel those above the threshold, in units of 2^-32, are another texel's. */
+/* Draws of a texel above the threshold, in units of 2^-32, go to another texel (alias method). */
 struct trax_environment_alias {
   uint32_t threshold, other;
 };

@@ -172,7 +172,7 @@ static uint8_t emit_group(struct program *program, unsigned count, unsigned othe
   return (uint8_t)first;
 }
 
-/* Of corner values as often as of what earlier ones left: results soon have none. */
+/* Corner values come as often as results of earlier instructions, which soon have none. */
 static void emit_computation(struct program *program) {
   trax_op op;
   do

@@ -6,7 +6,7 @@
 
 enum { MOST_WORDS = 2048, MOST_PROGRAM_THREADS = 24 };
 
-/* What a program may do that depends on the order of threads, or ends the machine. */
+/* Actions that depend on the order of threads, or end the machine. */
 enum program_kind {
   PROGRAM_ALONE,    /* one thread, any output, faults */
   PROGRAM_TOGETHER, /* threads that touch only their own words, and common ones by ainc without a result */

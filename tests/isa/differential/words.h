@@ -8,7 +8,7 @@
 
 /* Those of a program that are legal. */
 void write_words(FILE *out, const uint32_t *words, size_t count);
-/* Of every instruction: registers at both ends and each bit of their numbers, immediates at both ends and each bit. */
+/* Words of every instruction: registers and immediates at both ends, and each bit of them. */
 void write_extreme_words(FILE *out);
 /* count of every instruction, any fields; those that are legal. From random_state. */
 void write_random_words(FILE *out, unsigned count);

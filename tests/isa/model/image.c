@@ -10,7 +10,7 @@
 
 enum { EM_TRAX = 0x7472 };
 
-/* What the loader looks for by name; found: the symbol is defined. */
+/* Symbols that the loader looks up by name; found: the symbol is defined. */
 struct symbols {
   struct {
     bool found;

@@ -41,7 +41,7 @@ static bool is_guard(const struct model_machine *machine, uint32_t address) {
   return machine->stack_bytes && depth / stride < machine->thread_count && depth % stride >= machine->stack_bytes;
 }
 
-/* Of a global address. */
+/* The memory of a global address. */
 static enum model_fault_kind check_write(const struct model_machine *machine, uint32_t address) {
   for (size_t i = 0; i < machine->segment_count; i++) {
     const struct model_segment *segment = &machine->segments[i];

@@ -141,7 +141,7 @@ enum model_access { MODEL_LOAD, MODEL_STORE, MODEL_INCREMENT };
 /* MODEL_FAULT_NONE if the thread may access 1, 2 or 4 bytes there. */
 enum model_fault_kind model_check(const struct model_machine *machine, uint32_t address, uint32_t bytes,
                                   enum model_access access);
-/* What was checked, little endian. */
+/* The words that were checked, little endian. */
 uint32_t model_load(struct model_machine *machine, struct model_thread *thread, uint32_t address, uint32_t bytes,
                     bool past_cache);
 void model_store(struct model_machine *machine, struct model_thread *thread, uint32_t address, uint32_t value,

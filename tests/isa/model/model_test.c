@@ -126,7 +126,7 @@ static void statements(void **state) {
   assert_int_equal(machine->threads[0].registers[3], 2);
   assert_int_equal(machine->threads[0].pc, TEXT + 4);
   model_destroy(machine);
-  /* What comes after a fault does not happen, nor the assignment of a load that faults. */
+  /* Statements after a fault do not happen, nor does the assignment of a load that faults. */
   machine = execute("RD = LOAD32(RA); NEXT_PC = 0;", 0x2002, 0, MODEL_FAULTED);
   assert_int_equal(machine->fault.kind, MODEL_FAULT_MISALIGNED);
   assert_int_equal(machine->fault.address, 0x2002);

@@ -103,7 +103,7 @@ static struct model_node *make(struct parser *parser, struct model_node node) {
 
 static struct model_node *expression(struct parser *parser);
 
-/* Of every rule that calls itself; leave follows. */
+/* Enters a rule that calls itself; leave follows. */
 static bool enter(struct parser *parser) {
   if (++parser->depth > MOST_DEPTH)
     fail(parser, parser->token, "nested too deeply", NULL, 0);

@@ -176,7 +176,7 @@ void trax_decoding_mutant(unsigned index, struct trax_mutant_text *text) {
 
 static const trax_inst nop = {.op = TRAX_OP_ADDI};
 
-/* Of a word of the mutant's instruction. */
+/* Decodes a word of the mutant's instruction. */
 static trax_inst decode_wrongly(const decoding *mutant, uint32_t word, trax_inst right) {
   const uint32_t field = mutant->field;
   switch (mutant->kind) {
@@ -193,7 +193,7 @@ static trax_inst decode_wrongly(const decoding *mutant, uint32_t word, trax_inst
   }
 }
 
-/* Of a word that is illegal. */
+/* Decodes a word that is illegal. */
 static trax_inst accept_wrongly(const decoding *mutant, uint32_t word) {
   const uint32_t number = word & mutant->field;
   switch (mutant->kind) {

@@ -1,4 +1,4 @@
-/* What order.c is told of by machine.c, which stands between the files of the reference engine. */
+/* Events that machine.c, which stands between the files of the reference engine, reports to order.c. */
 #ifndef TRAX_TESTS_ISA_MUTANTS_ORDER_H
 #define TRAX_TESTS_ISA_MUTANTS_ORDER_H
 

@@ -1,4 +1,4 @@
-/* What the mutants of statements.py need in emulator/reference/issue.c; included before all else. */
+/* Definitions for the mutants of statements.py in emulator/reference/issue.c; included before all else. */
 #include <stdint.h>
 
 extern unsigned trax_mutant;

@@ -12,12 +12,12 @@ import sys
 
 SIGNED = r"trax_signed\((\w+)\)"
 
-# What they do is not in the statement: decode.c and machine.c have their other mutants.
+# The statement does not contain their effects: decode.c and machine.c have their other mutants.
 CALLS = {"RD = SPECIAL_REGISTER(IMM);", "TRAP(RA, IMM);", "HALT();", "FENCE(IMM);", "RD = ATOMIC_INC(RA + IMM);"}
 
 COMMUTATIVE = re.compile(r"trax_(mulh|fadd|fmul|fmin|fmax|feq)\(")
 
-# What each operator may be mistaken for. Commutative operands are not exchanged.
+# Operators that may be mistaken for each. Commutative operands are not exchanged.
 OPERATORS = {
     " + ": [" - ", " | "],
     " - ": [" + ", " ^ "],

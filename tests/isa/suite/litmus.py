@@ -46,7 +46,7 @@ def tests():
         def pair(name, rule, first, second, *forbidden):
             add(f"{name}, threads {where}", rule, {writer: first, reader: second}, *forbidden)
 
-        # What fence w waits for, and what a result that is used is.
+        # fence w waits for stores; a result that is used is there.
         for store in ("sw", "swnt"):
             pair(f"message passing, {store}", "fence w waits for stores",
                  [f"{store} r12, 0(r8)", "fence w", f"{store} r12, 0(r9)"], look,

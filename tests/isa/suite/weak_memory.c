@@ -385,7 +385,7 @@ void __wrap_model_fence(struct model_machine *machine, struct model_thread *thre
 
 /* --- the run --- */
 
-/* Of a thread, the loads and stores whose time has come. */
+/* Performs a thread's loads and stores whose time has come. */
 static void pass_time(struct model_machine *machine, struct model_thread *thread) {
   const struct queue *queue = &queues[thread->number];
   const unsigned kept = broken() == FINITE_TIME;

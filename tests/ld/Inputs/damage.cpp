@@ -1,4 +1,4 @@
-// What the compiler makes beyond Inputs/rich.yaml: .stack_sizes, a group, a jump table, calls of several kinds.
+// The compiler's output beyond Inputs/rich.yaml: .stack_sizes, a group, a jump table, calls of several kinds.
 template <typename T> __attribute__((noinline)) T twice(T x) { return x + x; }
 static int (*volatile pointer)(int) = twice<int>;
 __attribute__((noinline)) static int recurse(int n) { return n ? recurse(n / 2) * 3 + 1 : 0; }

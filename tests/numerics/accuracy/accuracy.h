@@ -56,7 +56,7 @@ struct verdict {
   double error; /* in units of the last place of the true result, else */
   double host;  /* the host's error in units of binary64's last place; 0 where that has no meaning */
 };
-/* What MPFR says of result number i of the chunk. */
+/* Judges result number i of the chunk by MPFR. */
 struct verdict judge(const struct function *function, const struct chunk *chunk, size_t i);
 /* Frees what the calling thread's judgements have allocated. */
 void judge_finish(void);

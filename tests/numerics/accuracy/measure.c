@@ -7,7 +7,7 @@
 #include "../operands.h"
 #include "accuracy.h"
 
-/* Of how many chunks one has a result checked by MPFR whatever the host says: that HOST_ERROR holds is measured too. */
+/* One chunk of this many has a result checked by MPFR in any case, so that HOST_ERROR is measured, too. */
 enum { AUDIT = 16 };
 
 static void worst_is(struct measured *m, double error, const struct chunk *chunk, size_t i) {

@@ -1,4 +1,4 @@
-/* What the functions are compared with: the host's binary64 functions over a chunk, and MPFR's for one result. */
+/* The references of the functions: the host's binary64 functions over a chunk, and MPFR's for one result. */
 #ifndef TRAX_TEST_ACCURACY_REFERENCE_H
 #define TRAX_TEST_ACCURACY_REFERENCE_H
 

@@ -11,7 +11,7 @@ static double uniform(uint64_t *state) {
   return (double)(random64(state) >> 11) * 0x1p-53;
 }
 
-/* Of either sign, its magnitude's logarithm uniform below 1. */
+/* A number of either sign; the logarithm of its magnitude is uniform below 1. */
 static double small(uint64_t *state, unsigned most) {
   double x = ldexp(1 + uniform(state), -1 - (int)(random64(state) % most));
   return random64(state) & 1 ? x : -x;

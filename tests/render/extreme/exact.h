@@ -1,4 +1,4 @@
-/* What a ray hits, in exact rational arithmetic, and whether an answer in binary32 is right, or wrong by no more than
+/* Hits of rays in exact rational arithmetic, and whether an answer in binary32 is right, or wrong by no more than
    rounding explains. */
 #ifndef TRAX_EXTREME_EXACT_H
 #define TRAX_EXTREME_EXACT_H
@@ -63,7 +63,7 @@ struct exact_tally {
   double worst_ulp;            /* of the distance, in units of the last place, where the triangle is right */
 };
 
-/* Of several answers about one ray each is counted in the tally of its own. */
+/* Judges several answers about one ray, each counted in its own tally. */
 void exact_judge(struct exact_tally *tallies, const struct exact_scene *scene, const struct query_ray *ray,
                  const struct exact_answer *answers, unsigned count);
 

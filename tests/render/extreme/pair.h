@@ -6,8 +6,8 @@
 
 #include <gmp.h>
 
-/* Of a ray and a triangle, relative to the ray's origin: volume[i] is det(direction, next, previous vertex), which is
-   the edge value opposite to vertex i times a common factor; their sum is the determinant. */
+/* A ray and a triangle, relative to the ray's origin: volume[i] is det(direction, next, previous vertex), which is the
+   edge value opposite to vertex i times a common factor; their sum is the determinant. */
 struct exact_pair {
   mpz_t vertex[3][3], direction[3], volume[3], determinant, product, sum, factor;
   mpq_t distance; /* along the direction; set if the determinant is not zero */

@@ -1,4 +1,4 @@
-/* What cases are made of: rays, and surfaces to aim them at. */
+/* Parts of cases: rays, and surfaces to aim them at. */
 #include "setup.h"
 
 #include <math.h>
@@ -71,7 +71,7 @@ void triangle_at(struct setup *setup, const float a[3], const float b[3], const 
   mesh_triangle(&setup->mesh, first, first + 1, first + 2, 0);
 }
 
-/* Of the point (i, j, k) of an octahedron's surface; the same numbers give the same bits. */
+/* Computes the point (i, j, k) of an octahedron's surface; the same numbers give the same bits. */
 static void globe_point(const struct globe *globe, const int place[3], float point[3]) {
   float length = sqrtf((float)(place[0] * place[0] + place[1] * place[1] + place[2] * place[2]));
   uint32_t seed = (uint32_t)place[0] * 73856093u ^ (uint32_t)place[1] * 19349663u ^ (uint32_t)place[2] * 83492791u;

@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* What make() fills, all of it zero before. */
+/* The result of make(), all of it zero before. */
 struct setup {
   struct trax_mesh mesh;
   struct trax_scene premade; /* instead of the mesh */

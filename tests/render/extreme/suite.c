@@ -126,7 +126,7 @@ static void make_variants(struct prepared *prepared, const struct trax_view *vie
   }
 }
 
-/* Of scenes of many triangles the first rays tell. */
+/* In scenes of many triangles, the first rays decide. */
 static bool needs_exact(const struct prepared *prepared) {
   const double most = JUDGED_PAIRS / fmax(1, prepared->scene.triangle_count);
   for (uint32_t i = 0; i < prepared->params.count && i < most; i++)
@@ -243,7 +243,7 @@ static void *trace_share(void *argument) {
   return NULL;
 }
 
-/* What the method's program is told for a scene, which is prepared->scene or one with other nodes. */
+/* The parameters of the method's program for a scene, which is prepared->scene or one with other nodes. */
 static struct query_params params_for(const struct prepared *prepared, const struct trax_scene *scene,
                                       const struct method *method) {
   struct query_params params = prepared->params;
@@ -497,7 +497,7 @@ static unsigned complain(const char *name, const char *what, uint64_t count) {
   return count != 0;
 }
 
-/* What the default method must never do. The others must agree with their emulated twins, too. */
+/* Counts results that the default method must never have. The others must agree with their emulated twins, too. */
 static unsigned check_row(const struct extreme_case *extreme, const struct row *row, bool is_default) {
   const char *name = extreme->name;
   unsigned failures = complain(name, "the emulated machine answers otherwise", row->twin_differs);

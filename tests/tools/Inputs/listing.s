@@ -1,4 +1,4 @@
-# What trax-objdump is to print: two functions with lines, data in the text, data.
+# Input of trax-objdump: two functions with lines, data in the text, data.
         .file 1 "." "first.c"
         .file 2 "sub/second.c"
         .text

@@ -1,4 +1,4 @@
-# What memory holds at the start, and what of it can be read and written.
+# The contents of memory at the start, and its parts that can be read and written.
 # threads: 1 1
 # results: 20
 # link: -Ttext=0x2000 -Tdata=0x40000
