@@ -7,10 +7,11 @@ Needs a finished build, which is not changed. Exit status 0 if every mutant is n
 """
 
 import argparse
+import concurrent.futures
+import itertools
 import os
 import pathlib
 import re
-import resource
 import shlex
 import signal
 import subprocess
@@ -82,12 +83,9 @@ def relinked(folder, build, target, source, text, tests):
 def ended(seconds, program, *words, **options):
     """The finished program; None if it does not end. It has so many seconds of a processor, however much others leave
     of the host, and many times as long to wait."""
-    def limit():
-        resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds))
-
     try:
-        done = subprocess.run([program, *map(str, words)], capture_output=True, text=True, errors="replace",
-                              timeout=60 * seconds, check=False, preexec_fn=limit, **options)
+        done = subprocess.run(["prlimit", f"--cpu={seconds}", program, *map(str, words)], capture_output=True,
+                              text=True, errors="replace", timeout=60 * seconds, check=False, **options)
     except subprocess.TimeoutExpired:
         return None
     return None if done.returncode in (-signal.SIGXCPU, -signal.SIGKILL) else done
@@ -110,12 +108,13 @@ def list_stale(sources, mutants):
 def main(description, sources, mutants, noticed, unchanged=lambda mutant: "", totals=None):
     """Tries mutants of files below the folder `sources`. noticed(folder, build, mutant) says which tests notice one, in
     a new folder. First it is called with mutants that change nothing, one for each value of unchanged(mutant).
-    totals(results) prints more about (mutant, said). The exit status."""
+    Several are tried at once, each in its folder. totals(results) prints more about (mutant, said). The exit status."""
     parser = argparse.ArgumentParser(description=description.split("\n")[0])
     parser.add_argument("scratch", type=pathlib.Path, nargs="?", help="a folder that keeps what is made")
     parser.add_argument("--stale", action="store_true", help="only lists mutants of texts that are not there")
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build", help="the build folder")
     parser.add_argument("--only", default="", help="mutants in whose name, file or lines it is found")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="mutants at once (default: %(default)s)")
     options = parser.parse_args()
     if options.stale:
         return list_stale(sources, mutants)
@@ -134,9 +133,10 @@ def main(description, sources, mutants, noticed, unchanged=lambda mutant: "", to
             if failed := said("unchanged", one._replace(other=one.text)):
                 sys.exit(f"mutants.py: error: without a mutant: {key} {'; '.join(failed)}")
         results = []
-        for number, one in enumerate(chosen):
-            results.append((one, said(number, one)))
-            print(f"{one}: {'; '.join(results[-1][1]) or 'NOT NOTICED'}", flush=True)
+        with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+            for one, found in zip(chosen, pool.map(said, itertools.count(), chosen)):
+                results.append((one, found))
+                print(f"{one}: {'; '.join(found) or 'NOT NOTICED'}", flush=True)
     if totals:
         totals(results)
     print(f"{sum(bool(found) for _, found in results)} of {len(chosen)} noticed")

@@ -30,13 +30,19 @@ static struct bench_told *told(struct bench *bench, uint32_t tm, uint32_t tp) {
   return &bench->told[tm * bench->machine->config.chip.tps_per_tm + tp];
 }
 
+static void tell(struct bench_told *thread, trax_cause cause, uint64_t cycles) {
+  thread->until += cycles;
+  thread->cycles[cause] += cycles;
+  for (uint64_t i = 0; i < cycles; i++)
+    thread->causes = thread->causes * 0x100000001B3 + cause;
+}
+
 static void record_issue(void *context, const struct trax_issue *issue) {
   struct bench *bench = context;
   struct bench_issues *issues = &bench->issues;
   struct bench_told *thread = told(bench, issue->tm, issue->tp);
   assert_int_equal(issue->cycle, thread->until);
-  thread->until++;
-  thread->cycles[TRAX_CAUSE_ISSUED]++;
+  tell(thread, TRAX_CAUSE_ISSUED, 1);
   if (issues->count == issues->capacity) {
     issues->capacity = issues->capacity ? 2 * issues->capacity : 256;
     issues->issue = realloc(issues->issue, issues->capacity * sizeof *issues->issue);
@@ -52,8 +58,7 @@ static void record_charge(void *context, uint32_t tm, uint32_t tp, trax_cause ca
   assert_true(cycles > 0 && cause != TRAX_CAUSE_ISSUED);
   assert_true(!rd || trax_is_wait(cause)); /* a fence also waits for stores, which have no register */
   thread->waits[rd] += rd ? cycles : 0;
-  thread->until += cycles;
-  thread->cycles[cause] += cycles;
+  tell(thread, cause, cycles);
 }
 
 /* --- stretches, as issues and charges --- */

@@ -41,6 +41,7 @@ struct bench_told {
   uint64_t until; /* all cycles before it */
   uint64_t cycles[TRAX_CAUSE_COUNT];
   uint64_t waits[TRAX_NUM_REGISTERS]; /* for each register */
+  uint64_t causes;                    /* a hash of the cause of each cycle, in order */
 };
 
 struct bench {

@@ -119,7 +119,7 @@ static void compare_engines(const struct random_case *c, struct comparison *to) 
     if (stretches) /* an engine may tell more */
       reduce_issues(&observed.bench.issues);
     different = different_issues(difference, &reference.bench.issues, &observed.bench.issues) ||
-                different_waits(difference, &reference.bench, &observed.bench) ||
+                different_charges(difference, &reference.bench, &observed.bench) ||
                 different_runs(difference, &reference, &observed) ||
                 different_transfers(difference, &reference, &observed);
     end(&observed);

@@ -237,13 +237,16 @@ static bool has_value(uint32_t word) {
          inst.op == TRAX_OP_TRAP;
 }
 
-bool different_waits(struct difference *to, const struct bench *a, const struct bench *b) {
-  for (uint32_t thread = 0; thread < a->machine->stats.threads; thread++)
+bool different_charges(struct difference *to, const struct bench *a, const struct bench *b) {
+  for (uint32_t thread = 0; thread < a->machine->stats.threads; thread++) {
+    if (a->told[thread].causes != b->told[thread].causes)
+      return differs(to, "thread %u has other causes, or the same in another order", thread);
     for (unsigned rd = 0; rd < TRAX_NUM_REGISTERS; rd++)
       if (a->told[thread].waits[rd] != b->told[thread].waits[rd])
         return differs(to, "thread %u waits %llu and %llu cycles for r%u", thread,
                        (unsigned long long)a->told[thread].waits[rd], (unsigned long long)b->told[thread].waits[rd],
                        rd);
+  }
   return false;
 }
 

@@ -47,8 +47,8 @@ struct difference {
 __attribute__((format(printf, 2, 3))) bool differs(struct difference *to, const char *format, ...);
 bool different_number(struct difference *to, const char *name, uint64_t x, uint64_t y);
 bool different_bytes(struct difference *to, const char *name, const void *x, const void *y, size_t size);
-/* Whether observers were told that a thread waited for other registers. */
-bool different_waits(struct difference *to, const struct bench *a, const struct bench *b);
+/* Whether observers were told other charges of a thread: their causes, their order, or the registers waited for. */
+bool different_charges(struct difference *to, const struct bench *a, const struct bench *b);
 /* Reduces issues to what stretches have of them. */
 void reduce_issues(struct bench_issues *issues);
 bool different_issues(struct difference *to, const struct bench_issues *a, const struct bench_issues *b);

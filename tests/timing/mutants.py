@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 """Do the tests of time notice a wrong engine?
 
-    mutants.py SCRATCH [--only EXPRESSION]     only mutants in whose file or lines it is found
-    mutants.py --stale                         only lists texts that are not there
+    mutants.py [SCRATCH] [--jobs N] [--only EXPRESSION]
+    mutants.py --stale             only lists texts that are not there
 
-Each mutant is one changed line of an engine. A copy of the tree is changed, built and tested; a mutant that no test
-notices is named.
+Each mutant is one changed line of an engine. A copy of the tree is changed, built and tested until a test fails.
 """
 
+import itertools
 import os
 import pathlib
 import shutil
@@ -19,20 +19,19 @@ from mutants_list import MUTANTS  # noqa: E402
 from mutation import ROOT, Mutant, failure, main  # noqa: E402
 
 SOURCE = ROOT / "emulator"
-HAND = ["runs", "faults"]
+ENGINES = ["timing-engines-test", "--jobs", "1", "--stop", "--engine"]
+MANY = "200"
+# The quickest first, since it decides about most mutants.
 TESTS = [(["timing-rules-test", "docs/timing-rules.md"], {}), (["timing-dram-test"], {})]
-TESTS += [([f"timing-{name}-test"], {"TRAX_ENGINE": engine}) for engine in ("fast", "reference") for name in HAND]
-TESTS += [(["timing-bandwidth-test"], {})]
-TESTS += [(["timing-translated-test"], {})]
-TESTS += [(["timing-engines-test", "--engine", engine, "--count", "200", "--jobs", "2", "--stop"], {})
-          for engine in ("fast-translated", "fast")]
-TESTS += [(["timing-state-test"], {}),
-          (["timing-epochs-test"], {}), (["timing-checkpoint-test"], {})]
-SECONDS = 60  # of a processor, that a test may take
-TARGETS = sorted({test[0][0] for test in TESTS})
+TESTS += [([f"timing-{name}-test"], {"TRAX_ENGINE": engine})
+          for engine in ("fast", "reference") for name in ("runs", "faults")]
+TESTS += [([*ENGINES, "fast-translated", "--count", "15"], {}), (["timing-bandwidth-test"], {}),
+          (["timing-translated-test"], {}), (["timing-epochs-test"], {}), (["timing-checkpoint-test"], {}),
+          (["timing-state-test"], {})]
+TESTS += [([*ENGINES, engine, "--count", MANY], {}) for engine in ("fast-translated", "fast")]
 
 
-def copy_tree(tree):
+def copy_sources(tree):
     files = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, check=True, capture_output=True).stdout.split(b"\0")
     for name in filter(None, map(os.fsdecode, files)):
         source, target = ROOT / name, tree / name
@@ -42,41 +41,50 @@ def copy_tree(tree):
         shutil.copy(source, target)
 
 
-def build(tree):
-    return subprocess.run(["ninja", "-C", tree / "build", "-j2", *TARGETS], capture_output=True, text=True)
+class Tree:
+    """A copy of the sources, with a build. The fast engine is compiled once, not also for newer processors."""
+
+    def __init__(self, folder):
+        self.folder, self.changed = folder, None
+        self.environment = os.environ | {"CCACHE_BASEDIR": str(folder)}  # one tree's objects serve the others
+        copy_sources(folder)
+        if not (folder / "build/build.ninja").exists():
+            launcher = ["-DCMAKE_C_COMPILER_LAUNCHER=ccache",
+                        "-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
+            subprocess.run(["cmake", "--preset", "release", "-DTRAX_FAST_VARIANTS=OFF", *launcher], cwd=folder,
+                           env=self.environment, check=True, stdout=subprocess.DEVNULL)
+
+    def change(self, mutant):
+        """Makes the mutant's change the only one."""
+        if self.changed not in (None, mutant.file):
+            shutil.copy(SOURCE / self.changed, self.folder / "emulator" / self.changed)
+        (self.folder / "emulator" / mutant.file).write_text(mutant.changed(SOURCE))
+        self.changed = mutant.file
+
+    def first_failure(self, mutant):
+        """What notices first. Tests are linked when their turn comes."""
+        for words, environment in TESTS:
+            if subprocess.run(["ninja", "-C", self.folder / "build", "-j1", words[0]], capture_output=True,
+                              env=self.environment, check=False).returncode:
+                return "does not compile" if mutant.text == mutant.other else sys.exit(f"does not compile: {mutant}")
+            program = self.folder / "build/tests/bin" / words[0]
+            seconds = 120 if MANY in words else 20  # of a processor: some five times as many as without a mutant
+            if why := failure(seconds, program, *words[1:], cwd=self.folder, env=os.environ | environment):
+                return f"{' '.join(environment.values())} {why}".strip()
+        return None
 
 
-def first_failure(tree):
-    """The number of the first test that fails; None if none does."""
-    for i, (command, environment) in enumerate(TESTS):
-        program = tree / "build/tests/bin" / command[0]
-        if failure(SECONDS, program, *command[1:], cwd=tree, env=os.environ | environment):
-            return i
-    return None
-
-
-def tree_for(folder):
-    """A built copy of the sources beside the folder."""
-    tree = folder.parent / "tree"
-    copy_tree(tree)
-    if not (tree / "build/build.ninja").exists():
-        launcher = ["-DCMAKE_C_COMPILER_LAUNCHER=ccache",
-                    "-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
-        subprocess.run(["cmake", "--preset", "release", *launcher], cwd=tree, check=True, stdout=subprocess.DEVNULL)
-    return tree
+NUMBERS = itertools.count()
+IDLE = []  # trees
 
 
 def noticed(folder, _, mutant):
-    """The first test that fails in a copy of the tree."""
-    tree = tree_for(folder)
-    (tree / "emulator" / mutant.file).write_text(mutant.changed(SOURCE))
-    if build(tree).returncode:
-        return ["does not compile"] if mutant.text == mutant.other else sys.exit(f"does not compile: {mutant}")
-    test = first_failure(tree)
-    if test is None:
-        return []
-    words, environment = TESTS[test]
-    return [f"{' '.join(environment.values())} {words[0]}".strip()]
+    """The first test that fails in a tree that no other mutant uses, beside the folder."""
+    tree = IDLE.pop() if IDLE else Tree(folder.parent / f"tree{next(NUMBERS)}")
+    tree.change(mutant)
+    found = tree.first_failure(mutant)
+    IDLE.append(tree)
+    return [found] if found else []
 
 
 def print_totals(results):

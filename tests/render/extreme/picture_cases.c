@@ -77,6 +77,17 @@ static void make_light_on_surface(struct setup *setup, uint32_t rays) {
   setup->light[0] = 2, setup->light[1] = 1, setup->light[2] = 3;
 }
 
+/* A needle of width 2^-149 that shadow rays pass behind the light. A needle has a point before the light, too, so no box
+   rejects it. Its determinants have so few bits that UNITS_OF_DOUBT are a multiple of them. All rays are in the plane
+   y = 0, and the ground is symmetric about it: only there does a ray meet the needle. */
+static void make_needle_behind_light(struct setup *setup, uint32_t rays) {
+  triangle_at(setup, (float[]){-8, 0, 0}, (float[]){8, 8, 0}, (float[]){8, -8, 0});
+  triangle_at(setup, (float[]){-1, 0, 1.9f}, (float[]){1, 0, 4}, (float[]){-1, 0x1p-149f, 1.9f});
+  for (uint32_t i = 0; i < rays; i++)
+    add_ray(setup, (float[]){0.5f * any(setup), 0, 1}, (float[]){0, 0, -1});
+  setup->light[2] = 2;
+}
+
 /* --- pictures: the rays are those of the pixels --- */
 
 static void picture(struct setup *setup, uint32_t width, uint32_t height, struct trax_view view) {
@@ -151,6 +162,7 @@ const struct extreme_case picture_cases[] = {
     {"corners-dark", "edges and corners of a room, light outside", make_corners_dark, CASE_CLOSED | CASE_SHADOWS},
     {"corners-lit", "edges and corners of a room, light inside", make_corners_lit, CASE_CLOSED | CASE_SHADOWS},
     {"light-on-surface", "the light on a corner of the room", make_light_on_surface, CASE_CLOSED | CASE_SHADOWS},
+    {"needle-behind-light", "a triangle of width 2^-149 behind the light", make_needle_behind_light, CASE_SHADOWS},
     {"picture-empty", "a picture of nothing", make_picture_empty, 0},
     {"picture-1x1", "one pixel", make_picture_1x1, CASE_CLOSED},
     {"picture-1xN", "1 x 333 pixels", make_picture_1xN, CASE_CLOSED},

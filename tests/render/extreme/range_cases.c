@@ -153,6 +153,17 @@ static void make_both_turned(struct setup *setup, uint32_t rays) {
   setup->light[0] = 1300, setup->light[1] = -1800, setup->light[2] = 3200;
 }
 
+/* The shadow of a step so low that only rays from close to the floor meet the step. */
+static void make_low_step(struct setup *setup, uint32_t rays) {
+  mesh_box(&setup->mesh, (float[]){0, -2, -1}, (float[]){1, -1.9998f, 1}, 0);
+  mesh_box(&setup->mesh, (float[]){-1e9f, -2, -1e9f}, (float[]){1e9f, 1e9f, 1e9f}, 0);
+  for (uint32_t i = 0; i < rays; i++) {
+    const float from[3] = {any(setup), random_unit(&setup->seed), any(setup)};
+    aim(setup, from, (float[]){-4e-5f + 2e-5f * any(setup), -2, 0.5f * any(setup)});
+  }
+  setup->light[0] = 3, setup->light[1] = 4, setup->light[2] = 2;
+}
+
 /* Rays to rocks that end at the light: 2^-60 of the scene away from it. */
 static void make_tiny_lit(struct setup *setup, uint32_t rays) {
   rocks_in_globe(setup, rays, 1e17f, 1e-3f);
@@ -188,6 +199,7 @@ const struct extreme_case range_cases[] = {
      CASE_CLOSED | CASE_SHADOWS | CASE_BEYOND_BINARY32 | CASE_BELOW_OFFSET},
     {"both-turned", "rocks of 4 on a floor of 1e9, moved and turned", make_both_turned,
      CASE_CLOSED | CASE_SHADOWS | CASE_BEYOND_BINARY32 | CASE_BELOW_OFFSET},
+    {"low-step", "the shadow of a step of 0.0002 on a floor of 1e9", make_low_step, CASE_CLOSED | CASE_SHADOWS},
     {"tiny-lit", "rocks of 0.001 and a light in a globe of 1e17", make_tiny_lit, CASE_CLOSED | CASE_SHADOWS},
     {"picture-both", "boxes of 1 on a floor of 1e17", make_picture_both, CASE_CLOSED | CASE_BEYOND_BINARY32},
 };
