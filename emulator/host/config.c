@@ -243,8 +243,8 @@ static void format_value(const struct trax_config_key *key, double value, char *
   }
   if (key->kind != TRAX_KIND_REAL)
     snprintf(text, size, "%.0f", value);
-  else if (!strpbrk(text, ".e"))
-    strncat(text, ".0", size - strlen(text) - 1);
+  else if (!strchr(text, '.') || strchr(text, 'e')) /* a whole number, 2e+01 as well */
+    snprintf(text, size, "%.1f", value);
 }
 
 void trax_config_print(const trax_config *config, FILE *out) {

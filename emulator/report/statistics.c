@@ -35,12 +35,14 @@ struct visitor {
 
 static void emit(const struct visitor *visitor, enum trax_figure_group group, const char *prefix, const char *name,
                  const char *unit, const char *meaning, long double value) {
+  /* 0/0 and x/0 are reported as 0. They are judged as doubles: a host may lack the range of long double (valgrind). */
+  const double rounded = (double)value;
   struct trax_figure figure = {.unit = unit,
                                .meaning = meaning,
                                .group = group,
                                .whole = is_count(unit),
-                               .value = isfinite(value) ? (double)value : 0}; /* 0/0 is reported as 0 */
-  if (figure.whole && isfinite(value) && value > 0)
+                               .value = isfinite(rounded) ? rounded : 0};
+  if (figure.whole && isfinite(rounded) && value > 0)
     figure.count = (uint64_t)value;
   snprintf(figure.name, sizeof figure.name, "%s%s", prefix, name);
   visitor->visit(visitor->context, &figure);

@@ -219,7 +219,7 @@ def try_option(name, argument, case):
         fail(f"status {status}, not {case.status}, of: {' '.join(words)} {case.program}", err)
     elif case.check and (wrong := case.check(out, err)):
         fail(f"{wrong}: {' '.join(words)} {case.program}", err)
-    for left in ("out.txt", "out.html", "trace.txt", "stats.json", "report.txt", "symbols", "c.bin"):
+    for left in ("out.txt", "out.html", "trace.txt", "stats.json", "report.txt", "c.bin"):
         if os.path.exists(left):
             os.remove(left)
     if not argument:

@@ -98,6 +98,19 @@ class SpaceTest(unittest.TestCase):
         self.explore(made)
         self.assertEqual(len(made.asked[1]), 24)
 
+    def test_unknown_area(self):
+        """Runs without an area are named; they neither are on the front nor keep others from it."""
+        made = Made(2)
+        made.designs = {(chip, (("icache.bytes", size), ("memory.bandwidth_gbps", rate))):
+                        (9.0, 9.0, 9.0, None) if rate == 8 else (2.0, 2.0, 2.0, 3.0)
+                        for chip in CHIPS for size in (4096, 8192) for rate in (2, 4, 8)}
+        _, text = self.explore(made)
+        self.assertEqual(text, "8 of 24 runs are on no front: no area is known of their caches\n"
+                         "16 of 24 runs may be on the front, and are made exactly\n")
+        made.designs = dict.fromkeys(made.designs, (9.0, 9.0, 9.0, None))
+        self.assertEqual(self.explore(made)[1], "24 of 24 runs are on no front: no area is known of their caches\n")
+        self.assertEqual(len(made.asked), 3)
+
     def test_report_takes_the_exact_run(self):
         made = Made(1)
         self.explore(made)

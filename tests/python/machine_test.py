@@ -86,6 +86,15 @@ def test_picture_is_that_of_trax_render(manifest, tmp_path):
     assert trax_compare.returncode == 0, trax_compare.stderr
 
 
+def test_picture_of_floats(manifest, tmp_path):
+    """Linear floats have three channels; their square roots are the bytes of the program's own picture."""
+    floats = trax.Machine(trax.prepare("generate:forest", folder=tmp_path / "run", size=(48, 27), options=("--float", ))
+                          ).run().picture
+    assert floats.pixels.shape == (27, 48, 3) and floats.pixels.dtype == numpy.float32 and floats.size == (48, 27)
+    colours = trax.Machine(manifest).run().picture.pixels[:, :, :3]
+    assert numpy.array_equal(numpy.floor(255 * numpy.sqrt(floats.pixels.clip(0, 1)) + 0.5), colours)
+
+
 def test_buffers_are_the_memory_of_the_machine(programs):
     machine = trax.Machine(programs["triple"])
     machine.bind("data", VALUES)

@@ -5,6 +5,7 @@ import os
 import pathlib
 import subprocess
 import sys
+import weakref
 
 import numpy
 import pytest
@@ -47,6 +48,19 @@ def test_sweep(programs):
         assert machine.run().cycles == table["cycles"][row]
 
 
+def test_sweep_keeps_no_machine(programs):
+    """A machine's memory is free when its run has ended: a sweep has as many as jobs."""
+    made, alive = [], []
+
+    def setup(machine):
+        alive.append(sum(one() is not None for one in made))
+        made.append(weakref.ref(machine))
+        machine.bind("data", VALUES)
+
+    trax.sweep(programs["triple"], settings={"memory.latency_cycles": [50, 60, 70, 80]}, jobs=1, setup=setup)
+    assert alive == [0, 0, 0, 0]
+
+
 def test_tables_of_a_run(programs):
     machine = trax.Machine(programs["triple"], "2x32")
     machine.bind("data", VALUES)
@@ -55,6 +69,8 @@ def test_tables_of_a_run(programs):
     causes = run.tps().filter(like="causes.")
     assert causes.to_numpy().sum() == run.cycles * 64 == run["identity.thread_cycles"]
     assert run.tms()["dcache.hits"].sum() == run["dcache.hits"] > 0
+    table = trax.table([run], [{"name": "first"}])
+    assert list(table.columns[:1]) == ["name"] and table["cycles"][0] == run.cycles
 
 
 def test_results_of_an_evaluation(tmp_path):

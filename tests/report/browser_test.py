@@ -33,7 +33,7 @@ class BrowserTest(PageTests, unittest.TestCase):
         for scene in example.SCENES:
             (folder / "pictures" / f"{scene}.png").write_bytes(example.picture())
         cls.pages = {}
-        for name in ("complete", "partial", "hostile", "hostile_own"):
+        for name in ("complete", "partial", "hostile", "hostile_own", "own"):
             source, cls.pages[name] = folder / f"{name}.json", folder / f"{name}.html"
             source.write_text(json.dumps(getattr(example, name)()))
             subprocess.run([sys.executable, "-B", "-m", "report.make", source, "-o", cls.pages[name]], cwd=FOLDER,
@@ -48,14 +48,14 @@ class BrowserTest(PageTests, unittest.TestCase):
                 figures = self.browser.run("""Array.from(document.querySelectorAll("main figure"), figure => {
                     const inner = figure.querySelector(":scope > svg, :scope > img, :scope > p");
                     const box = inner.getBoundingClientRect();
-                    const selected = ["use", "polygon", "path"].map(name => `:scope > svg ${name}`).join(", ");
+                    const selected = ["use", "polygon", "path", "text"].map(name => `:scope > svg ${name}`).join(", ");
                     const marks = Array.from(figure.querySelectorAll(selected), mark => mark.getBoundingClientRect());
                     const outside = mark => mark.right > box.right + 1 || mark.bottom > box.bottom + 1 ||
                                             mark.left < box.left - 1 || mark.top < box.top - 1;
                     return {id: figure.id, width: box.width, height: box.height,
                             complete: inner.tagName !== "IMG" || inner.naturalWidth > 0,
                             text: inner.textContent, outside: marks.some(outside)}; })""")
-                self.assertGreaterEqual(len(figures), 3 if name == "hostile_own" else 8)
+                self.assertGreaterEqual(len(figures), 3 if name.endswith("own") else 8)
                 for figure in figures:
                     self.assertGreater(figure["width"], 100, figure)
                     self.assertGreater(figure["height"], 10, figure)

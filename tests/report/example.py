@@ -1,6 +1,7 @@
 """Results as trax-eval writes them, made up: figures follow from a formula, so that a test knows what the page must
 show."""
 
+import itertools
 import pathlib
 import sys
 
@@ -226,6 +227,23 @@ def stranger():
         scenes=[{"name": "cube", "title": "A cube", "paper": None},
                 {"name": "dragon", "title": "Dragon", "paper": "dragon"}], workloads=[{"name": "fog", "title": "Fog"}])
     return made
+
+
+def own():
+    """Several bandwidths on two chips; one run failed."""
+    runs = []
+    for chip, rate in itertools.product(("1x32", "4x32"), (4, 8, 16)):
+        made = run("ours", "forest", chip, {"memory.bandwidth_gbps": rate}, experiments=("rates", ),
+                   value=threads(chip) * rate / (rate + 8) / 16)
+        made["values"] = {"area_units": 0.06 * threads(chip) + (rate == 8)}
+        made["stats"]["energy"]["average_power"] = 2.0 + threads(chip) / 100 - rate / 50
+        made["stats"]["memory"]["bandwidth_gbps"] = 1.0 + rate / 8
+        runs.append(made)
+    runs[2].update(status="failed", error="this program renders <no> textures", stats={}, values={})
+    return document(runs, [{
+        "name": "rates", "title": "What does bandwidth buy?", "claim": "Memory is the limit.",
+        "x": "memory.bandwidth_gbps", "y": "mrps", "y_per": "values.area_units", "file": "mine.json"
+    }])
 
 
 def partial():

@@ -19,23 +19,6 @@ from report import make, own  # noqa: E402
 from report.results import read_results  # noqa: E402
 
 
-def mine():
-    """Queues of several lengths on two chips; one run failed."""
-    runs = []
-    for chip, places in itertools.product(("1x32", "4x32"), (4, 8, 16)):
-        made = example.run("ours", "forest", chip, {"memory.queue_entries": places}, experiments=("queues", ),
-                           value=example.threads(chip) * places / (places + 8) / 16)
-        made["values"] = {"area_units": 0.06 * example.threads(chip) + (places == 8)}
-        made["stats"]["energy"]["average_power"] = 2.0 + example.threads(chip) / 100 - places / 50
-        made["stats"]["memory"]["bandwidth_gbps"] = 1.0 + places / 8
-        runs.append(made)
-    runs[2].update(status="failed", error="this program renders <no> textures", stats={}, values={})
-    return example.document(runs, [{
-        "name": "queues", "title": "What does a longer queue buy?", "claim": "Misses overlap.",
-        "x": "memory.queue_entries", "y": "mrps", "y_per": "values.area_units", "file": "mine.json"
-    }])
-
-
 class OwnTest(unittest.TestCase):
     def setUp(self):
         self.scratch = tempfile.TemporaryDirectory()
@@ -55,27 +38,27 @@ class OwnTest(unittest.TestCase):
         return [html.unescape(one) for one in re.findall("<h2>(.*?)</h2>", text)]
 
     def test_questions_first(self):
-        text = self.make(mine())
-        self.assertIn("<h1>What does a longer queue buy?</h1>", text)
-        self.assertEqual(self.headings(text)[:3], ["What does a longer queue buy?",
+        text = self.make(example.own())
+        self.assertIn("<h1>What does bandwidth buy?</h1>", text)
+        self.assertEqual(self.headings(text)[:3], ["What does bandwidth buy?",
                                                    "Rays for area, power and bandwidth", "Where the time goes"])
         body = text[text.index("<main>"):]
-        places = [body.index(one) for one in ("Misses overlap.", "5 of 6 runs are there, 1 failed.",
+        places = [body.index(one) for one in ("Memory is the limit.", "5 of 6 runs are there, 1 failed.",
                                               "this program renders &lt;no&gt; textures", "<figcaption>", "<table")]
         self.assertEqual(places, sorted(places))
         self.assertIn("million rays per second / area (mm²)", text)
 
     def test_leaves_out(self):
-        text = self.make(mine())
+        text = self.make(example.own())
         for left_out in ("not known", "not measured</", "Nothing was measured", "Table 2", "claims", "No run has"):
             self.assertNotIn(left_out, text[text.index("<main>"):], left_out)
-        for run in (made := mine())["runs"]:
+        for run in (made := example.own())["runs"]:
             run.update(status="failed", error="no", stats={}, values={})
-        self.assertEqual(self.headings(self.make(made)), ["What does a longer queue buy?", "Runs", "Configurations"])
+        self.assertEqual(self.headings(self.make(made)), ["What does bandwidth buy?", "Runs", "Configurations"])
 
     def test_fronts(self):
         """Against the definition: no other run has more rays for less."""
-        self.make(mine())
+        self.make(example.own())
         runs = [run for run in self.results.runs if run.done]
         for _, cost, _ in own.COSTS:
             expected = [one for one in runs if not any(
@@ -114,7 +97,7 @@ class OwnTest(unittest.TestCase):
 
     def test_estimates_beside_exact_runs(self):
         """Figures have one mark for each design, whose exact run is in place of its estimate; tables have both."""
-        made = mine()
+        made = example.own()
         names = "sweep-0", "time-0", "front-area"
         known = [self.figure(self.make(made), name) for name in names]
         for record in made["runs"][:2] + made["runs"][3:4]:
@@ -137,14 +120,14 @@ class OwnTest(unittest.TestCase):
 
     def test_columns_of_runs(self):
         """The table of runs has no column without data, and keeps the one with links alone."""
-        heads = re.findall('<th.*?>(?:<button.*?>)?(.*?)<', self.make(mine()).partition('id="runs"')[2])
+        heads = re.findall('<th.*?>(?:<button.*?>)?(.*?)<', self.make(example.own()).partition('id="runs"')[2])
         self.assertEqual([one in heads for one in ("run", "MRPS", "files", "configuration", "against the paper")],
                          [True, True, True, True, False], heads)
         self.assertIn("against the paper", self.make(example.complete()).partition('id="runs"')[2])
 
     def test_sweeps_of_trax(self):
         """With a sweep that comes with trax the page is about the paper."""
-        made = mine()
+        made = example.own()
         made["sweeps"].append({"name": "bandwidth", "x": "memory.bandwidth_gbps"})
         self.assertIn(make.PAPERS_TITLE.replace("'", "&#x27;"), self.make(made))
         self.assertEqual(self.headings(self.make(example.complete()))[:2], ["Summary", "The paper's tables"])

@@ -3,6 +3,7 @@
 import dataclasses
 import functools
 import json
+import math
 import os
 import stat
 
@@ -267,5 +268,6 @@ class Machine:
         is_float = ffi.new("bool *")
         if not self._manifest or not lib.trax_manifest_picture(self._manifest, symbol, width, height, is_float):
             return None
+        shape = height[0], width[0], 3 if is_float[0] else 4
         values = self.buffer(ffi.string(symbol[0]).decode(), numpy.float32 if is_float[0] else numpy.uint8)
-        return Picture(values[:width[0] * height[0] * 4].reshape(height[0], width[0], 4))
+        return Picture(values[:math.prod(shape)].reshape(shape))

@@ -19,21 +19,25 @@ def sweep(program, chips=(None, ), settings=None, jobs=None, setup=None, **run):
     axes = {"chip": chips, **(settings or {})}
     points = [dict(zip(axes, values)) for values in itertools.product(*axes.values())]
 
-    machines = []
+    running = set()
 
     def work(point):
         machine = Machine(program, point["chip"], {key: value for key, value in point.items() if key != "chip"})
-        machines.append(machine)
-        if setup is not None:
-            setup(machine)
-        return machine.run(threads=1, **run)
+        running.add(machine)
+        try:
+            if setup is not None:
+                setup(machine)
+            return point | machine.run(threads=1, **run).figures()  # a Run would keep its machine's memory
+        finally:
+            running.discard(machine)
 
+    import pandas
     with concurrent.futures.ThreadPoolExecutor(jobs or len(os.sched_getaffinity(0))) as pool:
         try:
-            return table(list(pool.map(work, points)), points)
+            return pandas.DataFrame(list(pool.map(work, points)))
         except BaseException:  # what is under way ends, and nothing else begins
             pool.shutdown(wait=False, cancel_futures=True)
-            for machine in machines:
+            for machine in list(running):
                 machine.interrupt()
             raise
 

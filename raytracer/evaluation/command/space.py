@@ -57,8 +57,11 @@ def explore(options, files, runs_of):
     status, value, plans = runs_of(read_sweep(files[0], size=exact.points[0].size, mode="quick", **chosen))
     if options.dry_run:
         return status
-    estimated = {key: point for _, keys in plans for point, (key, _) in keys.items() if key}
-    wanted = {dataclasses.replace(estimated[key], mode="exact") for key in front_keys(Results(value), estimated)}
+    estimated, results = {key: point for _, keys in plans for point, (key, _) in keys.items() if key}, Results(value)
+    unknown = sum(run.done and run.key in estimated and run.get(AREA) is None for run in results.runs)
+    if unknown:
+        print(f"{unknown} of {len(estimated)} runs are on no front: no area is known of their caches", flush=True)
+    wanted = {dataclasses.replace(estimated[key], mode="exact") for key in front_keys(results, estimated)}
     if not wanted:
         return status
     exact.points = [point for point in exact.points if point in wanted]

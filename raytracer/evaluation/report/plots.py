@@ -76,7 +76,7 @@ class Plane:
     """Two axes with labels. x(value) and y(value) are places in the picture."""
     def __init__(self, across, up, x_label, y_label, height):
         self.across, self.up, self.x_label, self.y_label, self.height = across, up, x_label, y_label, height
-        self.left = round(16 + (18 if y_label else 0) + (7 if y_label else LETTER) * widest(up.ticks))
+        self.left = 16 + (18 if y_label else 0) + 7 * widest(up.ticks)  # wide letters, too: the left end is not cut
         ticks = sorted(across.ticks)
         self.slanted = any(
             self.x(right[0]) - self.x(left[0]) < LETTER * (len(left[1]) + len(right[1])) / 2 + 2

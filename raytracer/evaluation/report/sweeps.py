@@ -126,7 +126,11 @@ class Axes:
     @staticmethod
     def value(run, key):
         value = getattr(run, "kind", "") if key == "kind" else run.axis(key)
-        return str(value).lower() if isinstance(value, bool) else value if isinstance(value, (str, int, float)) else ""
+        if isinstance(value, bool):
+            return str(value).lower()
+        if isinstance(value, float) and value.is_integer():
+            return int(value)  # as a sweep has it
+        return value if isinstance(value, (str, int, float)) else ""
 
     def place(self, run, keys):
         return tuple(self.value(run, key) for key in keys)
@@ -268,7 +272,6 @@ class SweepTable:
 
     def body(self, row):
         for part in row:
-            part = int(part) if isinstance(part, float) and part.is_integer() else part  # as a sweep has it
             yield figure(part, 6) if number(part) is not None else Cell(str(part) or "-", str(part))
         for column, value in itertools.product(self.column_places, self.values):
             yield self.cell(row, column, value)

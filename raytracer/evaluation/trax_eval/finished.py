@@ -71,7 +71,7 @@ def forget_damaged(out, keys):
 
 def forget(out, key, problem):
     remark(f"{problem}; the run is made anew")
-    (out / "runs" / f"{key}.json").unlink()
+    (out / "runs" / f"{key}.json").unlink(missing_ok=True)  # another command may have removed it
 
 
 def is_intact(out, key):

@@ -31,8 +31,7 @@ def effective(point, tools):
         if not option_of(pair[0]):
             rest = tuple(other for other in point.machine() if other[0] != pair[0])
             base = tuple(other for other in point.program.settings if other[0] == pair[0])
-            if tools.configuration(point.chip_file,
-                                   rest + base) == tools.configuration(point.chip_file, rest + (pair, )):
+            if tools.configuration(point.chip_file, rest + base) == tools.configuration(point.chip_file, point.machine()):
                 continue
         kept.append(pair)
     return dict(kept)
