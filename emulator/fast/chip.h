@@ -100,12 +100,9 @@ void trax_state_visit(void *chip, trax_section_visitor *visit, void *context);
    reason of the refusal, in `text`. */
 const char *trax_state_check(void *chip, uint64_t t, char text[128]);
 
-/* The engine with the best variant that the host can run, and the engines of single variants. */
+/* The engine with the best variant that the host can run, and that with the variant for any host. */
 extern const struct trax_engine trax_fast_engine, trax_fast_any_engine;
 /* The best variant without translation, and, for tests, with all of it at once. */
 extern const struct trax_engine trax_fast_interpreted_engine, trax_fast_translated_engine;
-#ifdef TRAX_FAST_HAVE_VARIANTS
-extern const struct trax_engine trax_fast_avx2_engine, trax_fast_avx512_engine;
-#endif
 
 #endif

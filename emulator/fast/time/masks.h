@@ -34,10 +34,8 @@ static inline uint64_t trax_fast_any(const trax_fast_lanes *lanes) {
 
 /* The arbiters of the 16 banks of the instruction caches, with 16 TPs to a cache: bank by bank, two caches of a TM with
    at most 32 TPs, or four. A vector has the banks whose numbers differ in their low bits. */
-#if defined(__AVX512BW__)
-enum { TRAX_FAST_VECTOR = 64 }; /* bytes */
-#elif defined(__AVX2__)
-enum { TRAX_FAST_VECTOR = 32 };
+#ifdef __AVX2__
+enum { TRAX_FAST_VECTOR = 32 }; /* bytes */
 #else
 enum { TRAX_FAST_VECTOR = 16 };
 #endif

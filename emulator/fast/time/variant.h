@@ -1,5 +1,5 @@
-/* The part of the fast engine that works on vectors of TPs, cycle.c. It is compiled several times, for different
-   instruction sets of the host. */
+/* The part of the fast engine that works on vectors of TPs, cycle.c. It is compiled for every host and for
+   x86-64-v3. AVX-512 would gain nothing (docs/results/performance.md). */
 #ifndef TRAX_FAST_VARIANT_H
 #define TRAX_FAST_VARIANT_H
 
@@ -19,9 +19,6 @@ struct trax_fast_variant {
 };
 
 extern const struct trax_fast_variant trax_fast_variant;
-#ifdef TRAX_FAST_HAVE_VARIANTS
-extern const struct trax_fast_variant trax_fast_variant_v3; /* for x86-64-v3: AVX2, BMI2 */
-extern const struct trax_fast_variant trax_fast_variant_v4; /* for x86-64-v4: AVX-512 */
-#endif
+extern const struct trax_fast_variant trax_fast_variant_v3; /* for x86-64-v3: AVX2, BMI2; if TRAX_FAST_HAVE_AVX2 */
 
 #endif
