@@ -170,10 +170,8 @@ static uint32_t queued(const void *context, uint32_t tm, uint64_t t) {
   const struct trax_chip *chip = context;
   const struct trax_queue *queue = &chip->tm[tm].queue;
   uint32_t arrived = 0; /* completed requests in the queue of a TM whose threads have all ended */
-  for (uint32_t i = 0; i < queue->started; i++) {
-    const uint32_t place = queue->heap ? queue->heap[i] : (queue->oldest + i) % queue->depth;
-    arrived += queue->requests[place].completion < t;
-  }
+  for (uint32_t i = 0; i < queue->started; i++)
+    arrived += queue->requests[queue->places[i]].completion < t;
   return queue->count - arrived;
 }
 

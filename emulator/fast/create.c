@@ -49,8 +49,7 @@ static bool create_fetch(struct trax_tm *tm) {
 }
 
 static bool create_data(struct trax_tm *tm) {
-  if (!trax_queue_create(&tm->queue, tm->config->memory.queue_depth, trax_memory_keeps_order(tm->config)) ||
-      !trax_dcache_create(&tm->dcache, tm))
+  if (!trax_queue_create(&tm->queue, tm->config->memory.queue_depth) || !trax_dcache_create(&tm->dcache, tm))
     return false;
   tm->serial_hits = tm->config->dcache.hit_latency_cycles > 1 || tm->dcache.tags.by_use;
   return true;

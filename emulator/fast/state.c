@@ -65,8 +65,7 @@ static void visit_tags(const struct visitor *visitor, struct trax_cache_tags *ta
 static void visit_queue(const struct visitor *visitor, struct trax_queue *queue) {
   VISIT_ALL(trax_queue, queue, 1);
   VISIT_ALL(trax_request, queue->requests, queue->depth);
-  VISIT_DERIVED(queue->heap, queue->heap ? queue->depth : 0);
-  VISIT_DERIVED(queue->places, queue->heap ? queue->depth : 0);
+  VISIT_DERIVED(queue->places, queue->depth);
 }
 
 static void visit_unit(const struct visitor *visitor, struct trax_shared_unit *unit) {

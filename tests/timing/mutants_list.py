@@ -512,8 +512,9 @@ MUTANTS = [
      "  trax_store_buffer_begin_quantum(tm->buffer, side);\n  trax_tm_receive(tm, 0);"),
     ("fast/merge.c", "  for (unsigned side = 0; side < TRAX_SIDES; side++)\n    trax_tm_receive(tm, side);\n", ""),
     ("fast/tm/tm.c", "    tm->next_cycle = trax_queue_oldest(&tm->queue)->completion;", "    ;"),
-    # The oldest request of a ring waits first, also after an import.
-    ("fast/memory/create.c", "(queue->oldest + queue->started) % queue->depth", "queue->oldest % queue->depth"),
+    # Requests arrive by their completions, those of one cycle in the order in which they were made.
+    ("fast/tm/queue.c", "x->completion < y->completion", "x->completion > y->completion"),
+    ("fast/tm/queue.c", "x->number < y->number", "x->number > y->number"),
     # Every part of the snapshot is copied.
     ("fast/epochs.c", "piece_count * (part + 1) / parts;",
      "piece_count * (part + 1) / parts - part;"),

@@ -60,12 +60,6 @@ void trax_memory_pass(struct trax_memory *memory, struct trax_tm *tms, trax_requ
 }
 
 void trax_memory_submit(struct trax_memory *memory, struct trax_tm *tm, uint32_t place) {
-  if (memory->keeps_order) {
-    memory->channel[0].waiting->ring[tm->number].count++;
-    memory->channel[0].waiting->tms |= (uint64_t)1 << tm->number;
-    memory->waiting++;
-    return;
-  }
   const uint32_t address = tm->queue.requests[place].address;
   struct trax_waiting *waiting = memory->l2 ? trax_l2_bank(memory->l2, address) : channel_of(memory, address)->waiting;
   trax_memory_append(memory, tm - tm->number, &waiting->list[tm->number], tm->number << TRAX_REQUEST_BITS | place);
@@ -155,37 +149,12 @@ static void serve(struct trax_memory *memory, struct trax_tm *tms, unsigned numb
   trax_memory_finish(memory, tms, number, id, transfer(memory, number, request, t));
 }
 
-/* The same if the TMs' queues are rings. */
-static inline void serve_ring(struct trax_memory *memory, struct trax_tm *tms, uint64_t t) {
-  struct trax_waiting *waiting = memory->channel[0].waiting;
-  const unsigned number = trax_waiting_arbitrate(waiting);
-  struct trax_ring *const ring = &waiting->ring[number];
-  struct trax_queue *const queue = &tms[number].queue;
-  struct trax_request *request = &queue->requests[ring->oldest];
-  ring->oldest = ring->oldest + 1 < queue->depth ? ring->oldest + 1 : 0;
-  waiting->tms &= ~((uint64_t)(!--ring->count) << number);
-  memory->waiting--;
-  trax_memory_notify(memory, 0, number << TRAX_REQUEST_BITS, request, t);
-  request->completion = transfer(memory, 0, request, t);
-  queue->served[memory->side].count++;
-}
-
-/* The same as long as requests wait and the bus is free. */
-static void serve_rings(struct trax_memory *memory, struct trax_tm *tms, uint64_t t) {
-  while (memory->waiting && is_free(&memory->channel[0], t))
-    serve_ring(memory, tms, t);
-}
-
 static inline void serve_channel(struct trax_memory *memory, struct trax_tm *tms, unsigned number, uint64_t t) {
   while (has_waiting(&memory->channel[number]) && is_free(&memory->channel[number], t))
     serve(memory, tms, number, t);
 }
 
 void trax_memory_cycle(struct trax_memory *memory, struct trax_tm *tms, uint64_t t) {
-  if (memory->keeps_order) {
-    serve_rings(memory, tms, t);
-    return;
-  }
   if (memory->l2 && memory->l2->waiting)
     trax_l2_cycle(memory, tms, t);
   for (unsigned i = 0; i < memory->channels && memory->waiting; i++)

@@ -36,10 +36,6 @@ static const struct trax_request_list trax_empty_list = {.first = TRAX_NO_REQUES
 struct trax_waiting {
   TRAX_WAITING_STATE(TRAX_FIELD, )
   uint64_t tms; /* mask of the TMs with waiting requests */
-  /* If the TMs' queues are rings: the place of the oldest request that waits, and how many do. */
-  struct trax_ring {
-    uint32_t oldest, count;
-  } ring[TRAX_MAX_TMS];
 };
 
 /* An instant: whole cycles, and units of the next cycle, fewer than units_per_cycle. A number of units alone would
@@ -70,7 +66,6 @@ struct trax_memory {
   uint32_t unit_interval;  /* cycles between the increments of a channel */
   uint32_t channels, interleave_shift;
   struct trax_channel channel[TRAX_MAX_CHANNELS];
-  bool keeps_order;       /* the TMs' queues are rings, and the lists of channel 0 empty */
   struct trax_l2 *l2;     /* NULL: there is none */
   struct trax_dram *dram; /* NULL unless memory.model is dram */
   struct trax_memory_stats *stats;
@@ -80,8 +75,6 @@ struct trax_memory {
   void *context;
 };
 
-/* Whether the requests of each TM complete in the order in which they are made. */
-bool trax_memory_keeps_order(const struct trax_config *config);
 /* Returns a number of cycles d, at least 1, such that no request of cycle t completes before t + d; the largest such
    number if that is below a million. */
 uint32_t trax_memory_least_latency(const struct trax_config *config);
