@@ -198,11 +198,7 @@ static ALWAYS_INLINE void issue(struct trax_tm *tm, const bool wide, const bool 
                                 uint64_t banks, uint64_t t) {
   const uint64_t quick = granted & ~slow;
   slow &= granted;
-  if (__builtin_expect(tm->observer != NULL, false)) {
-    if (!tm->observer->stretch) {
-      issue_observed(tm, quick, slow, t);
-      return;
-    }
+  if (__builtin_expect(tm->observed != NULL, false)) {
     record_refusals(tm, wide, granted & tm->observed->tps);
     trax_fast_record_outcomes(tm, granted & banks);
   }
