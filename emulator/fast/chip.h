@@ -56,9 +56,11 @@ void trax_fast_collect(void *chip);
 void trax_fast_settle(struct trax_chip *chip);
 /* Reports how often the run of so many cycles left the fast path. */
 void trax_fast_report(const struct trax_chip *chip, uint64_t cycles);
+/* Charges the refusals that have been counted, and begins counting them anew. */
+void trax_fast_charge_refusals(struct trax_tm *tm);
 /* Sets charges, [TRAX_CAUSE_COUNT], to those of a TP that is awake or has been settled, for the cycles that are over.
  */
-void trax_fast_read_charges(struct trax_tm *tm, unsigned number, uint64_t *charges);
+void trax_fast_read_charges(const struct trax_tm *tm, unsigned number, uint64_t *charges);
 /* With trax_tm.ray_counts: counts the cycles of rays after the issue of a trap, and up to now, for a TM that has been
    settled. */
 void trax_fast_count_rays(struct trax_tm *tm, unsigned number, int32_t code, uint32_t value);

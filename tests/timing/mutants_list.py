@@ -161,9 +161,8 @@ MUTANTS = [
     ("fast/time/grant.h", "ready->slow |= (uint64_t)(low & TRAX_STEP_SLOW) << trax_first(rest);", "(void)low;"),
     ("fast/time/grant.h", "if (!tm->serial_hits)", "if (1)"),
     # Whether the next load's line is resident: after arrivals, evictions and fences.
-    ("fast/time/cycle.c", "    trax_fast_find_line(tm, trax_first(rest));", "    (void)tm;"),
-    ("fast/time/cycle.c", "uint32_t set_mask = tags->set_mask << tags->line_shift;",
-     "uint32_t set_mask = ~0u << tags->line_shift;"),
+    ("fast/time/cycle.c", "      trax_fast_find_line(tm, tp);", "      (void)tm;"),
+    ("fast/time/cycle.c", "^ line) & tags->set_mask))", "^ line)))"),
     ("fast/tm/tp.c", "    tm->load_hits = 0;", "    (void)tm;"),
     # --- step 5 and the heads ---
     ("fast/time/issue.h", "if (latency > 1) {", "if (latency > 2) {"),
@@ -335,9 +334,9 @@ MUTANTS = [
     # A refused access is charged to the queue.
     ("fast/time/grant.h", "trax_tm_charge(tm, number, refused);\n    return false;",
      "return false;"),
-    # Carries of the counters of conflicts.
-    ("fast/time/masks.h", "(*(SUM)&one_) | (either_ & other_)",
-     "(*(SUM)&one_)"),
+    # Counters of refusals are charged before they overflow.
+    ("fast/time/masks.h", "++counts->cycles == UINT8_MAX;", "++counts->cycles == UINT8_MAX + 2;"),
+    ("fast/time/heads.h", "(at >= check_at)", "(at > check_at)"),
     # Round robin of banks.
     ("fast/time/masks.h", "-(*(WINNERS) + *(WINNERS)) |",
      "-*(WINNERS) |"),

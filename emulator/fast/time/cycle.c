@@ -14,10 +14,9 @@ static ALWAYS_INLINE bool has_arrival(const struct trax_tm *tm, uint64_t t) {
 /* A line has arrived in the data cache, and perhaps evicted another one of its set. */
 static void data_line_arrived(struct trax_tm *tm, uint32_t line) {
   const struct trax_cache_tags *const tags = &tm->dcache.tags;
-  const uint32_t set_mask = tags->set_mask << tags->line_shift;
-  uint64_t rest = trax_fast_loads_like(&tm->heads, set_mask, line << tags->line_shift) & trax_group_mask(0, tm->tps);
-  for (; rest; rest &= rest - 1)
-    trax_fast_find_line(tm, trax_first(rest));
+  for (unsigned tp = 0; tp < tm->tps; tp++)
+    if (!((trax_line_of(tags, tm->heads.address[tp]) ^ line) & tags->set_mask))
+      trax_fast_find_line(tm, tp);
 }
 
 /* Handles the arrivals of cycle t. */
@@ -194,8 +193,8 @@ static ALWAYS_INLINE void fetch_and_check(struct trax_tm *tm, const bool wide, c
 }
 
 /* Step 5; banks: the TPs that have requested a bank. */
-static ALWAYS_INLINE void issue(struct trax_tm *tm, const bool wide, const bool few, uint64_t granted, uint64_t slow,
-                                uint64_t banks, uint64_t t) {
+static ALWAYS_INLINE void issue(struct trax_tm *tm, const bool wide, uint64_t granted, uint64_t slow, uint64_t banks,
+                                uint64_t t) {
   const uint64_t quick = granted & ~slow;
   slow &= granted;
   if (__builtin_expect(tm->observed != NULL, false)) {
@@ -206,8 +205,6 @@ static ALWAYS_INLINE void issue(struct trax_tm *tm, const bool wide, const bool 
     trax_fast_set_load(tm, trax_first(loads), tm->heads.load[trax_first(loads)] + 1u);
   if (slow)
     issue_in_order(tm, quick, slow, t);
-  else if (few)
-    issue_one_by_one(tm, quick);
   else
     issue_quickly(tm, wide, quick);
 }
@@ -218,9 +215,9 @@ static ALWAYS_INLINE void simulate(struct trax_tm *tm, const bool wide, const bo
   fetch_and_check(tm, wide, few, woken, &refused, t);
   const uint64_t granted = grant(tm, wide, few, &refused, &slow, &banks, t);
   const bool refuses = refused.fetch | tm->ready; /* who is still ready was refused something */
-  issue(tm, wide, few, granted, slow, banks, t);
-  if (refuses && trax_fast_count(&tm->refusal_counts, &refused))
-    trax_fast_count_log(&tm->refusal_counts);
+  issue(tm, wide, granted, slow, banks, t);
+  if (refuses && trax_fast_count(&tm->refusal_counts, wide, &refused))
+    trax_fast_charge_refusals(tm);
   if (__builtin_expect(tm->observer != NULL, false)) {
     if (tm->observed)
       count_refusals(tm, wide, &refused);
@@ -257,4 +254,4 @@ static void run_quantum(struct trax_tm *tm, uint64_t end) {
 #ifndef TRAX_FAST_VARIANT
 #define TRAX_FAST_VARIANT trax_fast_variant
 #endif
-const struct trax_fast_variant TRAX_FAST_VARIANT = {run_cycle, run_quantum, trax_fast_count_log};
+const struct trax_fast_variant TRAX_FAST_VARIANT = {run_cycle, run_quantum};

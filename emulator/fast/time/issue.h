@@ -115,21 +115,13 @@ static void issue_slowly(struct trax_tm *tm, unsigned number, uint64_t t) {
 }
 
 /* Issues quick heads: the next steps of their TPs become the heads. */
-static inline __attribute__((always_inline)) void issue_quickly(struct trax_tm *tm, const bool wide, uint64_t quick) {
+static ALWAYS_INLINE void issue_quickly(struct trax_tm *tm, const bool wide, uint64_t quick) {
   trax_fast_move_on(&tm->heads, wide, quick);
   tm->holding &= ~quick;
 }
 
-static inline void issue_one_by_one(struct trax_tm *tm, uint64_t quick) {
-  for (uint64_t rest = quick; rest; rest &= rest - 1)
-    trax_fast_set_head(&tm->heads, trax_first(rest), tm->heads.at[trax_first(rest)] + 1u);
-  tm->holding &= ~quick;
-}
-
 static void issue_all_quickly(struct trax_tm *tm, uint64_t quick) {
-  if (are_few(quick))
-    issue_one_by_one(tm, quick);
-  else if (tm->wide)
+  if (tm->wide)
     issue_quickly(tm, true, quick);
   else
     issue_quickly(tm, false, quick);

@@ -7,15 +7,12 @@
 #include <stdint.h>
 
 struct trax_tm;
-struct trax_fast_refusal_counts;
 
 struct trax_fast_variant {
   /* Simulates a cycle of a TM, arrivals included, and sets its next_cycle. */
   void (*cycle)(struct trax_tm *tm, uint64_t t);
   /* Simulates a quantum of a TM (epochs.h): all cycles before `end`, or up to one in which it stops or faults. */
   void (*run_quantum)(struct trax_tm *tm, uint64_t end);
-  /* Adds the log of refusals to the counters. */
-  void (*count_log)(struct trax_fast_refusal_counts *counts);
 };
 
 extern const struct trax_fast_variant trax_fast_variant;
