@@ -92,7 +92,7 @@ static void visit_tm(const struct visitor *visitor, struct trax_tm *tm) {
   for (unsigned i = 0; i < TRAX_SHARED_COUNT; i++)
     visit_unit(visitor, &tm->unit[i]);
   VISIT_ALL(trax_fast_units, &tm->fp, 1);
-  VISIT_NUMBERS(trax_fast_lanes, tm->fetch_rr_masks, (size_t)tm->icaches * tm->vectors);
+  VISIT_NUMBERS(trax_arbiter, tm->fetch_arbiters, (size_t)tm->icaches * tm->config->icache.banks);
   for (uint32_t i = 0; i < tm->icaches; i++)
     visit_icache(visitor, &tm->icache[i], tm->tps);
   visit_dcache(visitor, &tm->dcache, tm->tps);

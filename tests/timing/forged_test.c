@@ -308,7 +308,7 @@ static const char *const free_names[] = {
     "trax_tm.data_bank_rr_masks",
     "trax_tm.fetch_rr_masks16",
     "trax_fast_units.rr_masks",
-    "tm->fetch_rr_masks.",
+    "tm->fetch_arbiters.",
     "trax_tp.reg",
     "trax_tp.address",
     "trax_tp.writes",

@@ -56,42 +56,30 @@ static void fault_no_text(struct trax_tm *tm, uint64_t t) {
   }
 }
 
-/* Grants the banks of one instruction cache after the other, for any configuration; returns the losers. */
-static uint64_t refuse_fetches_of_any_shape(struct trax_tm *tm, uint64_t requesters, const uint64_t *bit) {
-  const uint32_t ports = tm->config->icache.ports_per_bank, banks = tm->config->icache.banks;
+/* Grants the banks of instruction caches of any shape, one after the other; returns the losers. */
+static uint64_t refuse_fetches_of_any_shape(struct trax_tm *tm, uint64_t requesters) {
+  const struct trax_config *const config = tm->config;
   uint64_t losers = 0;
-  for (uint32_t icache = 0; icache < tm->icaches; icache++) {
-    const uint64_t here = requesters & trax_group_mask(icache, tm->config->icache.tps_per_cache);
-    trax_fast_lanes *rr_mask = &tm->fetch_rr_masks[icache * tm->vectors];
-    for (uint32_t first = 0; first < banks; first += TRAX_FAST_LANES, rr_mask++) {
-      trax_fast_lanes requesting;
-      for (uint32_t i = 0; i < TRAX_FAST_LANES; i++) {
-        requesting[i] = here;
-        for (uint32_t k = 0; k < TRAX_FAST_BANK_BITS; k++)
-          requesting[i] &= (first + i) >> k & 1 ? bit[k] : ~bit[k];
-      }
-      for (uint32_t port = 0; port < ports; port++) {
-        trax_fast_lanes winners;
-        TRAX_FAST_ARBITRATE(trax_fast_lanes, rr_mask, requesting, &winners);
-        requesting ^= winners;
-      }
-      losers |= trax_fast_any(&requesting);
-    }
+  for (uint64_t rest = requesters, here; rest; rest &= ~here) {
+    const unsigned first = trax_first(rest), icache = tm->icache_of[first];
+    trax_arbiter *const arbiters = &tm->fetch_arbiters[icache * config->icache.banks];
+    here = like_first(tm, rest & trax_group_mask(icache, config->icache.tps_per_cache), TRAX_STEP_FETCH);
+    losers |= here ^ trax_arbiter_grant(&arbiters[step_of(tm, first) >> TRAX_STEP_FETCH_SHIFT], here,
+                                        config->icache.ports_per_bank);
   }
   return losers;
 }
 
 /* Grants the instruction caches' banks; returns the losers. */
 static ALWAYS_INLINE uint64_t refuse_fetches(struct trax_tm *tm, const bool wide, const bool few, uint64_t requesters) {
-  if (few && tm->simple_fetch)
+  uint64_t bit[4];
+  if (!tm->simple_fetch)
+    return refuse_fetches_of_any_shape(tm, requesters);
+  if (few)
     return refuse_few_fetches(tm, requesters);
-  uint64_t bit[TRAX_FAST_BANK_BITS];
   trax_fast_transpose(&tm->heads, wide, TRAX_STEP_FETCH_SHIFT, 4, bit);
-  if (tm->simple_fetch)
-    return wide ? trax_fast_refuse_four(&tm->fetch_rr_masks16, requesters, bit)
-                : trax_fast_refuse_two(&tm->fetch_rr_masks16, requesters, bit);
-  trax_fast_transpose(&tm->heads, wide, TRAX_STEP_FETCH_SHIFT + 4, 2, bit + 4);
-  return refuse_fetches_of_any_shape(tm, requesters, bit);
+  return wide ? trax_fast_refuse_four(&tm->fetch_rr_masks16, requesters, bit)
+              : trax_fast_refuse_two(&tm->fetch_rr_masks16, requesters, bit);
 }
 
 /* The TP has won its bank and looks up the line of its head. True: a hit. */

@@ -15,7 +15,7 @@
 #define ALWAYS_INLINE inline __attribute__((always_inline))
 
 /* Four masks, which are processed together. */
-enum { TRAX_FAST_LANES = 4, TRAX_FAST_BANK_BITS = 6 /* of at most 64 banks */ };
+enum { TRAX_FAST_LANES = 4 };
 typedef uint64_t trax_fast_lanes __attribute__((vector_size(8 * TRAX_FAST_LANES), may_alias));
 
 /* Vectors are passed by address, since the ABI of passing them by value differs between the variants. */
