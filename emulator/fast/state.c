@@ -112,7 +112,6 @@ static void visit_l2(const struct visitor *visitor, struct trax_l2 *l2) {
   VISIT_ALL(trax_l2, l2, 1);
   VISIT_ALL(trax_waiting, l2->bank, l2->banks);
   VISIT_ALL(trax_l2_mshr, l2->mshr, l2->mshr_limit);
-  VISIT_DERIVED(l2->used, l2->mshr_limit);
   visit_tags(visitor, &l2->tags);
 }
 
@@ -132,7 +131,7 @@ static void visit_memory(const struct visitor *visitor, struct trax_memory *memo
   VISIT_DERIVED(memory, 1);
   VISIT_ALL(trax_channel, memory->channel, memory->channels);
   for (uint32_t i = 0; i < memory->channels; i++)
-    VISIT_ALL(trax_waiting, memory->channel[i].waiting, memory->channel[i].waiting ? 1 : 0);
+    VISIT_ALL(trax_waiting, &memory->channel[i].waiting, 1);
   VISIT_COUNTERS(trax_memory_stats, memory->stats, 1);
   if (memory->dram)
     visit_dram(visitor, memory->dram);

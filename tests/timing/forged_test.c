@@ -222,7 +222,6 @@ static bool is_matched(unsigned name) {
       "dcache->",
       "tm->",
       "trax_waiting.",
-      "trax_channel.passed",
       "trax_l2.arriving",
   };
   for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)

@@ -480,7 +480,7 @@ MUTANTS = [
     ("fast/merge.c", "memcpy(merge->chip->machine->space.bytes + undo->address, &undo->word, sizeof undo->word);",
      "memcpy(merge->chip->machine->space.bytes + undo->address, &undo->word, 1);"),
     # A miss register of the second-level cache is free again.
-    ("fast/memory/l2.c", "    mshr_of(l2, id)->request.bytes = 0;\n", ""),
+    ("fast/memory/l2.c", "    mshr->request.bytes = 0;\n", ""),
     # The controller is restored.
     ("fast/state.c", "VISIT_DERIVED(memory, 1);", "VISIT_DERIVED(memory, 0);"),
     # Increments are noted as writes.

@@ -48,12 +48,11 @@ struct trax_instant {
 };
 
 #define TRAX_CHANNEL_STATE(X, S)                                                                                       \
-  X(S, struct trax_instant, free_from, )   /* f of docs/timing.md; without DRAM */                                     \
-  X(S, struct trax_request_list, passed, ) /* requests that the second-level cache has passed */                       \
-  X(S, uint64_t, unit_free_from, )         /* of the increment unit */
+  X(S, struct trax_instant, free_from, ) /* f of docs/timing.md; without DRAM */                                       \
+  X(S, uint64_t, unit_free_from, )       /* of the increment unit */
 struct trax_channel {
   TRAX_CHANNEL_STATE(TRAX_FIELD, )
-  struct trax_waiting *waiting; /* NULL with a second-level cache */
+  struct trax_waiting waiting; /* requests that a second-level cache has passed count as TM 0's */
 };
 
 struct trax_memory {
@@ -112,8 +111,11 @@ trax_request_id trax_memory_take_first(const struct trax_memory *memory, struct 
 uint32_t trax_memory_import_list(const struct trax_memory *memory, struct trax_tm *tm, struct trax_request_list *list);
 /* The same for all lists of the TMs. */
 uint32_t trax_waiting_import(const struct trax_memory *memory, struct trax_tm *tm, struct trax_waiting *waiting);
-/* Creates an array of `count` empty ones. NULL: out of memory. */
-struct trax_waiting *trax_waiting_create(uint32_t count);
+/* Empties all lists. */
+void trax_waiting_begin(struct trax_waiting *waiting);
+/* Appends a request to the list of TM `number`. */
+void trax_waiting_add(const struct trax_memory *memory, struct trax_tm *tms, struct trax_waiting *waiting,
+                      unsigned number, trax_request_id id);
 /* Returns the winner among the TMs with waiting requests, and moves the arbiter's pointer past it. */
 unsigned trax_waiting_arbitrate(struct trax_waiting *waiting);
 /* Removes and returns the oldest request of TM `number`. */

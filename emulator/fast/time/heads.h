@@ -152,8 +152,7 @@ static ALWAYS_INLINE void trax_fast_transpose(const struct trax_fast_heads *head
     const trax_fast_lanes16 some = *(const trax_fast_lanes16 *)(bytes + i);
 #pragma GCC unroll 8
     for (unsigned k = 0; k < count; k++)
-      plane[k] =
-          (i ? plane[k] : 0) | trax_fast_top_bits((trax_fast_bytes)(some << (int)(7 - (first + k) % 8))) << i;
+      plane[k] = (i ? plane[k] : 0) | trax_fast_top_bits((trax_fast_bytes)(some << (int)(7 - (first + k) % 8))) << i;
   }
 }
 

@@ -168,8 +168,7 @@ static inline trax_fast_pair trax_fast_groups_of(const struct trax_fast_units *u
 }
 
 /* Returns the winner of each group, by TRAX_FAST_ARBITRATE for all groups at once. Requires `even`. */
-static ALWAYS_INLINE trax_fast_pair trax_fast_grant_units(struct trax_fast_units *units,
-                                                                                  trax_fast_pair requesters) {
+static ALWAYS_INLINE trax_fast_pair trax_fast_grant_units(struct trax_fast_units *units, trax_fast_pair requesters) {
   if (units->group_size == 1)
     return requesters;
   if (units->group_size == 8) {

@@ -24,7 +24,7 @@ static bool is_before(const struct trax_queue *queue, uint32_t a, uint32_t b) {
   return x->completion != y->completion ? x->completion < y->completion : x->number < y->number;
 }
 
-/* Enters a request whose completion has become known. Few have started before, as memory takes the same time for most. */
+/* Enters a request whose completion has become known, and moves those that arrive before it, which are few. */
 static void start(struct trax_queue *queue, uint32_t place) {
   uint32_t at = queue->started++;
   for (; at && is_before(queue, queue->places[at - 1], place); at--)
