@@ -25,13 +25,12 @@ struct trax_thread {
 };
 
 struct trax_engine {
-  const char *name;          /* the value of --engine */
-  const char *meaning;       /* a few words for help */
-  bool (*is_possible)(void); /* whether this host can run it; NULL: every host can */
-  bool is_timed;             /* it simulates cycles; else a run has 0 cycles, and only `end` of watches is called */
-  bool is_observed;          /* it notifies an observer (machine/observer.h) */
-  bool has_warps;            /* it runs machines with simt.width > 1 */
-  bool counts_rays;          /* it counts the cycles of rays (machine/ray_cycles.h) */
+  const char *name;    /* the value of --engine */
+  const char *meaning; /* a few words for help */
+  bool is_timed;       /* it simulates cycles; else a run has 0 cycles, and only `end` of watches is called */
+  bool is_observed;    /* it notifies an observer (machine/observer.h) */
+  bool has_warps;      /* it runs machines with simt.width > 1 */
+  bool counts_rays;    /* it counts the cycles of rays (machine/ray_cycles.h) */
 
   /* Creates run->chip, which destroy releases even if create has failed. */
   trax_status (*create)(struct trax_run *run, trax_error *error);

@@ -18,8 +18,8 @@ struct trax_run {
 
   bool complete; /* it resumes a run whose program had ended: there is nothing to simulate */
   bool begun, ended;
-  uint64_t t;         /* the next cycle; after the end, the length of the run */
-  uint64_t limit;     /* of cycles */
+  uint64_t t;          /* the next cycle; after the end, the length of the run */
+  uint64_t limit;      /* of cycles */
   uint64_t next_watch; /* the next cycle in which a watch is due */
   struct trax_poll poll;
 };

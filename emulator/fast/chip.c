@@ -3,32 +3,12 @@
 #include "fast/epochs.h"
 #include "fast/time/variant.h"
 
-/* --- the variants --- */
-
-#ifdef TRAX_FAST_HAVE_VARIANTS
-static bool has_avx2(void) {
-  return __builtin_cpu_supports("x86-64-v3");
-}
-
-static bool has_avx512(void) {
-  return __builtin_cpu_supports("x86-64-v4");
-}
-#endif
-
-static const struct trax_fast_variant *variant_of(const struct trax_engine *engine) {
-#ifdef TRAX_FAST_HAVE_VARIANTS
-  const bool best = !engine->is_possible && engine != &trax_fast_any_engine;
-  if (engine == &trax_fast_avx512_engine || (best && has_avx512()))
-    return &trax_fast_variant_v4;
-  if (engine == &trax_fast_avx2_engine || (best && has_avx2()))
-    return &trax_fast_variant_v3;
-#endif
-  (void)engine;
-  return &trax_fast_variant;
-}
-
 static trax_status create(struct trax_run *run, trax_error *error) {
-  return trax_chip_create(run, variant_of(run->engine), error);
+#ifdef TRAX_FAST_HAVE_AVX2
+  if (run->engine != &trax_fast_any_engine && __builtin_cpu_supports("x86-64-v3"))
+    return trax_chip_create(run, &trax_fast_variant_v3, error);
+#endif
+  return trax_chip_create(run, &trax_fast_variant, error);
 }
 
 /* --- cycles --- */
@@ -190,29 +170,22 @@ static uint32_t queued(const void *context, uint32_t tm, uint64_t t) {
   const struct trax_chip *chip = context;
   const struct trax_queue *queue = &chip->tm[tm].queue;
   uint32_t arrived = 0; /* completed requests in the queue of a TM whose threads have all ended */
-  for (uint32_t i = 0; i < queue->started; i++) {
-    const uint32_t place = queue->heap ? queue->heap[i] : (queue->oldest + i) % queue->depth;
-    arrived += queue->requests[place].completion < t;
-  }
+  for (uint32_t i = 0; i < queue->started; i++)
+    arrived += queue->requests[queue->places[i]].completion < t;
   return queue->count - arrived;
 }
 
 /* --- the engines --- */
 
-#define ENGINE(NAME, MEANING, IS_POSSIBLE)                                                                             \
+#define ENGINE(NAME, MEANING)                                                                                          \
   {                                                                                                                    \
-    .name = NAME, .meaning = MEANING, .is_possible = IS_POSSIBLE, .is_timed = true, .is_observed = true,               \
-    .counts_rays = true, .create = create, .destroy = trax_chip_destroy, .advance = advance, .commit = commit,         \
-    .collect = trax_fast_collect, .settle = settle, .export_state = trax_fast_roll_back, .import_state = import_state, \
-    .thread = thread, .set_pc = set_pc, .progressed = progressed, .queued = queued, .visit = trax_state_visit,         \
-    .check = trax_state_check                                                                                          \
+    .name = NAME, .meaning = MEANING, .is_timed = true, .is_observed = true, .counts_rays = true, .create = create,    \
+    .destroy = trax_chip_destroy, .advance = advance, .commit = commit, .collect = trax_fast_collect,                  \
+    .settle = settle, .export_state = trax_fast_roll_back, .import_state = import_state, .thread = thread,             \
+    .set_pc = set_pc, .progressed = progressed, .queued = queued, .visit = trax_state_visit, .check = trax_state_check \
   }
 
-const struct trax_engine trax_fast_engine = ENGINE("fast", "the default, for what the host has", NULL);
-const struct trax_engine trax_fast_any_engine = ENGINE("fast-any", "the same for any host of the family", NULL);
-const struct trax_engine trax_fast_interpreted_engine = ENGINE("fast-interpreted", "without translation", NULL);
-const struct trax_engine trax_fast_translated_engine = ENGINE("fast-translated", "translation at once", NULL);
-#ifdef TRAX_FAST_HAVE_VARIANTS
-const struct trax_engine trax_fast_avx2_engine = ENGINE("fast-avx2", "the same for AVX2", has_avx2);
-const struct trax_engine trax_fast_avx512_engine = ENGINE("fast-avx512", "the same for AVX-512", has_avx512);
-#endif
+const struct trax_engine trax_fast_engine = ENGINE("fast", "the default, for what the host has");
+const struct trax_engine trax_fast_any_engine = ENGINE("fast-any", "the same for any host of the family");
+const struct trax_engine trax_fast_interpreted_engine = ENGINE("fast-interpreted", "without translation");
+const struct trax_engine trax_fast_translated_engine = ENGINE("fast-translated", "translation at once");

@@ -56,9 +56,11 @@ void trax_fast_collect(void *chip);
 void trax_fast_settle(struct trax_chip *chip);
 /* Reports how often the run of so many cycles left the fast path. */
 void trax_fast_report(const struct trax_chip *chip, uint64_t cycles);
+/* Charges the refusals that have been counted, and begins counting them anew. */
+void trax_fast_charge_refusals(struct trax_tm *tm);
 /* Sets charges, [TRAX_CAUSE_COUNT], to those of a TP that is awake or has been settled, for the cycles that are over.
  */
-void trax_fast_read_charges(struct trax_tm *tm, unsigned number, uint64_t *charges);
+void trax_fast_read_charges(const struct trax_tm *tm, unsigned number, uint64_t *charges);
 /* With trax_tm.ray_counts: counts the cycles of rays after the issue of a trap, and up to now, for a TM that has been
    settled. */
 void trax_fast_count_rays(struct trax_tm *tm, unsigned number, int32_t code, uint32_t value);
@@ -100,12 +102,9 @@ void trax_state_visit(void *chip, trax_section_visitor *visit, void *context);
    reason of the refusal, in `text`. */
 const char *trax_state_check(void *chip, uint64_t t, char text[128]);
 
-/* The engine with the best variant that the host can run, and the engines of single variants. */
+/* The engine with the best variant that the host can run, and that with the variant for any host. */
 extern const struct trax_engine trax_fast_engine, trax_fast_any_engine;
 /* The best variant without translation, and, for tests, with all of it at once. */
 extern const struct trax_engine trax_fast_interpreted_engine, trax_fast_translated_engine;
-#ifdef TRAX_FAST_HAVE_VARIANTS
-extern const struct trax_engine trax_fast_avx2_engine, trax_fast_avx512_engine;
-#endif
 
 #endif

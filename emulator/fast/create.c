@@ -37,20 +37,18 @@ static bool create_fetch(struct trax_tm *tm) {
   tm->icaches = (tm->tps + tps - 1) / tps;
   tm->icache = calloc(tm->icaches, sizeof *tm->icache);
   tm->simple_fetch = tps == 16 && banks <= 16 && tm->config->icache.ports_per_bank == 1;
-  tm->vectors = (banks + TRAX_FAST_LANES - 1) / TRAX_FAST_LANES;
-  tm->fetch_rr_masks = create_aligned((size_t)tm->icaches * tm->vectors, sizeof *tm->fetch_rr_masks);
+  tm->fetch_arbiters = calloc((size_t)tm->icaches * banks, sizeof *tm->fetch_arbiters);
   tm->resident = calloc(tm->icaches, sizeof *tm->resident);
   for (unsigned i = 0; i < tm->tps; i++)
     tm->icache_of[i] = (uint8_t)(i / tps);
-  bool complete = tm->icache && tm->fetch_rr_masks && tm->resident;
+  bool complete = tm->icache && tm->fetch_arbiters && tm->resident;
   for (uint32_t i = 0; complete && i < tm->icaches; i++)
     complete = trax_icache_create(&tm->icache[i], tm);
   return complete;
 }
 
 static bool create_data(struct trax_tm *tm) {
-  if (!trax_queue_create(&tm->queue, tm->config->memory.queue_depth, trax_memory_keeps_order(tm->config)) ||
-      !trax_dcache_create(&tm->dcache, tm))
+  if (!trax_queue_create(&tm->queue, tm->config->memory.queue_depth) || !trax_dcache_create(&tm->dcache, tm))
     return false;
   tm->serial_hits = tm->config->dcache.hit_latency_cycles > 1 || tm->dcache.tags.by_use;
   return true;
@@ -120,7 +118,7 @@ static void destroy_tm(struct trax_tm *tm) {
   trax_queue_destroy(&tm->queue);
   free(tm->icache);
   free(tm->count_deltas);
-  free(tm->fetch_rr_masks);
+  free(tm->fetch_arbiters);
   free(tm->resident);
   free(tm->observed);
 }

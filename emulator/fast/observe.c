@@ -2,9 +2,6 @@
 #include "fast/time/head.h"
 
 #include <string.h>
-#ifdef __SSE2__
-#include <emmintrin.h>
-#endif
 
 _Static_assert((int)TRAX_BURST <= (int)TRAX_MOST_STRETCH, "a burst is a stretch");
 
@@ -137,40 +134,30 @@ void trax_fast_tell_single(struct trax_tm *tm, unsigned number, uint32_t pc, con
                                   .result = result_of(tp, inst)});
 }
 
-/* Returns the first step from `at` on, and before `end`, that is behind a taken jump; else `end`. `at` is not 0. */
-static unsigned next_piece(const struct trax_burst *burst, unsigned at, unsigned end) {
-  typedef uint16_t eight __attribute__((vector_size(16)));
-  typedef uint64_t halves __attribute__((vector_size(16)));
-  for (; at + 8 <= end; at += 8) {
-    eight index, before;
-    memcpy(&index, &burst->index[at], sizeof index);
-    memcpy(&before, &burst->index[at - 1], sizeof before);
-    const halves jumps = (halves)(index - before != 1);
-    if (jumps[0])
-      return at + trax_first(jumps[0]) / 16;
-    if (jumps[1])
-      return at + 4 + trax_first(jumps[1]) / 16;
-  }
-  while (at < end && (uint16_t)(burst->index[at] - burst->index[at - 1]) == 1)
-    at++;
-  return at;
+typedef uint16_t eight __attribute__((vector_size(16)));
+typedef int8_t eight_bytes __attribute__((vector_size(8)));
+
+static inline eight load_8(const uint16_t *from) {
+  eight some;
+  memcpy(&some, from, sizeof some);
+  return some;
 }
 
-/* Returns a bit for each of 16 steps: those that access global memory. */
-static inline unsigned accesses_of_16(const uint16_t *step) {
-#ifdef __SSE2__
-  const __m128i kinds = _mm_set1_epi16(TRAX_STEP_KIND), bank = _mm_set1_epi16(TRAX_STEP_BANK);
-  const __m128i some = _mm_and_si128(_mm_loadu_si128((const __m128i *)step), kinds),
-                others = _mm_and_si128(_mm_loadu_si128((const __m128i *)(step + 8)), kinds);
-  return (unsigned)_mm_movemask_epi8(_mm_packs_epi16(_mm_cmpeq_epi16(some, bank), _mm_cmpeq_epi16(others, bank)));
-#else
-  unsigned found = 0;
-  for (unsigned i = 0; i < 16; i++)
-    found |= (unsigned)((step[i] & TRAX_STEP_KIND) == TRAX_STEP_BANK) << i;
-  return found;
-#endif
+/* Returns bit 8 * i of those of eight steps for which `which` is all ones. */
+static inline uint64_t bits_of_8(eight which) {
+  return (uint64_t) __builtin_convertvector(which, eight_bytes) & 0x0101010101010101;
 }
-_Static_assert((int)TRAX_CHUNK >= 16, "so many steps may follow the last one");
+_Static_assert((int)TRAX_CHUNK >= 8, "so many steps may follow the last one");
+
+/* Returns the first step from `at` on, and before `end`, that is behind a taken jump; else `end`. `at` is not 0. */
+static unsigned next_piece(const struct trax_burst *burst, unsigned at, unsigned end) {
+  for (; at < end; at += 8) {
+    const uint64_t jumps = bits_of_8((eight)(load_8(&burst->index[at]) - load_8(&burst->index[at - 1]) != 1));
+    if (jumps)
+      return at + trax_first(jumps) / 8 < end ? at + trax_first(jumps) / 8 : end;
+  }
+  return end;
+}
 
 /* Lists the accesses to global memory of the steps from `begin` to `end`, and clears their outcomes. *misses: not all
    have hit. */
@@ -181,17 +168,17 @@ static size_t list_accesses(struct trax_tm *tm, unsigned number, unsigned begin,
   unsigned load = tm->observed->told_loads[number];
   size_t count = 0;
   unsigned all = TRAX_FAST_NO_OUTCOME;
-  for (unsigned first = begin; first < end; first += 16) {
-    unsigned rest = accesses_of_16(&burst->step[first]);
-    if (end - first < 16)
-      rest &= (1u << (end - first)) - 1;
+  for (unsigned first = begin; first < end; first += 8) {
+    uint64_t rest = bits_of_8((eight)((load_8(&burst->step[first]) & TRAX_STEP_KIND) == TRAX_STEP_BANK));
+    if (end - first < 8)
+      rest &= ((uint64_t)1 << 8 * (end - first)) - 1;
     for (; rest; rest &= rest - 1, load++) {
       const uint8_t outcome = outcomes[load];
       outcomes[load] = TRAX_FAST_NO_OUTCOME;
       all &= outcome;
       accessed[count++] =
           (struct trax_accessed){.address = burst->access[load].address,
-                                 .at = (uint8_t)(first - begin + trax_first(rest)),
+                                 .at = (uint8_t)(first - begin + trax_first(rest) / 8),
                                  .outcome = outcome == TRAX_FAST_NO_OUTCOME ? TRAX_OUTCOME_HIT : outcome};
     }
   }

@@ -1,8 +1,8 @@
 /* The quanta of an epoch, and the threads of the host that simulate them. With several threads a quantum has half a
    latency, and a TM may begin the next one before the requests of this one are served. So threads seldom wait for each
    other, although their TMs take different times. With one thread it has a whole latency. */
-#ifndef TRAX_FAST_QUANTUMS_H
-#define TRAX_FAST_QUANTUMS_H
+#ifndef TRAX_FAST_QUANTA_H
+#define TRAX_FAST_QUANTA_H
 
 #include "fast/merge.h"
 

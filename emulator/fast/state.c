@@ -65,8 +65,7 @@ static void visit_tags(const struct visitor *visitor, struct trax_cache_tags *ta
 static void visit_queue(const struct visitor *visitor, struct trax_queue *queue) {
   VISIT_ALL(trax_queue, queue, 1);
   VISIT_ALL(trax_request, queue->requests, queue->depth);
-  VISIT_DERIVED(queue->heap, queue->heap ? queue->depth : 0);
-  VISIT_DERIVED(queue->places, queue->heap ? queue->depth : 0);
+  VISIT_DERIVED(queue->places, queue->depth);
 }
 
 static void visit_unit(const struct visitor *visitor, struct trax_shared_unit *unit) {
@@ -93,7 +92,7 @@ static void visit_tm(const struct visitor *visitor, struct trax_tm *tm) {
   for (unsigned i = 0; i < TRAX_SHARED_COUNT; i++)
     visit_unit(visitor, &tm->unit[i]);
   VISIT_ALL(trax_fast_units, &tm->fp, 1);
-  VISIT_NUMBERS(trax_fast_lanes, tm->fetch_rr_masks, (size_t)tm->icaches * tm->vectors);
+  VISIT_NUMBERS(trax_arbiter, tm->fetch_arbiters, (size_t)tm->icaches * tm->config->icache.banks);
   for (uint32_t i = 0; i < tm->icaches; i++)
     visit_icache(visitor, &tm->icache[i], tm->tps);
   visit_dcache(visitor, &tm->dcache, tm->tps);
@@ -113,7 +112,6 @@ static void visit_l2(const struct visitor *visitor, struct trax_l2 *l2) {
   VISIT_ALL(trax_l2, l2, 1);
   VISIT_ALL(trax_waiting, l2->bank, l2->banks);
   VISIT_ALL(trax_l2_mshr, l2->mshr, l2->mshr_limit);
-  VISIT_DERIVED(l2->used, l2->mshr_limit);
   visit_tags(visitor, &l2->tags);
 }
 
@@ -133,7 +131,7 @@ static void visit_memory(const struct visitor *visitor, struct trax_memory *memo
   VISIT_DERIVED(memory, 1);
   VISIT_ALL(trax_channel, memory->channel, memory->channels);
   for (uint32_t i = 0; i < memory->channels; i++)
-    VISIT_ALL(trax_waiting, memory->channel[i].waiting, memory->channel[i].waiting ? 1 : 0);
+    VISIT_ALL(trax_waiting, &memory->channel[i].waiting, 1);
   VISIT_COUNTERS(trax_memory_stats, memory->stats, 1);
   if (memory->dram)
     visit_dram(visitor, memory->dram);

@@ -38,7 +38,7 @@ uint8_t *trax_host_call_bytes(const struct trax_host_call *call, uint32_t addres
 /* Prints what a trap or an epoch gives: to the run's output, which may be NULL, or where descriptor 1 goes. */
 void trax_host_print(const struct trax_machine *machine, FILE *output, const char *bytes, size_t count);
 
-/* Performs the trap. A fault says that the block is not in the program's memory; *address receives where. */
+/* Performs the trap. A fault says that the block is not in the program's memory. */
 trax_fault_kind trax_host_trap(const struct trax_machine *machine, uint8_t *local, uint32_t block);
 
 #endif

@@ -22,7 +22,7 @@ struct trax_machine {
   struct trax_space space;
   uint32_t entry;       /* at which thread 0 starts */
   uint32_t other_entry; /* at which the others start */
-  bool has_program; /* trax_machine_set_entry was called */
+  bool has_program;     /* trax_machine_set_entry was called */
   bool has_run;
 
   /* Owned by emulator/program: symbols, lines, buffers. Destroyed with the machine if not NULL. */
@@ -33,8 +33,8 @@ struct trax_machine {
 
   struct trax_host_calls calls; /* of the trap `host` */
 
-  struct trax_observer *observer;       /* of the run; NULL: none (machine/observer.h) */
-  struct trax_transfers *transfers;     /* the same of transfers (machine/transfers.h) */
+  struct trax_observer *observer;   /* of the run; NULL: none (machine/observer.h) */
+  struct trax_transfers *transfers; /* the same of transfers (machine/transfers.h) */
 
   /* Called before the first cycle if not NULL: may restore the state of another run (engine/engine.h). */
   trax_status (*prepare)(void *context, struct trax_run *run, trax_error *error);
@@ -45,9 +45,9 @@ struct trax_machine {
   bool at_limit;      /* TRAX_STUCK: max_cycles was reached; otherwise a watch ended the run */
   struct trax_fault fault;
   struct trax_stats stats;
-  struct trax_tm_stats *tm_stats; /* [tms] */
-  struct trax_tp_stats *tp_stats; /* [threads], by thread number */
-  int32_t *exit_statuses;         /* [threads] */
+  struct trax_tm_stats *tm_stats;     /* [tms] */
+  struct trax_tp_stats *tp_stats;     /* [threads], by thread number */
+  int32_t *exit_statuses;             /* [threads] */
   struct trax_ray_cycles *ray_cycles; /* NULL: not counted (machine/ray_cycles.h) */
 
   struct trax_slow_paths slow_paths;

@@ -24,10 +24,10 @@ typedef enum trax_resource {
 enum { TRAX_NO_REGISTER = 32 }; /* the destination of results for r0; never read */
 
 struct trax_decoded {
-  uint8_t op;   /* trax_op */
+  uint8_t op;       /* trax_op */
   uint8_t resource; /* trax_resource */
   uint8_t unit;     /* TRAX_RESOURCE_UNIT: trax_shared */
-  uint8_t rd;   /* destination; TRAX_NO_REGISTER if there is none or it is r0 */
+  uint8_t rd;       /* destination; TRAX_NO_REGISTER if there is none or it is r0 */
   uint8_t ra, rb;
   uint8_t wait_ra, wait_rb, wait_rd; /* registers that must be usable before issue; 0: none */
   uint8_t more_ra : 4, more_rb : 4;  /* the number of registers behind ra and rb that must be, too */

@@ -10,7 +10,7 @@
      mm2 of a unit at 65 nm, 0 if the fit of area_mm2 includes it
      descriptions: a unit; the cause of a refusal, short and long; the counter of operations; the utilisation
    A new row needs keys in config_keys.h and a class below that uses the unit, and no other change of the emulator. The
-   fast engine has special code for the first four (fast/time/cycle.c); no instruction may take one of the first three
+   fast engine has special code for the first four (fast/time/grant.h); no instruction may take one of the first three
    for more than a cycle. */
 /* clang-format off */
 #define TRAX_SHARED_UNITS(U, X)                                                                                                            \

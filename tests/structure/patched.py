@@ -78,7 +78,7 @@ def build(source, scratch, generator, launcher):
     add_fields(scratch)
     launchers = [f"-DCMAKE_{language}_COMPILER_LAUNCHER={launcher}" for language in ("C", "CXX")]
     run("cmake", "-S", scratch, "-B", f"{scratch}/build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=None",
-        "-DCMAKE_C_FLAGS=-O0", "-DCMAKE_CXX_FLAGS=-O0", "-DTRAX_FAST_VARIANTS=OFF", "-DTRAX_TRANSLATE=OFF",
+        "-DCMAKE_C_FLAGS=-O0", "-DCMAKE_CXX_FLAGS=-O0", "-DTRAX_FAST_AVX2=OFF", "-DTRAX_TRANSLATE=OFF",
         f"-DTRAX_ISA_GEN={generator}", *launchers)
     run("ninja", "-C", f"{scratch}/build", "-j2", *TARGETS)
     run(f"{scratch}/build/tests/bin/emulator-programs", scratch)

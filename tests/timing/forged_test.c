@@ -222,7 +222,6 @@ static bool is_matched(unsigned name) {
       "dcache->",
       "tm->",
       "trax_waiting.",
-      "trax_channel.passed",
       "trax_l2.arriving",
   };
   for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
@@ -308,7 +307,7 @@ static const char *const free_names[] = {
     "trax_tm.data_bank_rr_masks",
     "trax_tm.fetch_rr_masks16",
     "trax_fast_units.rr_masks",
-    "tm->fetch_rr_masks.",
+    "tm->fetch_arbiters.",
     "trax_tp.reg",
     "trax_tp.address",
     "trax_tp.writes",

@@ -56,7 +56,7 @@ static void fast_controller(const struct transfers *transfers, uint32_t channels
   struct trax_memory_stats stats = {0};
   struct trax_tm tm = {0};
   assert_int_equal(trax_memory_create(&memory, &config, &stats, NULL), TRAX_OK);
-  assert_true(trax_queue_create(&tm.queue, REQUESTS, trax_memory_keeps_order(&config)));
+  assert_true(trax_queue_create(&tm.queue, REQUESTS));
   for (unsigned i = 0; i < REQUESTS; i++) { /* all in channel 0 */
     const struct trax_request request = {.kind = TRAX_REQUEST_WRITE, .bytes = 64};
     trax_memory_submit(&memory, &tm, trax_queue_push(&tm.queue, request));

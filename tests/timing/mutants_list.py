@@ -161,9 +161,8 @@ MUTANTS = [
     ("fast/time/grant.h", "ready->slow |= (uint64_t)(low & TRAX_STEP_SLOW) << trax_first(rest);", "(void)low;"),
     ("fast/time/grant.h", "if (!tm->serial_hits)", "if (1)"),
     # Whether the next load's line is resident: after arrivals, evictions and fences.
-    ("fast/time/cycle.c", "    trax_fast_find_line(tm, trax_first(rest));", "    (void)tm;"),
-    ("fast/time/cycle.c", "uint32_t set_mask = tags->set_mask << tags->line_shift;",
-     "uint32_t set_mask = ~0u << tags->line_shift;"),
+    ("fast/time/cycle.c", "      trax_fast_find_line(tm, tp);", "      (void)tm;"),
+    ("fast/time/cycle.c", "^ line) & tags->set_mask))", "^ line)))"),
     ("fast/tm/tp.c", "    tm->load_hits = 0;", "    (void)tm;"),
     # --- step 5 and the heads ---
     ("fast/time/issue.h", "if (latency > 1) {", "if (latency > 2) {"),
@@ -335,9 +334,9 @@ MUTANTS = [
     # A refused access is charged to the queue.
     ("fast/time/grant.h", "trax_tm_charge(tm, number, refused);\n    return false;",
      "return false;"),
-    # Carries of the counters of conflicts.
-    ("fast/time/masks.h", "(*(SUM)&one_) | (either_ & other_)",
-     "(*(SUM)&one_)"),
+    # Counters of refusals are charged before they overflow.
+    ("fast/time/masks.h", "++counts->cycles == UINT8_MAX;", "++counts->cycles == UINT8_MAX + 2;"),
+    ("fast/time/heads.h", "(at >= check_at)", "(at > check_at)"),
     # Round robin of banks.
     ("fast/time/masks.h", "-(*(WINNERS) + *(WINNERS)) |",
      "-*(WINNERS) |"),
@@ -481,7 +480,7 @@ MUTANTS = [
     ("fast/merge.c", "memcpy(merge->chip->machine->space.bytes + undo->address, &undo->word, sizeof undo->word);",
      "memcpy(merge->chip->machine->space.bytes + undo->address, &undo->word, 1);"),
     # A miss register of the second-level cache is free again.
-    ("fast/memory/l2.c", "    mshr_of(l2, id)->request.bytes = 0;\n", ""),
+    ("fast/memory/l2.c", "    mshr->request.bytes = 0;\n", ""),
     # The controller is restored.
     ("fast/state.c", "VISIT_DERIVED(memory, 1);", "VISIT_DERIVED(memory, 0);"),
     # Increments are noted as writes.
@@ -512,8 +511,9 @@ MUTANTS = [
      "  trax_store_buffer_begin_quantum(tm->buffer, side);\n  trax_tm_receive(tm, 0);"),
     ("fast/merge.c", "  for (unsigned side = 0; side < TRAX_SIDES; side++)\n    trax_tm_receive(tm, side);\n", ""),
     ("fast/tm/tm.c", "    tm->next_cycle = trax_queue_oldest(&tm->queue)->completion;", "    ;"),
-    # The oldest request of a ring waits first, also after an import.
-    ("fast/memory/create.c", "(queue->oldest + queue->started) % queue->depth", "queue->oldest % queue->depth"),
+    # Requests arrive by their completions, those of one cycle in the order in which they were made.
+    ("fast/tm/queue.c", "x->completion < y->completion", "x->completion > y->completion"),
+    ("fast/tm/queue.c", "x->number < y->number", "x->number > y->number"),
     # Every part of the snapshot is copied.
     ("fast/epochs.c", "piece_count * (part + 1) / parts;",
      "piece_count * (part + 1) / parts - part;"),

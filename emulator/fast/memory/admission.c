@@ -14,14 +14,7 @@ static bool is_admitted(const struct trax_memory *memory, unsigned number, const
 
 /* Takes the next request that the channel can take. TRAX_NO_REQUEST: there is none. */
 static trax_request_id take_admitted(struct trax_memory *memory, struct trax_tm *tms, unsigned number) {
-  struct trax_channel *channel = &memory->channel[number];
-  struct trax_waiting *waiting = channel->waiting;
-  if (!waiting) {
-    const trax_request_id first = channel->passed.first;
-    if (first == TRAX_NO_REQUEST || !is_admitted(memory, number, trax_memory_request(memory, tms, first)))
-      return TRAX_NO_REQUEST;
-    return trax_memory_take_first(memory, tms, &channel->passed);
-  }
+  struct trax_waiting *waiting = &memory->channel[number].waiting;
   uint64_t admitted = waiting->tms;
   if (!trax_dram_has_place(memory->dram, number, TRAX_DRAM_READ) ||
       !trax_dram_has_place(memory->dram, number, TRAX_DRAM_WRITE))

@@ -13,11 +13,6 @@ static uint64_t divide_up(uint64_t a, uint64_t b) {
   return (a + b - 1) / b;
 }
 
-bool trax_memory_keeps_order(const struct trax_config *config) {
-  return config->memory.model == TRAX_MEMORY_LIMIT && config->memory.channels == 1 && !config->l2.bytes &&
-         !config->memory.atomic_latency_cycles && !config->memory.atomic_interval_cycles;
-}
-
 static void create_bus(struct trax_memory *memory, const struct trax_config *config) {
   const uint64_t megabytes_per_second = (uint64_t)llround(config->memory.bandwidth_gbps * 1000);
   const uint64_t megahertz = (uint64_t)config->chip.clock_mhz * config->memory.channels;
@@ -37,12 +32,9 @@ uint32_t trax_memory_least_latency(const struct trax_config *config) {
   return (uint32_t)(transfer < MOST_LATENCY ? transfer : MOST_LATENCY) + config->memory.latency_cycles;
 }
 
-struct trax_waiting *trax_waiting_create(uint32_t count) {
-  struct trax_waiting *waiting = calloc(count, sizeof *waiting);
-  for (uint32_t i = 0; waiting && i < count; i++)
-    for (unsigned tm = 0; tm < TRAX_MAX_TMS; tm++)
-      waiting[i].list[tm] = trax_empty_list;
-  return waiting;
+void trax_waiting_begin(struct trax_waiting *waiting) {
+  for (unsigned tm = 0; tm < TRAX_MAX_TMS; tm++)
+    waiting->list[tm] = trax_empty_list;
 }
 
 trax_status trax_memory_create(struct trax_memory *memory, const struct trax_config *config,
@@ -55,20 +47,14 @@ trax_status trax_memory_create(struct trax_memory *memory, const struct trax_con
   memory->unit_interval = config->memory.atomic_interval_cycles;
   memory->channels = config->memory.channels;
   memory->interleave_shift = (unsigned)__builtin_ctz(config->memory.interleave_bytes);
-  memory->keeps_order = trax_memory_keeps_order(config);
-  for (uint32_t i = 0; i < memory->channels; i++) {
-    memory->channel[i].passed = trax_empty_list;
-    if (!config->l2.bytes && !(memory->channel[i].waiting = trax_waiting_create(1)))
-      return trax_fail(error, "out of memory");
-  }
+  for (uint32_t i = 0; i < memory->channels; i++)
+    trax_waiting_begin(&memory->channel[i].waiting);
   if (config->memory.model == TRAX_MEMORY_DRAM && !(memory->dram = trax_dram_create(config, &stats->dram, error)))
     return TRAX_ERROR;
   return config->l2.bytes ? trax_l2_create(&memory->l2, config, error) : TRAX_OK;
 }
 
 void trax_memory_destroy(struct trax_memory *memory) {
-  for (uint32_t i = 0; i < memory->channels; i++)
-    free(memory->channel[i].waiting);
   trax_dram_destroy(memory->dram);
   trax_l2_destroy(memory->l2);
 }
@@ -96,30 +82,12 @@ uint32_t trax_waiting_import(const struct trax_memory *memory, struct trax_tm *t
   return count;
 }
 
-/* The same if the TMs' queues are rings. */
-static uint32_t import_rings(const struct trax_tm *tms, unsigned count, struct trax_waiting *waiting) {
-  uint32_t total = 0;
-  waiting->tms = 0;
-  for (unsigned i = 0; i < count; i++) {
-    const struct trax_queue *queue = &tms[i].queue;
-    waiting->ring[i] =
-        (struct trax_ring){(queue->oldest + queue->started) % queue->depth, queue->count - queue->started};
-    total += waiting->ring[i].count;
-    waiting->tms |= (uint64_t)(waiting->ring[i].count > 0) << i;
-  }
-  return total;
-}
-
 void trax_memory_import(struct trax_memory *memory, struct trax_tm *tms, unsigned count) {
   memory->waiting = 0;
   for (unsigned i = 0; i < count; i++)
     trax_queue_import(&tms[i].queue);
   for (unsigned i = 0; i < memory->channels; i++) {
-    struct trax_channel *channel = &memory->channel[i];
-    memory->waiting += trax_memory_import_list(memory, tms, &channel->passed);
-    if (channel->waiting)
-      memory->waiting += memory->keeps_order ? import_rings(tms, count, channel->waiting)
-                                             : trax_waiting_import(memory, tms, channel->waiting);
+    memory->waiting += trax_waiting_import(memory, tms, &memory->channel[i].waiting);
     for (unsigned queue = 0; memory->dram && queue < TRAX_DRAM_QUEUES; queue++)
       memory->waiting += memory->dram->channel[i].count[queue];
   }

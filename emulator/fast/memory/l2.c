@@ -15,15 +15,14 @@ trax_status trax_l2_create(struct trax_l2 **result, const struct trax_config *co
                   : config->l2.line_bytes > least          ? config->l2.line_bytes
                                                            : least;
   l2->mshr_limit = config->l2.mshrs;
-  l2->bank = trax_waiting_create(l2->banks);
+  l2->bank = calloc(l2->banks, sizeof *l2->bank);
   l2->mshr = calloc(l2->mshr_limit, sizeof *l2->mshr);
-  l2->used = calloc(l2->mshr_limit, sizeof *l2->used);
   if (!trax_cache_tags_create(&l2->tags, config->l2.bytes, config->l2.line_bytes, config->l2.ways,
                               config->l2.replacement) ||
-      !l2->bank || !l2->mshr || !l2->used)
+      !l2->bank || !l2->mshr)
     return trax_fail(error, "out of memory for the second-level cache");
-  for (uint32_t i = 0; i < l2->mshr_limit; i++)
-    l2->used[i] = (uint16_t)i;
+  for (uint32_t i = 0; i < l2->banks; i++)
+    trax_waiting_begin(&l2->bank[i]);
   for (unsigned i = 0; i < TRAX_MAX_CHANNELS; i++)
     l2->arriving[i] = trax_empty_list;
   l2->next_arrival = TRAX_NEVER;
@@ -36,7 +35,6 @@ void trax_l2_destroy(struct trax_l2 *l2) {
   trax_cache_tags_destroy(&l2->tags);
   free(l2->bank);
   free(l2->mshr);
-  free(l2->used);
   free(l2);
 }
 
@@ -46,10 +44,18 @@ static uint32_t line_of(const struct trax_l2 *l2, const struct trax_l2_mshr *msh
   return trax_line_of(&l2->tags, mshr->request.address);
 }
 
-/* Returns the place of the line's miss register in l2->used; used_count: it is not on its way. */
-static uint32_t find(const struct trax_l2 *l2, uint32_t line) {
+/* Returns the line's miss register. NULL: it is not on its way. */
+static struct trax_l2_mshr *find(const struct trax_l2 *l2, uint32_t line) {
+  for (uint32_t i = 0; i < l2->mshr_limit; i++)
+    if (l2->mshr[i].request.bytes && line_of(l2, &l2->mshr[i]) == line)
+      return &l2->mshr[i];
+  return NULL;
+}
+
+/* Returns the number of a free miss register; mshr_limit: there is none. */
+static uint32_t find_free(const struct trax_l2 *l2) {
   uint32_t i = 0;
-  while (i < l2->used_count && line_of(l2, &l2->mshr[l2->used[i]]) != line)
+  while (i < l2->mshr_limit && l2->mshr[i].request.bytes)
     i++;
   return i;
 }
@@ -74,31 +80,22 @@ static unsigned next_to_arrive(struct trax_l2 *l2) {
 static void install(struct trax_memory *memory, struct trax_tm *tms, uint64_t t) {
   struct trax_l2 *l2 = memory->l2;
   while (l2->next_arrival <= t) {
-    const trax_request_id id = trax_memory_take_first(memory, tms, &l2->arriving[next_to_arrive(l2)]);
-    uint32_t index = 0, last = --l2->used_count;
-    while (l2->used[index] != id - TRAX_LINE_REQUEST)
-      index++;
-    trax_cache_tags_install(&l2->tags, line_of(l2, mshr_of(l2, id)));
-    mshr_of(l2, id)->request.bytes = 0;
-    l2->used[index] = l2->used[last];
-    l2->used[last] = (uint16_t)(id - TRAX_LINE_REQUEST);
+    struct trax_l2_mshr *const mshr =
+        mshr_of(l2, trax_memory_take_first(memory, tms, &l2->arriving[next_to_arrive(l2)]));
+    trax_cache_tags_install(&l2->tags, line_of(l2, mshr));
+    mshr->request.bytes = 0;
     next_to_arrive(l2);
   }
 }
 
 void trax_l2_import(struct trax_memory *memory, struct trax_tm *tms) {
   struct trax_l2 *l2 = memory->l2;
-  uint32_t free_from = l2->mshr_limit;
-  l2->waiting = l2->used_count = 0;
+  l2->waiting = 0;
   for (uint32_t i = 0; i < l2->banks; i++)
     l2->waiting += trax_waiting_import(memory, tms, &l2->bank[i]);
   for (uint32_t i = 0; i < l2->mshr_limit; i++)
-    if (l2->mshr[i].request.bytes) {
-      l2->used[l2->used_count++] = (uint16_t)i;
+    if (l2->mshr[i].request.bytes)
       trax_memory_import_list(memory, tms, &l2->mshr[i].waiters);
-    } else {
-      l2->used[--free_from] = (uint16_t)i;
-    }
   for (unsigned i = 0; i < TRAX_MAX_CHANNELS; i++)
     trax_memory_import_list(memory, tms, &l2->arriving[i]);
   next_to_arrive(l2);
@@ -120,7 +117,7 @@ void trax_l2_set_arrival(struct trax_memory *memory, struct trax_tm *tms, unsign
 
 static void request_line(struct trax_memory *memory, struct trax_tm *tms, uint32_t line, trax_request_id waiter) {
   struct trax_l2 *l2 = memory->l2;
-  const uint32_t number = l2->used[l2->used_count++];
+  const uint32_t number = find_free(l2);
   l2->mshr[number] = (struct trax_l2_mshr){
       .request = {.kind = TRAX_REQUEST_DATA_LINE, .address = line << l2->tags.line_shift, .bytes = l2->line_cost},
       .arrival = TRAX_NEVER,
@@ -133,8 +130,9 @@ static void request_line(struct trax_memory *memory, struct trax_tm *tms, uint32
 
 enum outcome { REFUSED, HIT, MERGED, MISSED, PASSED };
 
+/* *on_its_way: the line's miss register, if it is MERGED. */
 static enum outcome look_up(struct trax_l2 *l2, struct trax_memory_stats *stats, const struct trax_request *request,
-                            uint32_t *on_its_way) {
+                            struct trax_l2_mshr **on_its_way) {
   const uint32_t line = trax_line_of(&l2->tags, request->address);
   const bool present = trax_cache_tags_use(&l2->tags, line);
   if (request->kind == TRAX_REQUEST_WRITE || request->kind == TRAX_REQUEST_ATOMIC) {
@@ -146,7 +144,7 @@ static enum outcome look_up(struct trax_l2 *l2, struct trax_memory_stats *stats,
     return HIT;
   }
   *on_its_way = find(l2, line);
-  if (*on_its_way < l2->used_count) {
+  if (*on_its_way) {
     stats->l2_merged++;
     return MERGED;
   }
@@ -154,15 +152,15 @@ static enum outcome look_up(struct trax_l2 *l2, struct trax_memory_stats *stats,
     stats->l2_passed++;
     return PASSED;
   }
-  return l2->used_count < l2->mshr_limit ? MISSED : REFUSED;
+  return find_free(l2) < l2->mshr_limit ? MISSED : REFUSED;
 }
 
 static void serve_bank(struct trax_memory *memory, struct trax_tm *tms, struct trax_waiting *bank, uint64_t t) {
   struct trax_l2 *l2 = memory->l2;
   const unsigned tm = trax_waiting_arbitrate(bank);
   const struct trax_request *request = trax_memory_request(memory, tms, bank->list[tm].first);
-  uint32_t on_its_way = 0;
-  const enum outcome outcome = look_up(l2, memory->stats, request, &on_its_way);
+  struct trax_l2_mshr *mshr = NULL;
+  const enum outcome outcome = look_up(l2, memory->stats, request, &mshr);
   if (outcome == REFUSED) {
     memory->stats->l2_refused++;
     return;
@@ -174,7 +172,6 @@ static void serve_bank(struct trax_memory *memory, struct trax_tm *tms, struct t
   } else if (outcome == MISSED) {
     request_line(memory, tms, trax_line_of(&l2->tags, request->address), id);
   } else {
-    struct trax_l2_mshr *mshr = outcome == MERGED ? &l2->mshr[l2->used[on_its_way]] : NULL;
     memory->stats->l2_served_bytes += request->bytes;
     if (mshr && mshr->arrival == TRAX_NEVER)
       trax_memory_append(memory, tms, &mshr->waiters, id);

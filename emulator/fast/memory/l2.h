@@ -19,7 +19,6 @@ struct trax_l2_mshr {
 struct trax_l2 {
   TRAX_L2_STATE(TRAX_FIELD, )
   uint32_t waiting;      /* number of requests that wait for banks */
-  uint32_t used_count;   /* lines on their way */
   uint64_t next_arrival; /* of a line; TRAX_NEVER if none is known */
   struct trax_cache_tags tags;
   uint32_t banks, latency;
@@ -27,7 +26,6 @@ struct trax_l2 {
   uint32_t mshr_limit;
   struct trax_waiting *bank; /* [banks] */
   struct trax_l2_mshr *mshr; /* [mshr_limit] */
-  uint16_t *used;            /* [mshr_limit]: used_count miss registers of lines on their way, then the free ones */
 };
 
 trax_status trax_l2_create(struct trax_l2 **l2, const struct trax_config *config, trax_error *error);

@@ -34,6 +34,12 @@ trax_request_id trax_memory_take_first(const struct trax_memory *memory, struct 
   return id;
 }
 
+void trax_waiting_add(const struct trax_memory *memory, struct trax_tm *tms, struct trax_waiting *waiting,
+                      unsigned number, trax_request_id id) {
+  trax_memory_append(memory, tms, &waiting->list[number], id);
+  waiting->tms |= (uint64_t)1 << number;
+}
+
 unsigned trax_waiting_arbitrate(struct trax_waiting *waiting) {
   const unsigned number = trax_arbiter_peek(waiting->arbiter, waiting->tms);
   trax_arbiter_to_back(&waiting->arbiter, number);
@@ -55,21 +61,14 @@ static struct trax_channel *channel_of(struct trax_memory *memory, uint32_t addr
 
 void trax_memory_pass(struct trax_memory *memory, struct trax_tm *tms, trax_request_id id) {
   struct trax_channel *channel = channel_of(memory, trax_memory_request(memory, tms, id)->address);
-  trax_memory_append(memory, tms, &channel->passed, id);
+  trax_waiting_add(memory, tms, &channel->waiting, 0, id);
   memory->waiting++;
 }
 
 void trax_memory_submit(struct trax_memory *memory, struct trax_tm *tm, uint32_t place) {
-  if (memory->keeps_order) {
-    memory->channel[0].waiting->ring[tm->number].count++;
-    memory->channel[0].waiting->tms |= (uint64_t)1 << tm->number;
-    memory->waiting++;
-    return;
-  }
   const uint32_t address = tm->queue.requests[place].address;
-  struct trax_waiting *waiting = memory->l2 ? trax_l2_bank(memory->l2, address) : channel_of(memory, address)->waiting;
-  trax_memory_append(memory, tm - tm->number, &waiting->list[tm->number], tm->number << TRAX_REQUEST_BITS | place);
-  waiting->tms |= (uint64_t)1 << tm->number;
+  struct trax_waiting *waiting = memory->l2 ? trax_l2_bank(memory->l2, address) : &channel_of(memory, address)->waiting;
+  trax_waiting_add(memory, tm - tm->number, waiting, tm->number, tm->number << TRAX_REQUEST_BITS | place);
   *(memory->l2 ? &memory->l2->waiting : &memory->waiting) += 1;
 }
 
@@ -140,52 +139,21 @@ void trax_memory_finish(struct trax_memory *memory, struct trax_tm *tms, unsigne
                        back + (memory->l2 ? memory->l2->latency : 0) + (atomic ? memory->atomic_latency : 0));
 }
 
-static bool has_waiting(const struct trax_channel *channel) {
-  return channel->waiting ? channel->waiting->tms != 0 : channel->passed.first != TRAX_NO_REQUEST;
-}
-
 /* A channel whose bus is free serves one of the requests that wait for it. */
 static void serve(struct trax_memory *memory, struct trax_tm *tms, unsigned number, uint64_t t) {
-  struct trax_channel *channel = &memory->channel[number];
-  struct trax_waiting *waiting = channel->waiting;
-  const trax_request_id id = waiting ? trax_waiting_take(memory, tms, waiting, trax_waiting_arbitrate(waiting))
-                                     : trax_memory_take_first(memory, tms, &channel->passed);
+  struct trax_waiting *waiting = &memory->channel[number].waiting;
+  const trax_request_id id = trax_waiting_take(memory, tms, waiting, trax_waiting_arbitrate(waiting));
   struct trax_request *request = trax_memory_request(memory, tms, id);
   trax_memory_notify(memory, number, id, request, t);
   trax_memory_finish(memory, tms, number, id, transfer(memory, number, request, t));
 }
 
-/* The same if the TMs' queues are rings. */
-static inline void serve_ring(struct trax_memory *memory, struct trax_tm *tms, uint64_t t) {
-  struct trax_waiting *waiting = memory->channel[0].waiting;
-  const unsigned number = trax_waiting_arbitrate(waiting);
-  struct trax_ring *const ring = &waiting->ring[number];
-  struct trax_queue *const queue = &tms[number].queue;
-  struct trax_request *request = &queue->requests[ring->oldest];
-  ring->oldest = ring->oldest + 1 < queue->depth ? ring->oldest + 1 : 0;
-  waiting->tms &= ~((uint64_t)(!--ring->count) << number);
-  memory->waiting--;
-  trax_memory_notify(memory, 0, number << TRAX_REQUEST_BITS, request, t);
-  request->completion = transfer(memory, 0, request, t);
-  queue->served[memory->side].count++;
-}
-
-/* The same as long as requests wait and the bus is free. */
-static void serve_rings(struct trax_memory *memory, struct trax_tm *tms, uint64_t t) {
-  while (memory->waiting && is_free(&memory->channel[0], t))
-    serve_ring(memory, tms, t);
-}
-
 static inline void serve_channel(struct trax_memory *memory, struct trax_tm *tms, unsigned number, uint64_t t) {
-  while (has_waiting(&memory->channel[number]) && is_free(&memory->channel[number], t))
+  while (memory->channel[number].waiting.tms && is_free(&memory->channel[number], t))
     serve(memory, tms, number, t);
 }
 
 void trax_memory_cycle(struct trax_memory *memory, struct trax_tm *tms, uint64_t t) {
-  if (memory->keeps_order) {
-    serve_rings(memory, tms, t);
-    return;
-  }
   if (memory->l2 && memory->l2->waiting)
     trax_l2_cycle(memory, tms, t);
   for (unsigned i = 0; i < memory->channels && memory->waiting; i++)
@@ -209,7 +177,7 @@ uint64_t trax_memory_next_cycle(const struct trax_memory *memory, uint64_t t) {
     const struct trax_channel *channel = &memory->channel[i];
     const uint64_t free_cycle =
         memory->dram ? trax_dram_next_cycle(memory->dram, i) : channel->free_from.cycle; /* the bus frees during it */
-    if ((memory->dram || has_waiting(channel)) && free_cycle < next)
+    if ((memory->dram || channel->waiting.tms) && free_cycle < next)
       next = free_cycle;
   }
   return next > t + 1 ? next : t + 1;

@@ -36,10 +36,6 @@ static const struct trax_request_list trax_empty_list = {.first = TRAX_NO_REQUES
 struct trax_waiting {
   TRAX_WAITING_STATE(TRAX_FIELD, )
   uint64_t tms; /* mask of the TMs with waiting requests */
-  /* If the TMs' queues are rings: the place of the oldest request that waits, and how many do. */
-  struct trax_ring {
-    uint32_t oldest, count;
-  } ring[TRAX_MAX_TMS];
 };
 
 /* An instant: whole cycles, and units of the next cycle, fewer than units_per_cycle. A number of units alone would
@@ -52,12 +48,11 @@ struct trax_instant {
 };
 
 #define TRAX_CHANNEL_STATE(X, S)                                                                                       \
-  X(S, struct trax_instant, free_from, )   /* f of docs/timing.md; without DRAM */                                     \
-  X(S, struct trax_request_list, passed, ) /* requests that the second-level cache has passed */                       \
-  X(S, uint64_t, unit_free_from, )         /* of the increment unit */
+  X(S, struct trax_instant, free_from, ) /* f of docs/timing.md; without DRAM */                                       \
+  X(S, uint64_t, unit_free_from, )       /* of the increment unit */
 struct trax_channel {
   TRAX_CHANNEL_STATE(TRAX_FIELD, )
-  struct trax_waiting *waiting; /* NULL with a second-level cache */
+  struct trax_waiting waiting; /* requests that a second-level cache has passed count as TM 0's */
 };
 
 struct trax_memory {
@@ -70,7 +65,6 @@ struct trax_memory {
   uint32_t unit_interval;  /* cycles between the increments of a channel */
   uint32_t channels, interleave_shift;
   struct trax_channel channel[TRAX_MAX_CHANNELS];
-  bool keeps_order;       /* the TMs' queues are rings, and the lists of channel 0 empty */
   struct trax_l2 *l2;     /* NULL: there is none */
   struct trax_dram *dram; /* NULL unless memory.model is dram */
   struct trax_memory_stats *stats;
@@ -80,8 +74,6 @@ struct trax_memory {
   void *context;
 };
 
-/* Whether the requests of each TM complete in the order in which they are made. */
-bool trax_memory_keeps_order(const struct trax_config *config);
 /* Returns a number of cycles d, at least 1, such that no request of cycle t completes before t + d; the largest such
    number if that is below a million. */
 uint32_t trax_memory_least_latency(const struct trax_config *config);
@@ -119,8 +111,11 @@ trax_request_id trax_memory_take_first(const struct trax_memory *memory, struct 
 uint32_t trax_memory_import_list(const struct trax_memory *memory, struct trax_tm *tm, struct trax_request_list *list);
 /* The same for all lists of the TMs. */
 uint32_t trax_waiting_import(const struct trax_memory *memory, struct trax_tm *tm, struct trax_waiting *waiting);
-/* Creates an array of `count` empty ones. NULL: out of memory. */
-struct trax_waiting *trax_waiting_create(uint32_t count);
+/* Empties all lists. */
+void trax_waiting_begin(struct trax_waiting *waiting);
+/* Appends a request to the list of TM `number`. */
+void trax_waiting_add(const struct trax_memory *memory, struct trax_tm *tms, struct trax_waiting *waiting,
+                      unsigned number, trax_request_id id);
 /* Returns the winner among the TMs with waiting requests, and moves the arbiter's pointer past it. */
 unsigned trax_waiting_arbitrate(struct trax_waiting *waiting);
 /* Removes and returns the oldest request of TM `number`. */

@@ -20,22 +20,19 @@ static void pass_unit(struct trax_tm *tm, trax_shared which, unsigned number) {
   }
 }
 
-static void pass_fetch_banks(struct trax_tm *tm, uint32_t icache, uint64_t banks, uint64_t rr_mask) {
-  if (tm->simple_fetch) {
-    uint16_t *const first = trax_fast_fetch_rr_mask(&tm->fetch_rr_masks16, tm->wide, icache, 0);
-    const unsigned caches = tm->wide ? 4 : 2;
-    for (; banks; banks &= banks - 1)
-      first[trax_first(banks) * caches] = (uint16_t)(rr_mask >> 16 * icache);
-  }
-  for (uint64_t *masks = (uint64_t *)(tm->fetch_rr_masks + icache * tm->vectors); banks; banks &= banks - 1)
-    masks[trax_first(banks)] = rr_mask;
+static void pass_fetch_bank(struct trax_tm *tm, unsigned number, unsigned bank) {
+  const uint32_t icache = tm->icache_of[number];
+  if (tm->simple_fetch)
+    *trax_fast_fetch_rr_mask(&tm->fetch_rr_masks16, tm->wide, icache, bank) = (uint16_t)(~(uint64_t)1 << number % 16);
+  else
+    trax_arbiter_to_back(&tm->fetch_arbiters[icache * tm->config->icache.banks + bank], number);
 }
 
 static void pass_arbiters(struct trax_tm *tm, unsigned number, const struct used *used) {
-  const uint64_t behind = ~(uint64_t)1 << number;
-  pass_fetch_banks(tm, tm->icache_of[number], used->fetch_banks, behind);
+  for (uint64_t rest = used->fetch_banks; rest; rest &= rest - 1)
+    pass_fetch_bank(tm, number, trax_first(rest));
   for (uint64_t rest = used->data_banks; rest; rest &= rest - 1)
-    ((uint64_t *)tm->data_bank_rr_masks)[trax_first(rest)] = behind;
+    ((uint64_t *)tm->data_bank_rr_masks)[trax_first(rest)] = ~(uint64_t)1 << number;
   for (trax_shared unit = TRAX_SHARED_FP_ADD; unit <= TRAX_SHARED_INT_MUL; unit++)
     if (used->kinds >> ((TRAX_STEP_FP_ADD >> 1) + unit) & 1)
       pass_unit(tm, unit, number);

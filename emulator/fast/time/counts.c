@@ -1,6 +1,5 @@
 /* Counts that the engine keeps in forms of its own: instructions, and refusals of banks and units. */
 #include "fast/time/head.h"
-#include "fast/time/variant.h"
 
 #include <string.h>
 
@@ -38,12 +37,10 @@ const trax_cause trax_fast_refusal_causes[TRAX_FAST_REFUSALS] = {
 #undef CAUSE
 };
 
-static void charge_refusals(struct trax_tm *tm) {
-  tm->chip->variant->count_log(&tm->refusal_counts);
-  for (unsigned bit = 0; bit < 64; bit++)
-    for (unsigned refused = 0; refused < TRAX_FAST_REFUSALS; refused++)
-      for (uint64_t tps = tm->refusal_counts.planes[bit][refused]; tps; tps &= tps - 1)
-        tm->tp_stats[trax_first(tps)].cycles[trax_fast_refusal_causes[refused]] += (uint64_t)1 << bit;
+void trax_fast_charge_refusals(struct trax_tm *tm) {
+  for (unsigned refused = 0; refused < TRAX_FAST_REFUSALS; refused++)
+    for (unsigned tp = 0; tp < tm->tps; tp++)
+      tm->tp_stats[tp].cycles[trax_fast_refusal_causes[refused]] += tm->refusal_counts.count[refused][tp];
   memset(&tm->refusal_counts, 0, sizeof tm->refusal_counts);
 }
 
@@ -52,20 +49,11 @@ static unsigned issued_of_burst(const struct trax_tm *tm, unsigned tp) {
   return (tm->executes_at_issue | tm->ended) >> tp & 1 ? 0 : tm->heads.at[tp];
 }
 
-static void read_charges(const struct trax_tm *tm, unsigned number, uint64_t *charges) {
+void trax_fast_read_charges(const struct trax_tm *tm, unsigned number, uint64_t *charges) {
   memcpy(charges, tm->tp_stats[number].cycles, sizeof tm->tp_stats[number].cycles);
   charges[TRAX_CAUSE_ISSUED] += tm->tp[number].issued + issued_of_burst(tm, number);
-  uint64_t counts[TRAX_FAST_COUNTERS] = {0};
-  for (unsigned bit = 0; bit < 64 && (tm->now + 1) >> bit; bit++) /* a TP has not more refusals than cycles */
-    for (unsigned refused = 0; refused < TRAX_FAST_COUNTERS; refused++)
-      counts[refused] += (tm->refusal_counts.planes[bit][refused] >> number & 1) << bit;
   for (unsigned refused = 0; refused < TRAX_FAST_REFUSALS; refused++)
-    charges[trax_fast_refusal_causes[refused]] += counts[refused];
-}
-
-void trax_fast_read_charges(struct trax_tm *tm, unsigned number, uint64_t *charges) {
-  tm->chip->variant->count_log(&tm->refusal_counts);
-  read_charges(tm, number, charges);
+    charges[trax_fast_refusal_causes[refused]] += tm->refusal_counts.count[refused][number];
 }
 
 void trax_fast_count_rays(struct trax_tm *tm, unsigned number, int32_t code, uint32_t value) {
@@ -77,7 +65,7 @@ void trax_fast_count_rays(struct trax_tm *tm, unsigned number, int32_t code, uin
 void trax_fast_settle_rays(struct trax_tm *tm) {
   uint64_t charges[TRAX_CAUSE_COUNT];
   for (unsigned tp = 0; tm->ray_counts && tp < tm->tps; tp++) {
-    read_charges(tm, tp, charges);
+    trax_fast_read_charges(tm, tp, charges);
     trax_ray_cycles_add(tm->ray_counts, &tm->rays[tp], charges);
   }
 }
@@ -107,7 +95,7 @@ void trax_fast_settle(struct trax_chip *chip) {
     struct trax_tm *tm = &chip->tm[i];
     for (unsigned tp = 0; tp < tm->tps; tp++)
       count_burst(tm, tp);
-    charge_refusals(tm);
+    trax_fast_charge_refusals(tm);
     count_unissued(tm, -1);
   }
   trax_fast_collect(chip);

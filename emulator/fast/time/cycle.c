@@ -14,10 +14,9 @@ static ALWAYS_INLINE bool has_arrival(const struct trax_tm *tm, uint64_t t) {
 /* A line has arrived in the data cache, and perhaps evicted another one of its set. */
 static void data_line_arrived(struct trax_tm *tm, uint32_t line) {
   const struct trax_cache_tags *const tags = &tm->dcache.tags;
-  const uint32_t set_mask = tags->set_mask << tags->line_shift;
-  uint64_t rest = trax_fast_loads_like(&tm->heads, set_mask, line << tags->line_shift) & trax_group_mask(0, tm->tps);
-  for (; rest; rest &= rest - 1)
-    trax_fast_find_line(tm, trax_first(rest));
+  for (unsigned tp = 0; tp < tm->tps; tp++)
+    if (!((trax_line_of(tags, tm->heads.address[tp]) ^ line) & tags->set_mask))
+      trax_fast_find_line(tm, tp);
 }
 
 /* Handles the arrivals of cycle t. */
@@ -57,42 +56,30 @@ static void fault_no_text(struct trax_tm *tm, uint64_t t) {
   }
 }
 
-/* Grants the banks of one instruction cache after the other, for any configuration; returns the losers. */
-static uint64_t refuse_fetches_of_any_shape(struct trax_tm *tm, uint64_t requesters, const uint64_t *bit) {
-  const uint32_t ports = tm->config->icache.ports_per_bank, banks = tm->config->icache.banks;
+/* Grants the banks of instruction caches of any shape, one after the other; returns the losers. */
+static uint64_t refuse_fetches_of_any_shape(struct trax_tm *tm, uint64_t requesters) {
+  const struct trax_config *const config = tm->config;
   uint64_t losers = 0;
-  for (uint32_t icache = 0; icache < tm->icaches; icache++) {
-    const uint64_t here = requesters & trax_group_mask(icache, tm->config->icache.tps_per_cache);
-    trax_fast_lanes *rr_mask = &tm->fetch_rr_masks[icache * tm->vectors];
-    for (uint32_t first = 0; first < banks; first += TRAX_FAST_LANES, rr_mask++) {
-      trax_fast_lanes requesting;
-      for (uint32_t i = 0; i < TRAX_FAST_LANES; i++) {
-        requesting[i] = here;
-        for (uint32_t k = 0; k < TRAX_FAST_BANK_BITS; k++)
-          requesting[i] &= (first + i) >> k & 1 ? bit[k] : ~bit[k];
-      }
-      for (uint32_t port = 0; port < ports; port++) {
-        trax_fast_lanes winners;
-        TRAX_FAST_ARBITRATE(trax_fast_lanes, rr_mask, requesting, &winners);
-        requesting ^= winners;
-      }
-      losers |= trax_fast_any(&requesting);
-    }
+  for (uint64_t rest = requesters, here; rest; rest &= ~here) {
+    const unsigned first = trax_first(rest), icache = tm->icache_of[first];
+    trax_arbiter *const arbiters = &tm->fetch_arbiters[icache * config->icache.banks];
+    here = like_first(tm, rest & trax_group_mask(icache, config->icache.tps_per_cache), TRAX_STEP_FETCH);
+    losers |= here ^ trax_arbiter_grant(&arbiters[step_of(tm, first) >> TRAX_STEP_FETCH_SHIFT], here,
+                                        config->icache.ports_per_bank);
   }
   return losers;
 }
 
 /* Grants the instruction caches' banks; returns the losers. */
 static ALWAYS_INLINE uint64_t refuse_fetches(struct trax_tm *tm, const bool wide, const bool few, uint64_t requesters) {
-  if (few && tm->simple_fetch)
+  uint64_t bit[4];
+  if (!tm->simple_fetch)
+    return refuse_fetches_of_any_shape(tm, requesters);
+  if (few)
     return refuse_few_fetches(tm, requesters);
-  uint64_t bit[TRAX_FAST_BANK_BITS];
   trax_fast_transpose(&tm->heads, wide, TRAX_STEP_FETCH_SHIFT, 4, bit);
-  if (tm->simple_fetch)
-    return wide ? trax_fast_refuse_four(&tm->fetch_rr_masks16, requesters, bit)
-                : trax_fast_refuse_two(&tm->fetch_rr_masks16, requesters, bit);
-  trax_fast_transpose(&tm->heads, wide, TRAX_STEP_FETCH_SHIFT + 4, 2, bit + 4);
-  return refuse_fetches_of_any_shape(tm, requesters, bit);
+  return wide ? trax_fast_refuse_four(&tm->fetch_rr_masks16, requesters, bit)
+              : trax_fast_refuse_two(&tm->fetch_rr_masks16, requesters, bit);
 }
 
 /* The TP has won its bank and looks up the line of its head. True: a hit. */
@@ -194,15 +181,11 @@ static ALWAYS_INLINE void fetch_and_check(struct trax_tm *tm, const bool wide, c
 }
 
 /* Step 5; banks: the TPs that have requested a bank. */
-static ALWAYS_INLINE void issue(struct trax_tm *tm, const bool wide, const bool few, uint64_t granted, uint64_t slow,
-                                uint64_t banks, uint64_t t) {
+static ALWAYS_INLINE void issue(struct trax_tm *tm, const bool wide, uint64_t granted, uint64_t slow, uint64_t banks,
+                                uint64_t t) {
   const uint64_t quick = granted & ~slow;
   slow &= granted;
-  if (__builtin_expect(tm->observer != NULL, false)) {
-    if (!tm->observer->stretch) {
-      issue_observed(tm, quick, slow, t);
-      return;
-    }
+  if (__builtin_expect(tm->observed != NULL, false)) {
     record_refusals(tm, wide, granted & tm->observed->tps);
     trax_fast_record_outcomes(tm, granted & banks);
   }
@@ -210,8 +193,6 @@ static ALWAYS_INLINE void issue(struct trax_tm *tm, const bool wide, const bool 
     trax_fast_set_load(tm, trax_first(loads), tm->heads.load[trax_first(loads)] + 1u);
   if (slow)
     issue_in_order(tm, quick, slow, t);
-  else if (few)
-    issue_one_by_one(tm, quick);
   else
     issue_quickly(tm, wide, quick);
 }
@@ -222,9 +203,9 @@ static ALWAYS_INLINE void simulate(struct trax_tm *tm, const bool wide, const bo
   fetch_and_check(tm, wide, few, woken, &refused, t);
   const uint64_t granted = grant(tm, wide, few, &refused, &slow, &banks, t);
   const bool refuses = refused.fetch | tm->ready; /* who is still ready was refused something */
-  issue(tm, wide, few, granted, slow, banks, t);
-  if (refuses && trax_fast_count(&tm->refusal_counts, &refused))
-    trax_fast_count_log(&tm->refusal_counts);
+  issue(tm, wide, granted, slow, banks, t);
+  if (refuses && trax_fast_count(&tm->refusal_counts, wide, &refused))
+    trax_fast_charge_refusals(tm);
   if (__builtin_expect(tm->observer != NULL, false)) {
     if (tm->observed)
       count_refusals(tm, wide, &refused);
@@ -261,4 +242,4 @@ static void run_quantum(struct trax_tm *tm, uint64_t end) {
 #ifndef TRAX_FAST_VARIANT
 #define TRAX_FAST_VARIANT trax_fast_variant
 #endif
-const struct trax_fast_variant TRAX_FAST_VARIANT = {run_cycle, run_quantum, trax_fast_count_log};
+const struct trax_fast_variant TRAX_FAST_VARIANT = {run_cycle, run_quantum};

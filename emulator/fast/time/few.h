@@ -5,8 +5,6 @@
 
 #include "fast/time/head.h"
 
-#define ALWAYS_INLINE inline __attribute__((always_inline))
-
 enum { MOST_FEW = 4 /* TPs */ };
 
 static inline bool are_few(uint64_t tps) {

@@ -1,15 +1,10 @@
-/* The heads of a TM's TPs, as arrays that are processed for all TPs at once. There are versions for AVX-512, for AVX2
-   and for any host. */
+/* The heads of a TM's TPs, as arrays that are processed for all TPs at once. There are versions for AVX2 and for any
+   host. */
 #ifndef TRAX_FAST_HEADS_H
 #define TRAX_FAST_HEADS_H
 
+#include "fast/time/masks.h"
 #include "translate/burst.h"
-
-#include <stdbool.h>
-#include <string.h>
-#ifdef __AVX2__
-#include <immintrin.h>
-#endif
 
 /* The 16 bits of a step: the resources that it needs. */
 enum {
@@ -27,8 +22,8 @@ enum {
   TRAX_STEP_FETCH = 63 << TRAX_STEP_FETCH_SHIFT
 };
 
-/* With AVX-512, a lane of 64 bits holds a TP's next four steps, the head's in the lowest bits. When heads are issued,
-   the lanes of all TPs are shifted at once. Each 32 TPs have four rows of eight lanes: TP 4 * lane + row. */
+/* With AVX2, a lane of 64 bits holds a TP's next four steps, the head's in the lowest bits. When heads are issued, the
+   lanes of all TPs are shifted at once. Each 32 TPs have four rows of eight lanes: TP 4 * lane + row. */
 enum { TRAX_FAST_NEXT = 4 /* steps in a lane */, TRAX_FAST_ROWS = 8 };
 
 struct trax_fast_heads {
@@ -59,47 +54,7 @@ static inline void trax_fast_set_head(struct trax_fast_heads *heads, unsigned tp
   memcpy(&heads->next[tp / 32 * 4 + tp % 4][tp % 32 / 4], step, sizeof **heads->next);
 }
 
-#ifdef __AVX512BW__
-/* Returns the steps of the heads of 32 TPs: the lowest 16 bits of each lane of the rows. */
-static inline __m512i trax_fast_join_rows(const __m512i *row) {
-  __m512i step = row[0];
-#pragma GCC unroll 3
-  for (unsigned i = 1; i < 4; i++) /* merges above the lower bits */
-    step = _mm512_ternarylogic_epi64(step, _mm512_slli_epi64(row[i], 16 * i),
-                                     _mm512_set1_epi64(((long long)1 << 16 * i) - 1), 0xE4);
-  return step;
-}
-
-/* Stores the heads' steps; step[i]: those of 32 TPs. They are stored with the width with which they will be loaded. */
-static inline void trax_fast_set_steps(struct trax_fast_heads *heads, const bool wide, const __m512i *step) {
-#pragma GCC unroll 2
-  for (unsigned i = 0; i < 2; i++) {
-    uint8_t *const bytes = i ? heads->high : heads->low;
-    const __m256i first = _mm512_cvtepi16_epi8(_mm512_srli_epi16(step[0], 8 * i));
-    if (wide)
-      _mm512_store_si512(bytes, _mm512_inserti64x4(_mm512_castsi256_si512(first),
-                                                   _mm512_cvtepi16_epi8(_mm512_srli_epi16(step[1], 8 * i)), 1));
-    else
-      _mm256_store_si256((__m256i *)bytes, first);
-  }
-}
-
-/* Loads the lanes of all TPs with the steps from the heads on. */
-static inline __attribute__((always_inline)) void trax_fast_fill_rows(struct trax_fast_heads *heads, const bool wide) {
-  __m512i step[2];
-  for (unsigned half = 0; half < 1u + wide; half++) {
-    __m512i *const next = (__m512i *)heads->next[4 * half];
-    const __m256i *const begin = (const __m256i *)heads->row_begin[4 * half];
-    __m256i at = _mm256_load_si256((const __m256i *)heads->at + half);
-#pragma GCC unroll 4
-    for (unsigned i = 0; i < 4; i++, at = _mm256_srli_epi32(at, 8))
-      next[i] = _mm512_i32gather_epi64(_mm256_add_epi32(_mm256_and_si256(at, _mm256_set1_epi32(0xFF)), begin[i]),
-                                       heads->steps, sizeof *heads->steps);
-    step[half] = trax_fast_join_rows(next);
-  }
-  trax_fast_set_steps(heads, wide, step);
-}
-#elif defined(__AVX2__)
+#ifdef __AVX2__
 /* Returns the steps of the heads of 16 TPs: the lowest 16 bits of each lane of half a row. */
 static inline __m256i trax_fast_join_rows(const __m256i *row) {
   const __m256i two = _mm256_blend_epi16(row[0], _mm256_slli_epi64(row[1], 16), 0x22);
@@ -157,151 +112,48 @@ static inline void trax_fast_shift_rows(struct trax_fast_heads *heads, unsigned 
 #endif
 
 /* Makes the next step of each TP of `who` its head. `wide`: the TM has more than 32 TPs. */
-static inline __attribute__((always_inline)) void trax_fast_move_on(struct trax_fast_heads *heads, const bool wide,
-                                                                    uint64_t who) {
-#ifdef __AVX512BW__
-  const __m512i at = _mm512_load_si512(heads->at);
-  _mm512_store_si512(heads->at, _mm512_mask_add_epi8(at, who, at, _mm512_set1_epi8(1)));
-  if (++heads->moves % TRAX_FAST_NEXT == 0) {
-    trax_fast_fill_rows(heads, wide);
-    return;
-  }
-  __m512i step[2];
+static ALWAYS_INLINE void trax_fast_move_on(struct trax_fast_heads *heads, const bool wide, uint64_t who) {
+#ifdef __AVX2__
+  if (__builtin_popcountll(who) > (wide ? 8 : 4)) { /* fewer are faster one by one */
+    const bool fills = ++heads->moves % TRAX_FAST_NEXT == 0;
+    trax_fast_count_bytes(heads->at, wide, who, 0);
 #pragma GCC unroll 2
-  for (unsigned half = 0; half < 1u + wide; half++) {
-    __m512i *const next = (__m512i *)heads->next[4 * half];
-    __m512i row[4];
-#pragma GCC unroll 4
-    for (unsigned i = 0; i < 4; i++) {
-      const __mmask8 moves = (__mmask8)_pext_u64(who, (uint64_t)0x11111111 << (32 * half + i));
-      next[i] = row[i] = _mm512_mask_srli_epi64(next[i], moves, next[i], 16);
-    }
-    step[half] = trax_fast_join_rows(row);
-  }
-  trax_fast_set_steps(heads, wide, step);
-#elif defined(__AVX2__)
-  if (__builtin_popcountll(who) <= (wide ? 8 : 4)) { /* one by one is faster */
-    for (; who; who &= who - 1)
-      trax_fast_set_head(heads, (unsigned)__builtin_ctzll(who), heads->at[__builtin_ctzll(who)] + 1u);
+    for (unsigned half = 0; half < 1u + wide; half++)
+      if (fills)
+        trax_fast_fill_rows(heads, half);
+      else
+        trax_fast_shift_rows(heads, half, (uint32_t)(who >> 32 * half));
     return;
-  }
-  const bool fills = ++heads->moves % TRAX_FAST_NEXT == 0;
-#pragma GCC unroll 2
-  for (unsigned half = 0; half < 1u + wide; half++) {
-    const uint32_t here = (uint32_t)(who >> 32 * half);
-    const __m256i spread = _mm256_shuffle_epi8(
-        _mm256_set1_epi32((int)here), _mm256_set_epi64x(0x0303030303030303, 0x0202020202020202, 0x0101010101010101, 0));
-    const __m256i bit = _mm256_set1_epi64x((long long)0x8040201008040201);
-    __m256i *const at = (__m256i *)heads->at + half; /* lanes of all ones are subtracted */
-    _mm256_store_si256(at, _mm256_sub_epi8(*at, _mm256_cmpeq_epi8(_mm256_and_si256(spread, bit), bit)));
-    if (fills)
-      trax_fast_fill_rows(heads, half);
-    else
-      trax_fast_shift_rows(heads, half, here);
   }
 #else
   (void)wide;
-  for (; who; who &= who - 1) {
-    const unsigned tp = (unsigned)__builtin_ctzll(who);
-    const uint16_t step = heads->steps[heads->begin[tp] + ++heads->at[tp]];
-    heads->low[tp] = (uint8_t)step;
-    heads->high[tp] = (uint8_t)(step >> 8);
-  }
 #endif
+  for (; who; who &= who - 1)
+    trax_fast_set_head(heads, (unsigned)__builtin_ctzll(who), heads->at[__builtin_ctzll(who)] + 1u);
 }
-
-#ifndef __AVX2__
-static inline uint64_t trax_fast_eight_bytes(const uint8_t *bytes) {
-  uint64_t word;
-  memcpy(&word, bytes, sizeof word);
-  return word;
-}
-
-/* Returns a bit of each of eight bytes, the first byte's in bit 0: the product moves byte i's bit from 8 i to 56 + i.
- */
-static inline uint64_t trax_fast_bit_of_eight(uint64_t bytes, unsigned bit) {
-  return ((bytes >> bit) & 0x0101010101010101) * 0x0102040810204080 >> 56;
-}
-#endif
 
 /* Returns the TPs at whose heads a check is due. This only matters for TPs that are busy or uncertain. */
-static inline __attribute__((always_inline)) uint64_t trax_fast_due(const struct trax_fast_heads *heads,
-                                                                    const bool wide) {
-#ifdef __AVX512BW__
-  (void)wide;
-  return _mm512_cmpge_epu8_mask(_mm512_load_si512(heads->at), _mm512_load_si512(heads->check_at));
-#elif defined(__AVX2__)
+static ALWAYS_INLINE uint64_t trax_fast_due(const struct trax_fast_heads *heads, const bool wide) {
   uint64_t due = 0;
-  for (unsigned i = 0; i < 32u + 32 * wide; i += 32) {
-    const __m256i at = _mm256_load_si256((const __m256i *)(heads->at + i));
-    const __m256i later = _mm256_max_epu8(at, _mm256_load_si256((const __m256i *)(heads->check_at + i)));
-    due |= (uint64_t)(uint32_t)_mm256_movemask_epi8(_mm256_cmpeq_epi8(at, later)) << i;
+  for (unsigned i = 0; i < 32u + 32 * wide; i += TRAX_FAST_VECTOR) {
+    const trax_fast_bytes at = *(const trax_fast_bytes *)(heads->at + i);
+    const trax_fast_bytes check_at = *(const trax_fast_bytes *)(heads->check_at + i);
+    due |= trax_fast_top_bits((trax_fast_bytes)(at >= check_at)) << i;
   }
   return due;
-#else
-  const uint64_t top = 0x8080808080808080;
-  uint64_t due = 0;
-  for (unsigned i = 0; i < 32u + 32 * wide; i += 8) {
-    const uint64_t at = trax_fast_eight_bytes(heads->at + i), check_at = trax_fast_eight_bytes(heads->check_at + i);
-    const uint64_t low_bits = (at | top) - (check_at & ~top); /* top bit: the low 7 bits of `at` are not less */
-    due |= trax_fast_bit_of_eight((at & ~check_at) | (~(at ^ check_at) & low_bits), 7) << i;
-  }
-  return due;
-#endif
-}
-
-/* Returns the TPs of whose next load's address the bits of `mask` are those of `address`. */
-static inline uint64_t trax_fast_loads_like(const struct trax_fast_heads *heads, uint32_t mask, uint32_t address) {
-  uint64_t found = 0;
-#ifdef __AVX512BW__
-  for (unsigned i = 0; i < 64; i += 16)
-    found |= (uint64_t)_mm512_testn_epi32_mask(
-                 _mm512_xor_si512(_mm512_loadu_si512(heads->address + i), _mm512_set1_epi32((int)address)),
-                 _mm512_set1_epi32((int)mask))
-             << i;
-#elif defined(__AVX2__)
-  for (unsigned i = 0; i < 64; i += 8) {
-    const __m256i some =
-        _mm256_and_si256(_mm256_loadu_si256((const __m256i *)(heads->address + i)), _mm256_set1_epi32((int)mask));
-    const __m256i like = _mm256_cmpeq_epi32(some, _mm256_set1_epi32((int)(address & mask)));
-    found |= (uint64_t)(uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(like)) << i;
-  }
-#else
-  for (unsigned i = 0; i < 64; i++)
-    found |= (uint64_t)(((heads->address[i] ^ address) & mask) == 0) << i;
-#endif
-  return found;
 }
 
 /* Sets plane[k] to bit `first` + k of the heads' steps, for all k < `count`. first and count must be constants, and all
    bits in the same byte. */
-static inline __attribute__((always_inline)) void trax_fast_transpose(const struct trax_fast_heads *heads,
-                                                                      const bool wide, const unsigned first,
-                                                                      const unsigned count, uint64_t *plane) {
+static ALWAYS_INLINE void trax_fast_transpose(const struct trax_fast_heads *heads, const bool wide,
+                                              const unsigned first, const unsigned count, uint64_t *plane) {
   const uint8_t *const bytes = first < 8 ? heads->low : heads->high;
-#ifdef __AVX512BW__
+  for (unsigned i = 0; i < 32u + 32 * wide; i += TRAX_FAST_VECTOR) {
+    const trax_fast_lanes16 some = *(const trax_fast_lanes16 *)(bytes + i);
 #pragma GCC unroll 8
-  for (unsigned k = 0; k < count; k++) {
-    const char bit = (char)(1 << (first + k) % 8);
-    plane[k] = wide ? _mm512_test_epi8_mask(_mm512_load_si512(bytes), _mm512_set1_epi8(bit))
-                    : _mm256_test_epi8_mask(_mm256_load_si256((const __m256i *)bytes), _mm256_set1_epi8(bit));
-  }
-#elif defined(__AVX2__)
-  for (unsigned i = 0; i < 32u + 32 * wide; i += 32) {
-    const __m256i some = _mm256_load_si256((const __m256i *)(bytes + i));
-#pragma GCC unroll 8
-    for (unsigned k = 0; k < count; k++) {
-      const int mask = _mm256_movemask_epi8(_mm256_slli_epi16(some, 7 - (int)((first + k) % 8)));
-      plane[k] = (i ? plane[k] : 0) | (uint64_t)(uint32_t)mask << i;
-    }
-  }
-#else
-  for (unsigned i = 0; i < 32u + 32 * wide; i += 8) {
-    const uint64_t some = trax_fast_eight_bytes(bytes + i);
     for (unsigned k = 0; k < count; k++)
-      plane[k] = (i ? plane[k] : 0) | trax_fast_bit_of_eight(some, (first + k) % 8) << i;
+      plane[k] = (i ? plane[k] : 0) | trax_fast_top_bits((trax_fast_bytes)(some << (int)(7 - (first + k) % 8))) << i;
   }
-#endif
 }
 
 #endif

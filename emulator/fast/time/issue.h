@@ -66,20 +66,14 @@ static void store_now(struct trax_tm *tm, unsigned number, uint64_t t) {
     trax_fast_roll_back_tp(tm, number);
 }
 
-/* Returns where the instruction after a head goes on that does not execute at issue. */
-static uint32_t next_pc(const struct trax_tm *tm, unsigned number) {
-  const struct trax_tp *tp = &tm->tp[number];
-  const unsigned next = tm->heads.at[number] + 1u;
-  return next > tm->heads.last[number] ? tp->resume_pc : tm->chip->program.timing[trax_fast_index(tp, next)].pc;
-}
-
-/* Tells the observer of a slow head that has been issued; one of stretches when the burst has ended. */
+/* Tells the observer of a slow head that has been issued; one of stretches when the burst has ended. Without stretches
+   a burst has one instruction, so that all heads are slow. */
 static void tell_slow(struct trax_tm *tm, unsigned number, uint32_t pc, const struct trax_decoded *inst) {
   const struct trax_tp *tp = &tm->tp[number];
   const bool at_issue = tm->executes_at_issue >> number & 1;
   const unsigned last = tm->heads.last[number];
   if (!tm->observer->stretch) {
-    trax_tm_notify_issue(tm, number, pc, inst, at_issue ? tp->pc : next_pc(tm, number));
+    trax_tm_notify_issue(tm, number, pc, inst, tp->resume_pc);
   } else if (at_issue) {
     trax_fast_tell_single(tm, number, pc, inst);
   } else if (tm->heads.at[number] == last) {
@@ -121,21 +115,13 @@ static void issue_slowly(struct trax_tm *tm, unsigned number, uint64_t t) {
 }
 
 /* Issues quick heads: the next steps of their TPs become the heads. */
-static inline __attribute__((always_inline)) void issue_quickly(struct trax_tm *tm, const bool wide, uint64_t quick) {
+static ALWAYS_INLINE void issue_quickly(struct trax_tm *tm, const bool wide, uint64_t quick) {
   trax_fast_move_on(&tm->heads, wide, quick);
   tm->holding &= ~quick;
 }
 
-static inline void issue_one_by_one(struct trax_tm *tm, uint64_t quick) {
-  for (uint64_t rest = quick; rest; rest &= rest - 1)
-    trax_fast_set_head(&tm->heads, trax_first(rest), tm->heads.at[trax_first(rest)] + 1u);
-  tm->holding &= ~quick;
-}
-
 static void issue_all_quickly(struct trax_tm *tm, uint64_t quick) {
-  if (are_few(quick))
-    issue_one_by_one(tm, quick);
-  else if (tm->wide)
+  if (tm->wide)
     issue_quickly(tm, true, quick);
   else
     issue_quickly(tm, false, quick);
@@ -160,36 +146,6 @@ static void issue_in_order(struct trax_tm *tm, uint64_t quick, uint64_t slow, ui
   issue_all_quickly(tm, quick);
   for (; slow; slow &= slow - 1)
     issue_slowly(tm, trax_first(slow), t);
-}
-
-/* The same with an observer, which is notified in the order of the TPs. heads.load has not been advanced. */
-static void issue_observed(struct trax_tm *tm, uint64_t quick, uint64_t slow, uint64_t t) {
-  uint64_t issued = 0; /* quick heads of which the observer has been notified */
-  for (uint64_t rest = quick | slow; rest; rest &= rest - 1) { /* whose bursts are in many lines of the host's cache */
-    const unsigned number = trax_first(rest), at = tm->heads.at[number];
-    __builtin_prefetch(&tm->tp[number].burst.index[at]);
-    __builtin_prefetch(&tm->tp[number].reg);
-  }
-  while (quick | slow) {
-    const uint64_t bit = (quick | slow) & -(quick | slow);
-    const unsigned number = trax_first(bit);
-    if (bit & (slow | tm->executes_at_issue)) {
-      if (bit & tm->executes_at_issue) { /* others may roll back */
-        issue_all_quickly(tm, issued);
-        issued = 0;
-      }
-      issue_slowly(tm, number, t);
-    } else {
-      trax_fast_export_head(tm, number);
-      trax_tm_notify_issue(tm, number, tm->tp[number].pc, tm->tp[number].inst, next_pc(tm, number));
-      if ((tm->heads.low[number] & TRAX_STEP_KIND) == TRAX_STEP_BANK)
-        trax_fast_set_load(tm, number, tm->heads.load[number] + 1u);
-      issued |= bit;
-    }
-    quick &= ~bit;
-    slow &= ~bit;
-  }
-  issue_all_quickly(tm, issued);
 }
 
 #endif

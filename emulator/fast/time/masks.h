@@ -1,4 +1,4 @@
-/* Arithmetic on masks of a TM's TPs: arbiters and bit-sliced counters. */
+/* Arithmetic on masks of a TM's TPs, and on a byte for each of them: arbiters and counters. */
 #ifndef TRAX_FAST_MASKS_H
 #define TRAX_FAST_MASKS_H
 
@@ -8,12 +8,14 @@
 #include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
-#ifdef __AVX2__
+#ifdef __SSE2__
 #include <immintrin.h>
 #endif
 
+#define ALWAYS_INLINE inline __attribute__((always_inline))
+
 /* Four masks, which are processed together. */
-enum { TRAX_FAST_LANES = 4, TRAX_FAST_BANK_BITS = 6 /* of at most 64 banks */ };
+enum { TRAX_FAST_LANES = 4 };
 typedef uint64_t trax_fast_lanes __attribute__((vector_size(8 * TRAX_FAST_LANES), may_alias));
 
 /* Vectors are passed by address, since the ABI of passing them by value differs between the variants. */
@@ -32,17 +34,55 @@ static inline uint64_t trax_fast_any(const trax_fast_lanes *lanes) {
     *(RR_MASK) = -(*(WINNERS) + *(WINNERS)) | (*(RR_MASK) & (LANES)(*(WINNERS) == 0));                                 \
   } while (0)
 
-/* The arbiters of the 16 banks of the instruction caches, with 16 TPs to a cache: bank by bank, two caches of a TM with
-   at most 32 TPs, or four. A vector has the banks whose numbers differ in their low bits. */
-#if defined(__AVX512BW__)
-enum { TRAX_FAST_VECTOR = 64 }; /* bytes */
-#elif defined(__AVX2__)
-enum { TRAX_FAST_VECTOR = 32 };
+#ifdef __AVX2__
+enum { TRAX_FAST_VECTOR = 32 }; /* bytes of the host's vectors */
 #else
 enum { TRAX_FAST_VECTOR = 16 };
 #endif
+typedef uint8_t trax_fast_bytes __attribute__((vector_size(TRAX_FAST_VECTOR), may_alias));
 typedef uint16_t trax_fast_lanes16 __attribute__((vector_size(TRAX_FAST_VECTOR), may_alias));
+typedef uint64_t trax_fast_words __attribute__((vector_size(TRAX_FAST_VECTOR), may_alias));
 
+/* Returns the top bits of the bytes. */
+static inline uint64_t trax_fast_top_bits(trax_fast_bytes bytes) {
+#ifdef __AVX2__
+  return (uint32_t)_mm256_movemask_epi8((__m256i)bytes);
+#elif defined(__SSE2__)
+  return (uint32_t)_mm_movemask_epi8((__m128i)bytes);
+#else
+  uint64_t bits = 0;
+  for (unsigned i = 0; i < TRAX_FAST_VECTOR; i++)
+    bits |= (uint64_t)(bytes[i] >> 7) << i;
+  return bits;
+#endif
+}
+
+/* Returns a byte of ones for each of the first TPs that is in a mask, and of zeros for the others. */
+static inline trax_fast_bytes trax_fast_bytes_of(uint64_t tps) {
+  const uint64_t ones = 0x0101010101010101;
+  const trax_fast_words none = {0}, bit = none + 0x8040201008040201;
+#ifdef __AVX2__
+  const trax_fast_words spread = (trax_fast_words)_mm256_shuffle_epi8(
+      _mm256_set1_epi32((int)tps), _mm256_set_epi64x(3 * (int64_t)ones, 2 * (int64_t)ones, (int64_t)ones, 0));
+#else
+  const trax_fast_words spread = {(tps & 0xFF) * ones, (tps >> 8 & 0xFF) * ones};
+#endif
+  return (trax_fast_bytes)((trax_fast_bytes)(spread & bit) == (trax_fast_bytes)bit);
+}
+
+/* Adds 1 to the bytes of some TPs. Returns the TPs whose bytes are `most` then. `wide`: the TM has more than 32 TPs. */
+static ALWAYS_INLINE uint64_t trax_fast_count_bytes(uint8_t *bytes, const bool wide, uint64_t tps, const uint8_t most) {
+  uint64_t full = 0;
+  for (unsigned i = 0; i < 32u + 32 * wide; i += TRAX_FAST_VECTOR) {
+    trax_fast_bytes *const some = (trax_fast_bytes *)(bytes + i);
+    *some -= trax_fast_bytes_of(tps >> i);
+    full |= trax_fast_top_bits((trax_fast_bytes)(*some == most)) << i;
+  }
+  return full;
+}
+
+/* The arbiters of the 16 banks of the instruction caches, with 16 TPs to a cache: bank by bank, two caches of a TM with
+   at most 32 TPs, or four. A vector has the banks whose numbers differ in their low bits. */
 struct trax_fast_banks16 {
   union { /* round-robin masks: [bank][cache] */
     _Alignas(64) uint16_t of_two[16][2];
@@ -93,67 +133,21 @@ struct trax_fast_refused {
 };
 enum { TRAX_FAST_REFUSALS = sizeof(struct trax_fast_refused) / sizeof(uint64_t) };
 
-/* Bit-sliced counters of refusals for each TP and kind: planes[k] has bit k of the counters of all TPs, so that a cycle
-   is counted for all TPs at once. A log of several cycles is added together, since the carries cost most. */
-enum { TRAX_FAST_LOG_BITS = 5, TRAX_FAST_LOG = (1 << TRAX_FAST_LOG_BITS) - 1 /* cycles */ };
-#define TRAX_FAST_COUNTERS (TRAX_FAST_REFUSALS <= 8 ? 8 : TRAX_FAST_REFUSALS <= 16 ? 16 : 32) /* a power of two */
-
+/* Counters of refusals for each kind and TP, in bytes, so that a cycle is counted for all TPs at once. */
 struct trax_fast_refusal_counts {
-  _Alignas(64) uint64_t planes[64][TRAX_FAST_COUNTERS]; /* in the order of trax_fast_refused */
-  uint64_t log[TRAX_FAST_LOG][TRAX_FAST_COUNTERS];
-  uint32_t logged;
+  _Alignas(64) uint8_t count[TRAX_FAST_REFUSALS][64]; /* in the order of trax_fast_refused */
+  uint32_t cycles;                                    /* with refusals, since all were 0 */
 };
 
-/* Appends a cycle to the log. Returns whether the log is full. */
-static inline bool trax_fast_count(struct trax_fast_refusal_counts *counts, const struct trax_fast_refused *refused) {
-  memcpy(counts->log[counts->logged], refused, sizeof *refused);
-  return ++counts->logged == TRAX_FAST_LOG;
-}
-
-/* As many counters as a vector of the host has: larger vectors would go through memory in parts. */
-enum { TRAX_FAST_PART = TRAX_FAST_VECTOR / 8 };
-typedef uint64_t trax_fast_counters __attribute__((vector_size(8 * TRAX_FAST_PART), may_alias));
-
-/* Adds two terms to a bit of each counter, a full adder; returns the carries to the next bit. */
-#define TRAX_FAST_ADD_TWO(SUM, ONE, OTHER)                                                                             \
-  (__extension__({                                                                                                     \
-    const trax_fast_counters one_ = (ONE), either_ = *(SUM) ^ one_, other_ = (OTHER);                                  \
-    const trax_fast_counters carry_ = (*(SUM)&one_) | (either_ & other_);                                              \
-    *(SUM) = either_ ^ other_;                                                                                         \
-    carry_;                                                                                                            \
-  }))
-
-static inline bool trax_fast_is_any(const trax_fast_counters *some) {
-  uint64_t any = 0;
-  for (unsigned i = 0; i < TRAX_FAST_PART; i++)
-    any |= (*some)[i];
-  return any != 0;
-}
-
-/* Adds the log to the planes of the counters from `first` on. */
-static __attribute__((unused)) void trax_fast_count_part(struct trax_fast_refusal_counts *counts, unsigned first) {
-  const trax_fast_counters none = {0};
-  trax_fast_counters log[TRAX_FAST_LOG], carry = none;
-  unsigned count = TRAX_FAST_LOG; /* number of terms of the current bit, at the beginning of the log */
-  for (unsigned i = 0; i < count; i++)
-    log[i] = *(const trax_fast_counters *)&counts->log[i][first];
-  for (unsigned bit = 0; bit < TRAX_FAST_LOG_BITS; bit++) {
-    trax_fast_counters sum = log[0];
-    count /= 2;
-    for (unsigned i = 0; i < count; i++)
-      log[i] = TRAX_FAST_ADD_TWO(&sum, log[2 * i + 1], log[2 * i + 2]);
-    carry = TRAX_FAST_ADD_TWO((trax_fast_counters *)&counts->planes[bit][first], sum, carry);
-  }
-  for (unsigned bit = TRAX_FAST_LOG_BITS; bit < 64 && trax_fast_is_any(&carry); bit++)
-    carry = TRAX_FAST_ADD_TWO((trax_fast_counters *)&counts->planes[bit][first], carry, none);
-}
-
-static __attribute__((unused)) void trax_fast_count_log(struct trax_fast_refusal_counts *counts) {
-  if (counts->logged < TRAX_FAST_LOG)
-    memset(counts->log[counts->logged], 0, (TRAX_FAST_LOG - counts->logged) * sizeof *counts->log);
-  for (unsigned first = 0; first < TRAX_FAST_COUNTERS; first += TRAX_FAST_PART)
-    trax_fast_count_part(counts, first);
-  counts->logged = 0;
+/* Counts a cycle. Returns whether counters may be full. */
+static ALWAYS_INLINE bool trax_fast_count(struct trax_fast_refusal_counts *counts, const bool wide,
+                                          const struct trax_fast_refused *refused) {
+  const uint64_t *const tps = (const uint64_t *)refused;
+#pragma GCC unroll 8
+  for (unsigned i = 0; i < TRAX_FAST_REFUSALS; i++)
+    if (tps[i])
+      trax_fast_count_bytes(counts->count[i], wide, tps[i], 0);
+  return ++counts->cycles == UINT8_MAX;
 }
 
 /* The adders and multipliers. `even`: both kinds have the same groups, one unit for each, and the groups' size divides
@@ -174,8 +168,7 @@ static inline trax_fast_pair trax_fast_groups_of(const struct trax_fast_units *u
 }
 
 /* Returns the winner of each group, by TRAX_FAST_ARBITRATE for all groups at once. Requires `even`. */
-static inline __attribute__((always_inline)) trax_fast_pair trax_fast_grant_units(struct trax_fast_units *units,
-                                                                                  trax_fast_pair requesters) {
+static ALWAYS_INLINE trax_fast_pair trax_fast_grant_units(struct trax_fast_units *units, trax_fast_pair requesters) {
   if (units->group_size == 1)
     return requesters;
   if (units->group_size == 8) {

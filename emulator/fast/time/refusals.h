@@ -4,46 +4,10 @@
 
 #include "fast/time/head.h"
 
-#ifdef __AVX2__
-/* Returns a byte of ones for each TP of a mask, and of zeros for others. */
-static ALWAYS_INLINE __m256i bytes_of(uint32_t tps) {
-  const __m256i spread = _mm256_shuffle_epi8(
-      _mm256_set1_epi32((int)tps), _mm256_set_epi64x(0x0303030303030303, 0x0202020202020202, 0x0101010101010101, 0));
-  const __m256i bit = _mm256_set1_epi64x((long long)0x8040201008040201);
-  return _mm256_cmpeq_epi8(_mm256_and_si256(spread, bit), bit);
-}
-#endif
-
-/* Adds 1 to the bytes of some TPs. Returns the TPs whose bytes are full. */
-static ALWAYS_INLINE uint64_t count_bytes(uint8_t *bytes, const bool wide, uint64_t tps) {
-  uint64_t full = 0;
-#ifdef __AVX2__
-  for (unsigned i = 0; i < 32u + 32 * wide; i += 32) {
-    const __m256i sum =
-        _mm256_sub_epi8(_mm256_load_si256((const __m256i *)(bytes + i)), bytes_of((uint32_t)(tps >> i)));
-    _mm256_store_si256((__m256i *)(bytes + i), sum);
-    full |= (uint64_t)(uint32_t)_mm256_movemask_epi8(_mm256_cmpeq_epi8(sum, _mm256_set1_epi8(TRAX_MOST_REFUSED))) << i;
-  }
-#else
-  (void)wide;
-  for (uint64_t rest = tps; rest; rest &= rest - 1)
-    full |= (uint64_t)(++bytes[trax_first(rest)] == TRAX_MOST_REFUSED) << trax_first(rest);
-#endif
-  return full;
-}
-
 /* Clears the bytes of some TPs; all at once, since the host forwards no stores of bytes to loads of vectors. */
 static ALWAYS_INLINE void clear_bytes(uint8_t *bytes, const bool wide, uint64_t tps) {
-#ifdef __AVX2__
-  for (unsigned i = 0; i < 32u + 32 * wide; i += 32) {
-    __m256i *const some = (__m256i *)(bytes + i);
-    _mm256_store_si256(some, _mm256_andnot_si256(bytes_of((uint32_t)(tps >> i)), _mm256_load_si256(some)));
-  }
-#else
-  (void)wide;
-  for (uint64_t rest = tps; rest; rest &= rest - 1)
-    bytes[trax_first(rest)] = 0;
-#endif
+  for (unsigned i = 0; i < 32u + 32 * wide; i += TRAX_FAST_VECTOR)
+    *(trax_fast_bytes *)(bytes + i) &= ~trax_fast_bytes_of(tps >> i);
 }
 
 /* Counts the refusals of a cycle. A TP has at most one. */
@@ -55,9 +19,9 @@ static ALWAYS_INLINE void count_refusals(struct trax_tm *tm, const bool wide, co
     others |= refused->unit[i];
   observed->tps |= refused->fetch | others;
   if (refused->fetch)
-    full = count_bytes(observed->fetch, wide, refused->fetch);
+    full = trax_fast_count_bytes(observed->fetch, wide, refused->fetch, TRAX_MOST_REFUSED);
   if (others)
-    full |= count_bytes(observed->others, wide, others);
+    full |= trax_fast_count_bytes(observed->others, wide, others, TRAX_MOST_REFUSED);
   if (__builtin_expect(full != 0, false))
     trax_fast_log_refusals(tm, full);
 }

@@ -1,9 +1,5 @@
-/* A TM's memory queue: a place for each request that has not completed (docs/timing-memory.md, "Memory queue").
-
-   If all requests of a TM complete in the order in which they were made (trax_memory_keeps_order), the places are a
-   ring: the oldest `started` requests have been served, and the others wait. Otherwise a request that waits is in a
-   list of the memory, and when its completion is known, in a heap with the next arrival on top. In both cases `started`
-   requests have a known completion, and `oldest` is the next to arrive.
+/* A TM's memory queue: a place for each request that has not completed (docs/timing-memory.md, "Memory queue"). A
+   request that waits is in a list of the memory; one whose completion is known has started.
 
    In an epoch the memory serves requests while the TM goes on. It writes to the places of waiting requests and to
    `served`; the TM uses the others, and receives what has been served between two quanta. */
@@ -34,45 +30,38 @@ typedef enum trax_request_kind {
   X(S, uint8_t, icache, )      /* INSTRUCTION_LINE: the cache's number */                                              \
   X(S, uint32_t, line, )       /* INSTRUCTION_LINE, DATA_LINE: the line's number */                                    \
   X(S, uint32_t, address, )    /* of the first byte */                                                                 \
-  X(S, uint32_t, bytes, )      /* of the transfer; without a ring, 0 in a free place */                                \
+  X(S, uint32_t, bytes, )      /* of the transfer; 0 in a free place */                                                \
   X(S, uint32_t, value, )      /* ATOMIC: the word before the increment, once started */                               \
-  X(S, uint32_t, next, )       /* the next request of its list; not in a ring */                                       \
-  X(S, uint64_t, number, )     /* number of requests that its TM made before; not in a ring */                         \
-  X(S, uint64_t, completion, ) /* a cycle, once started; without a ring, 0 before */
+  X(S, uint32_t, next, )       /* the next request of its list */                                                      \
+  X(S, uint64_t, number, )     /* number of requests that its TM made before */                                        \
+  X(S, uint64_t, completion, ) /* a cycle, once started; 0 before */
 struct trax_request {
   TRAX_REQUEST_STATE(TRAX_FIELD, )
 };
 
 #define TRAX_QUEUE_STATE(X, S)                                                                                         \
-  X(S, uint32_t, oldest, )                                                                                             \
-  X(S, uint32_t, count, )                                                                                              \
-  X(S, uint32_t, started, )                                                                                            \
   X(S, uint32_t, peak, ) /* the largest count so far */                                                                \
-  X(S, uint64_t, made, ) /* number of requests so far; not in a ring */
+  X(S, uint64_t, made, ) /* number of requests so far */
 struct trax_queue {
   TRAX_QUEUE_STATE(TRAX_FIELD, )
-  uint32_t depth;
+  uint32_t depth, count, started;
   struct trax_request *requests; /* [depth] */
-  uint16_t *heap;                /* [depth]; NULL: the places are a ring */
-  uint16_t *places;              /* [depth]: from `count` on, the free places */
-  /* Requests whose completion is known, and which the TM has not received: a list, linked by trax_request.next; of a
-     ring their number. Outside epochs [0] alone is used. */
+  uint16_t *places; /* [depth]: the `started` ones, the next to arrive last; from `count` on, the free ones */
+  /* Requests whose completion is known, and which the TM has not received: a list, linked by trax_request.next. Outside
+     epochs [0] alone is used. */
   struct trax_served {
     uint32_t first, count;
   } served[TRAX_SIDES];
 };
 
 /* False: out of memory. The queue must be destroyed in either case. */
-bool trax_queue_create(struct trax_queue *queue, uint32_t depth, bool keeps_order);
+bool trax_queue_create(struct trax_queue *queue, uint32_t depth);
 void trax_queue_destroy(struct trax_queue *queue);
 
-/* Adds a request to a queue that is no ring, and returns its place. */
-uint32_t trax_queue_add(struct trax_queue *queue, struct trax_request request);
 /* Makes what follows from the requests. */
 void trax_queue_import(struct trax_queue *queue);
 /* Starts the requests that the memory has served. */
 void trax_queue_receive(struct trax_queue *queue, unsigned side);
-void trax_queue_pop_heap(struct trax_queue *queue);
 
 static inline bool trax_queue_has_place(const struct trax_queue *queue) {
   return queue->count < queue->depth;
@@ -80,48 +69,34 @@ static inline bool trax_queue_has_place(const struct trax_queue *queue) {
 
 /* Adds a request and returns its place. */
 static inline uint32_t trax_queue_push(struct trax_queue *queue, struct trax_request request) {
-  uint32_t place = queue->oldest + queue->count;
-  if (queue->heap) {
-    place = trax_queue_add(queue, request);
-  } else {
-    place -= place < queue->depth ? 0 : queue->depth;
-    queue->requests[place] = request;
-    queue->count++;
-  }
+  const uint32_t place = queue->places[queue->count++];
+  request.number = queue->made++;
+  queue->requests[place] = request;
   if (queue->count > queue->peak)
     queue->peak = queue->count;
   return place;
 }
 
-/* Returns the next request to arrive, if any is started. */
-static inline struct trax_request *trax_queue_oldest(const struct trax_queue *queue) {
-  return &queue->requests[queue->oldest];
+/* Frees the place of the request that arrives next. */
+static inline void trax_queue_pop(struct trax_queue *queue) {
+  const uint16_t place = queue->places[--queue->started];
+  queue->requests[place].bytes = 0;
+  queue->places[--queue->count] = place;
 }
 
-/* Whether place `index` of a ring is one of the first `count` from the oldest one on. */
-static inline bool trax_queue_is_among(const struct trax_queue *queue, uint32_t index, uint32_t count) {
-  return (index < queue->oldest ? index + queue->depth : index) - queue->oldest < count;
+/* Returns the next request to arrive, if any is started. */
+static inline struct trax_request *trax_queue_oldest(const struct trax_queue *queue) {
+  return &queue->requests[queue->places[queue->started - 1]];
 }
 
 /* Whether place `index` is taken. */
 static inline bool trax_queue_is_taken(const struct trax_queue *queue, uint32_t index) {
-  return queue->heap ? queue->requests[index].bytes != 0 : trax_queue_is_among(queue, index, queue->count);
+  return queue->requests[index].bytes != 0;
 }
 
 /* Whether the taken place `index` has a request that has started. */
 static inline bool trax_queue_is_started(const struct trax_queue *queue, uint32_t index) {
-  return queue->heap ? queue->requests[index].completion != 0 : trax_queue_is_among(queue, index, queue->started);
-}
-
-/* Frees the place of the request that arrives next. */
-static inline void trax_queue_pop(struct trax_queue *queue) {
-  if (queue->heap) {
-    trax_queue_pop_heap(queue);
-    return;
-  }
-  queue->oldest = queue->oldest + 1 < queue->depth ? queue->oldest + 1 : 0;
-  queue->count--;
-  queue->started--;
+  return queue->requests[index].completion != 0;
 }
 
 #endif

@@ -40,11 +40,11 @@ struct trax_tm {
   struct trax_chip *chip;
   const struct trax_config *config;
   struct trax_machine *machine;
-  FILE *output;                         /* the guest's; NULL discards it */
-  struct trax_observer *observer;       /* NULL: none */
-  struct trax_fast_observed *observed;  /* for one of stretches; else NULL */
-  struct trax_tp *tp;                   /* [tps] */
-  struct trax_icache *icache;           /* [icaches] */
+  FILE *output;                        /* the guest's; NULL discards it */
+  struct trax_observer *observer;      /* NULL: none */
+  struct trax_fast_observed *observed; /* for one of stretches; else NULL */
+  struct trax_tp *tp;                  /* [tps] */
+  struct trax_icache *icache;          /* [icaches] */
   uint32_t icaches;
   struct trax_tm_stats *stats;
   struct trax_tp_stats *tp_stats; /* [tps] */
@@ -79,13 +79,11 @@ struct trax_tm {
      whose bit is set. */
   uint32_t busy_registers[TRAX_MAX_TPS_PER_TM];
 
-  /* Round-robin masks of the instruction caches' banks. `simple_fetch`: 16 TPs share a cache, which has at most 16
-     banks of one port; then fetch_rr_masks16 is used, and all caches are arbitrated together (masks.h). Otherwise
-     fetch_rr_masks has `vectors` vectors for each cache. */
+  /* `simple_fetch`: 16 TPs share an instruction cache, which has at most 16 banks of one port. Then fetch_rr_masks16 is
+     used, and all caches are arbitrated together (masks.h). */
   bool simple_fetch;
-  uint32_t vectors;
-  trax_fast_lanes *fetch_rr_masks;
-  bool serial_hits; /* data-cache hits are served one by one: they update the scoreboard or the LRU order */
+  trax_arbiter *fetch_arbiters; /* [icaches][banks] */
+  bool serial_hits;             /* data-cache hits are served one by one: they update the scoreboard or the LRU order */
   uint64_t (*resident)[TRAX_FAST_LINES / 64]; /* [icaches]: a bit for each line of the program that the cache holds */
   uint8_t icache_of[TRAX_MAX_TPS_PER_TM];
 

@@ -161,8 +161,7 @@ typedef struct trax_run_options {
   /* "fast", "reference", "functional" or "simt". NULL: simt if simt.width is more than 1, else fast. The first two have
      the same results: every cycle, count and byte. The reference engine is docs/timing.md as a program and many times
      slower; simt is docs/simt.md. The functional engine simulates no time: its cycles are 0, and max_cycles limits the
-     instructions of each thread. "fast-any", "fast-avx2" and "fast-avx512" are the fast engine as compiled for certain
-     hosts. */
+     instructions of each thread. "fast-any" is the fast engine without AVX2. */
   const char *engine;
   unsigned host_threads; /* of the fast engine; results do not depend on their number; 0: trax_host_processors */
   const trax_slot_sampling *slots; /* NULL: everything is simulated */
