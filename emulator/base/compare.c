@@ -9,7 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-trax_status trax_compare(char **arguments, trax_error *error) {
+trax_status trax_become_eval(char **arguments, trax_error *error) {
   char path[PATH_MAX + sizeof "trax-eval"];
   const ssize_t length = readlink("/proc/self/exe", path, PATH_MAX);
   char *slash = length > 0 && length < PATH_MAX ? memrchr(path, '/', (size_t)length) : NULL;
@@ -36,7 +36,7 @@ trax_status trax_compare_add(const char *other, const char *page, const volatile
   if (child == 0) {
     trax_error reason;
     dup2(fileno(said), STDERR_FILENO);
-    trax_compare(words, &reason);
+    trax_become_eval(words, &reason);
     dprintf(STDERR_FILENO, "%s\n", reason.message);
     _exit(127);
   }

@@ -160,6 +160,7 @@ struct parser {
   int count, next; /* next: the index of the next argument */
   char **arguments;
   bool *given; /* for each row */
+  bool listing; /* --help-words */
 };
 
 /* value: the text joined to the option ("=VALUE", "-oVALUE"), or NULL; spelled: the option's name in messages. */
@@ -182,6 +183,8 @@ static trax_parsed apply(struct parser *parser, const trax_option *option, const
     return TRAX_PARSED_WRONG;
   }
   parser->given[option - command->rows] = true;
+  if (parser->listing)
+    printf("--%s%s%s%c", option->name, value ? "=" : "", value ? value : "", 0);
   switch (option->kind) {
   case TRAX_OPTION_SHOW:
     option->show(stdout);
@@ -252,6 +255,8 @@ static trax_parsed parse(const trax_command *command, void *target, int *count, 
   memset(given, 0, sizeof given);
   struct parser parser = {
       .command = command, .target = target, .count = *count, .next = 1, .arguments = arguments, .given = given};
+  parser.listing = *count > 1 && strcmp(arguments[1], "--help-words") == 0;
+  parser.next += parser.listing;
   int rest = 0;
   for (bool only_names = false; parser.next < parser.count;) {
     char *text = arguments[parser.next++];
@@ -269,7 +274,12 @@ static trax_parsed parse(const trax_command *command, void *target, int *count, 
   }
   arguments[rest] = NULL;
   *count = rest;
-  return TRAX_PARSED_RUN;
+  if (!parser.listing)
+    return TRAX_PARSED_RUN;
+  printf("--%c", 0);
+  for (int i = 0; i < rest; i++)
+    printf("%s%c", arguments[i], 0);
+  return TRAX_PARSED_DONE;
 }
 
 trax_parsed trax_command_parse(const trax_command *command, void *target, int *count, char **arguments,

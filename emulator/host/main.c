@@ -331,7 +331,7 @@ int main(int count, char **arguments) {
   trax_error error;
   struct trax_options options;
   if (count > 1 && strcmp(arguments[1], "compare") == 0) {
-    trax_compare(arguments, &error);
+    trax_become_eval(arguments, &error);
     trax_message("trax-sim", TRAX_MESSAGE_ERROR, "compare: %s", error.message);
     return EXIT_ERROR;
   }

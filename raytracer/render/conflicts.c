@@ -74,6 +74,34 @@ static trax_status check_rays(const struct options *options, trax_error *error) 
   return TRAX_OK;
 }
 
+/* trax-eval makes the runs of a sequence, and checks the options that it passes on. */
+static trax_status check_sequence(const struct options *options, trax_error *error) {
+  const struct {
+    bool given;
+    const char *name;
+  } others[] = {{options->engine != ENGINE_FAST || options->threads, "--engine or --threads"},
+                {options->stats || options->ray_cycles || options->hits, "--stats, --ray-cycles or --hits"},
+                {options->cost || options->cost_picture || options->cost_values, "--cost and its files"},
+                {trax_explain_wanted(&options->explain), "--explore, --pixel or --memory-trace"},
+                {options->program || options->source || options->no_specialise || options->choose_queues,
+                 "--program, --source, --no-specialise or --queues"},
+                {options->sampled, "--sampled"},
+                {options->layers || options->frame.floats, "--layers or --float"},
+                {options->id_picture || options->progress_png || options->write_view,
+                 "--id-picture, --progress-png or --write-view"},
+                {options->ray_trace || options->compare, "--ray-trace or --compare"},
+                {options->keep || options->cache, "--keep, --prepare or --cache"}};
+  if (options->frames == 1)
+    return trax_fail(error, "--at X:Y needs --frames N: the number of moments from X to Y");
+  if (!options->output)
+    return trax_fail(error, "--frames with --at X:Y needs -o FOLDER");
+  for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+    if (others[i].given)
+      return trax_fail(error, "--frames with --at X:Y writes picture and statistics of each frame: not with %s",
+                       others[i].name);
+  return TRAX_OK;
+}
+
 /* A device, a pipe or a folder. */
 static bool is_special(const char *path) {
   struct stat found;
@@ -85,6 +113,10 @@ trax_status options_check(const struct options *options, trax_error *error) {
     return trax_fail(error, "no mesh given; trax-render --help shows how");
   if (check_rays(options, error) != TRAX_OK || check_environment(options, error) != TRAX_OK)
     return TRAX_ERROR;
+  if (options->sequence)
+    return check_sequence(options, error);
+  if (options->no_refit)
+    return trax_fail(error, "--no-refit is for --frames with --at X:Y");
   if (options->prepare && (options->output || options->stats || options->ray_cycles || options->compare ||
                            options->hits || options->id_picture || options->ray_trace || options->cost_picture ||
                            options->cost_values || trax_explain_wanted(&options->explain)))

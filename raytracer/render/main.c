@@ -8,6 +8,7 @@
 #include "options.h"
 #include "rays_run.h"
 #include "render.h"
+#include "trax/compare.h"
 #include "trax/message.h"
 #include "trax/output.h"
 #include "trax/progress.h"
@@ -16,6 +17,7 @@
 
 #include <signal.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 static volatile sig_atomic_t reader_gone; /* standard output was closed; pictures are still written */
@@ -124,11 +126,23 @@ static trax_status render(const struct options *options, trax_progress_line *pro
   return status;
 }
 
+/* Becomes trax-eval frames with the command line, which makes a sequence by sweeps. */
+static trax_status become_sequence(int argc, char *const *words, trax_error *error) {
+  char *arguments[argc + 2];
+  arguments[0] = "trax-eval", arguments[1] = "frames";
+  memcpy(arguments + 2, words + 1, (size_t)argc * sizeof *arguments); /* with the NULL behind the last */
+  return trax_become_eval(arguments, error);
+}
+
 int main(int argc, char **argv) {
+  char *words[argc + 1]; /* parsing changes argv */
+  memcpy(words, argv, sizeof words);
   struct options options;
   trax_error error = {""};
   trax_reads_begin();
   trax_parsed parsed = options_parse(&options, argc, argv, &error);
+  if (parsed == TRAX_PARSED_RUN && options.sequence && become_sequence(argc, words, &error) != TRAX_OK)
+    parsed = TRAX_PARSED_WRONG;
   int exit_status = 0;
   if (parsed == TRAX_PARSED_WRONG) {
     trax_message("trax-render", TRAX_MESSAGE_ERROR, "%s", error.message);

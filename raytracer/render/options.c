@@ -46,7 +46,10 @@ static const trax_option rows[] = {
      .meaning = "rays from the eye through every pixel, 1 to 4096 (default 1)"},
     {"float", FIELD(frame.floats), .meaning = "the program computes linear floats; the picture is made of them here"},
     {"frames", .argument = "N", NUMBER(frames, 1, 9999),
-     .meaning = "a turntable: N pictures of a whole turn, PICTURE-0001.png and so on"},
+     .meaning = "a turntable: N pictures of a whole turn, PICTURE-0001.png and so on; with --at A:B a sequence: -o\n"
+                "is a folder, with picture and statistics of each frame, frames.csv, and report.html with curves of\n"
+                "new trees and of the first frame's, refitted; the same command continues what was interrupted"},
+    {"no-refit", FIELD(no_refit), .meaning = "of a sequence: new trees alone"},
     {"id-picture", .argument = "FILE.png", OUTPUT(id_picture, "png"),
      .meaning = "which triangle each pixel shows: its number in the meshes, from 1, as\n"
                 "R + 256 G + 65536 B; found natively, or by --engine embree or exact"},
@@ -76,8 +79,9 @@ static const trax_option rows[] = {
                 "emit:R,G,B, for the material NAME or for all (repeatable)"},
     {"diffuse", .argument = "[NAME=]R,G,B", PARSED(trax_take_diffuse, import),
      .meaning = "their colour, linear, 0 to 1 (repeatable)"},
-    {"at", .argument = "X", PARSED(trax_take_at, import),
-     .meaning = "a moment: of a mesh's name with %d or %04d frame X, of glTF second X of its animation"},
+    {"at", .argument = "X[:Y]", PARSED(take_moments, import),
+     .meaning = "a moment: of a mesh's name with %d or %04d frame X, of glTF second X of its animation;\n"
+                "X:Y: the moments of --frames, evenly from X to Y"},
     {"animation", .argument = "NAME", FIELD(import.animation), .meaning = "of glTF, instead of the first"},
     {"instances", FIELD(import.instances), .meaning = "keeps a mesh of several glTF nodes once, and places it"},
     {"flatten", FIELD(import.flatten), .meaning = "gives every instance triangles of its own"},

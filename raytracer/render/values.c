@@ -1,6 +1,7 @@
 #include "values.h"
 
 #include "options.h"
+#include "trax/scene_options.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -179,6 +180,20 @@ trax_status take_queues(void *target, const trax_option *option, const char *val
     return trax_option_refuse(option, value, error, "is neither tms nor a whole number from 1 to %d", TRAX_MAX_QUEUES);
   options->queues = (unsigned)queues;
   return TRAX_OK;
+}
+
+trax_status take_moments(void *target, const trax_option *option, const char *value, trax_error *error) {
+  struct options *options = target;
+  char first[64];
+  const char *colon = strchr(value, ':');
+  options->sequence = colon != NULL;
+  if (!colon)
+    return trax_take_at(target, option, value, error);
+  if ((size_t)(colon - value) >= sizeof first)
+    return trax_option_refuse(option, value, error, "is too long");
+  snprintf(first, sizeof first, "%.*s", (int)(colon - value), value);
+  return trax_take_at(target, option, colon + 1, error) == TRAX_OK ? trax_take_at(target, option, first, error)
+                                                                   : TRAX_ERROR;
 }
 
 trax_status take_prepare(void *target, const trax_option *option, const char *value, trax_error *error) {

@@ -22,6 +22,7 @@ PARSER(take_cost);          /* const char * that trax_cost_find knows */
 /* These set several members of struct options. */
 PARSER(take_setting);
 PARSER(take_queues);
+PARSER(take_moments); /* whose offset is that of import */
 PARSER(take_prepare);
 #undef PARSER
 

@@ -2,15 +2,18 @@
 """motion_test.py BIN: scenes at a moment. Refitted trees against built ones and against the TPs', glTF's animations
 against closed forms."""
 import base64
+import csv
 import functools
 import json
 import math
 import os
 import pathlib
+import signal
 import struct
 import subprocess
 import sys
 import tempfile
+import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 import checking  # noqa: E402
@@ -286,6 +289,74 @@ def test_sweep():
     check(built["values"]["scene.bvh.sah_nodes"] < refitted["values"]["scene.bvh.sah_nodes"], "built trees are better")
 
 
+# --- trax-render --frames with two moments ---
+
+
+def frames(folder):
+    """{(frame, tree): row of frames.csv}"""
+    with open(f"{folder}/frames.csv", newline="") as file:
+        return {(int(row["frame"]), row["tree"]): row for row in csv.DictReader(file)}
+
+
+def test_sequence():
+    """An interrupted sequence goes on; each frame's files are those of the frame alone."""
+    view = ["--eye", "3,3,4", "--look-at", "0,0,0", "--size", "48x27", "--config", "1x32"]
+    command = [BIN / "trax-render", "wave-%02d.obj", "--at", "0:40", "--frames", "3", "-o", "walk", "-q", *view]
+    stopped = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    runs = pathlib.Path("walk/runs")
+    while stopped.poll() is None and not (first := [*runs.glob("*[0-9a-f].json")] if runs.exists() else []):
+        time.sleep(0.01)
+    stopped.send_signal(signal.SIGINT)
+    said = stopped.communicate()[1]
+    check(stopped.returncode == -signal.SIGINT, "interrupted", stopped.returncode, said)
+    check("trax-render: interrupted; the same command goes on" in said, said)
+    check(not pathlib.Path("walk/frames.csv").exists(), "an interrupted sequence has no curve yet")
+    before = [(path, path.stat().st_mtime_ns) for path in first]
+    again = subprocess.run(command, capture_output=True, text=True)
+    check(again.returncode == 0, "goes on", again.stdout, again.stderr)
+    check(all(path.stat().st_mtime_ns == when for path, when in before), "a finished run is not made again")
+    rows = frames("walk")
+    check(sorted(rows) == [(i, tree) for i in (1, 2, 3) for tree in ("new trees", "refitted")], sorted(rows))
+    for number, moment in ((2, 20), (3, 40)):
+        call("trax-render", "wave-%02d.obj", "--at", moment, "-q", "--view", "walk/frames.view", *view[4:], "-o",
+             "alone.png", "--stats", "alone.json")
+        call("trax-compare", "-q", f"walk/frame-{number:04d}.png", "alone.png")
+        alone, made = (json.loads(pathlib.Path(name).read_text())
+                       for name in ("alone.json", f"walk/frame-{number:04d}.json"))
+        check(alone["cycles"] == made["cycles"] == int(rows[number, "new trees"]["cycles"]), "cycles")
+        refitted = json.loads(pathlib.Path(f"walk/frame-{number:04d}-refitted.json").read_text())
+        check(refitted["cycles"] == int(rows[number, "refitted"]["cycles"]), "cycles of a refitted tree")
+        check(float(rows[number, "refitted"]["sah_nodes"]) > float(rows[number, "new trees"]["sah_nodes"]), "visits")
+    more = [int(rows[number, "refitted"]["cycles"]) - int(rows[number, "new trees"]["cycles"]) for number in (2, 3)]
+    pays = [float(rows[number, "refitted"]["rebuild_pays_below"]) for number in (2, 3)]
+    check(pays == [more[0], 2 * more[1] - more[0]], "when a new tree pays", pays, more)
+    page = pathlib.Path("walk/report.html").read_text()
+    for title in ("Cycles of a frame", "Rays of a frame", "Bytes of a ray", "Visits that SAH expects",
+                  "When to rebuild"):
+        check(title in page, "the page has", title)
+
+
+def test_sequence_of_a_file():
+    """glTF moves between its keys; --no-refit, a file's camera and other options are passed on."""
+    animated("walks.gltf")
+    words = ["--at", "0:1", "--frames", "3", "-q", "--size", "16x9", "--material", "mirror", "--set", "chip.tms=1"]
+    call("trax-render", "walks.gltf", *words, "--no-refit", "--samples", "2", "-o", "turns")
+    rows = frames("turns")
+    check([(key, row["at"]) for key, row in rows.items()] == [((1, "new trees"), "0"), ((2, "new trees"), "0.5"),
+                                                             ((3, "new trees"), "1")], rows)
+    run = next(pathlib.Path("turns/jobs").glob("*.json")).read_text()
+    check('"tms": 1' in run or "tms = 1" in run, "--set", run)
+    refused("--frames with --at X:Y needs -o FOLDER", "trax-render", "walks.gltf", *words)
+    refused("needs --frames N", "trax-render", "walks.gltf", "--at", "0:1", "-o", "x")
+    refused("not with --stats", "trax-render", "walks.gltf", *words, "-o", "x", "--stats", "x.json")
+    refused("walks.gltf: is no folder", "trax-render", "walks.gltf", *words, "-o", "walks.gltf")
+    refused("--no-refit is for", "trax-render", "walks.gltf", "--at", "0", "--no-refit", "-o", "x.png")
+    refused("'x' is neither", "trax-render", "walks.gltf", "--at", "0:x", "-o", "x")
+    refused("wave-06.obj: cannot be read", "trax-render", "wave-%02d.obj", "--at", "5:6", "--frames", "2", "-q",
+            "--size", "8x6", "--no-refit", "-o", "missing")
+    check(list(frames("missing")) == [(1, "new trees")], "the frames that are there")
+
+
 def main():
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
@@ -298,6 +369,8 @@ def main():
         test_animation()
         test_bad_animations()
         test_sweep()
+        test_sequence()
+        test_sequence_of_a_file()
         os.chdir("/")
     print(f"motion: {checking.failures} failed")
     return 1 if checking.failures else 0

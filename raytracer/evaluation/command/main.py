@@ -209,6 +209,11 @@ def dispatch(arguments, tools, data):
     if arguments[:1] == ["compare"]:
         from compare import main as comparison
         return comparison.main(arguments[1:], tools, data)
+    if arguments[:1] == ["frames"]:
+        from . import frames
+        command, begin = shlex.join(["trax-render", *arguments[1:]]), time.monotonic()
+        return frames.main(arguments[1:], tools, lambda options, files, sweeps: make_runs(
+            options, tools, data, command, begin, files, pathlib.Path("/"), sweeps))
     if arguments[:1] == ["fetch-scenes"]:
         from fetch import main as fetch
         return fetch.main(arguments[1:], tools)
@@ -249,14 +254,16 @@ def dispatch(arguments, tools, data):
 
 def main(arguments, folder, data):
     catch_interrupts()
-    program = "trax-sim" if arguments[:1] == ["compare"] else "trax-eval"  # which starts this one for it
+    # Another program starts this one for these words.
+    program = {"compare": "trax-sim", "frames": "trax-render"}.get("".join(arguments[:1]), "trax-eval")
     try:
         return dispatch(arguments, Tools(folder), data)
     except Problem as problem:
         complain(program, problem)
         return 1
     except Interrupted as interrupted:
-        end_by_signal(*interrupted.args, *(["trax-sim: interrupted"] if program == "trax-sim" else []))
+        goes_on = "" if program == "trax-sim" else "; the same command goes on"
+        end_by_signal(*interrupted.args, f"{program}: interrupted{goes_on}")
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1

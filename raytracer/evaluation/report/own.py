@@ -22,7 +22,9 @@ LABELS = {
     "memory.utilisation": "share of the bandwidth in use", "values.frames_per_second": "pictures per second",
     "seconds": "simulated time (s)", "host.processor_seconds": "processor time of the host (s)",
     "kind.mrps": "million rays per second", "kind.bytes_per_ray": "bytes a ray",
-    "kind.energy_per_ray": "energy a ray (nJ)", "issue.utilisation": "share of the thread-cycles with an instruction"
+    "kind.energy_per_ray": "energy a ray (nJ)", "issue.utilisation": "share of the thread-cycles with an instruction",
+    "values.scene.bvh.sah_nodes": "visits of nodes that SAH expects",
+    "values.rebuild_pays_below": "cycles below which a new tree pays", "trax-scene --at": "moment"
 }
 # Costs of a rate: identity, statistic, title.
 COSTS = [("area", "values.area_units", "Rays and area"), ("power", "energy.average_power", "Rays and power"),

@@ -46,7 +46,7 @@ def catch_interrupts():
             signal.signal(number, interrupt)
 
 
-def end_by_signal(number, said="trax-eval: interrupted; the same command goes on"):
+def end_by_signal(number, said):
     """Ends the process by the signal, as every program of the project (docs/architecture.md, "Signals")."""
     print(said, file=sys.stderr)
     sys.stdout.flush()

@@ -8,6 +8,7 @@ import shlex
 from .finished import error_of, result_of
 from .jobs import read_csv
 from .pictures import pixels_that_differ
+from .refits import add_rebuilding
 from .scenes import order_options
 from .sweep import CHIPS, option_of
 from .util import Problem, hash_value, read_json, read_sealed, remark, write_json, write_sealed
@@ -250,6 +251,7 @@ def collect(out, tools, areas, command, seconds):
                 run["experiments"].append(plan["name"])
             if named not in run["points"]:
                 run["points"].append(named)
+    add_rebuilding(plans, runs)
     for run in runs.values():
         if run.get("csv"):
             columns, rows = thin_series(out / run["csv"], run["stats"]["threads"])

@@ -113,6 +113,15 @@ class Tools:
             raise Problem(f"{place}: {shlex.join(words)} ends {name} before it does anything")
         return [line.removeprefix("--").partition(" ")[::2] for line in lines]
 
+    def words(self, name, arguments):
+        """(options as --NAME=VALUE, operands) of a command line for a program of ours."""
+        run = run_tool([self.path(name), "--help-words", *arguments])
+        if run.returncode != 0:
+            raise Problem(run.stderr.strip().removeprefix(f"{name}: error: ") or f"{name} failed")
+        words = run.stdout.split("\0")[:-1]
+        end = words.index("--")
+        return words[:end], words[end + 1:]
+
     @functools.lru_cache(maxsize=None)
     def described(self, option):
         """The names that trax-sim --help-config or --help-stats describes, one a line: patterns where a part of them is

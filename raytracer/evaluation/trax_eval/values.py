@@ -73,7 +73,7 @@ OF_RUNS = {
 }
 # Figures of some runs, beside those of kinds of rays. Other programs' figures have their names.
 OF_SOME_RUNS = ("mrps_low", "mrps_high", "scene_bytes", "picture.pixels_that_differ", "counters.*", "error.*", "hits.*",
-                "code.*", "scene.*")
+                "code.*", "scene.*", "rebuild_pays_below")
 
 
 def values_of(result, areas):

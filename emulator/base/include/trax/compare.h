@@ -1,4 +1,4 @@
-/* trax-eval compares runs (docs/compare.md). It is beside the program that is running. */
+/* trax-eval, which is beside the program that is running. It compares runs (docs/compare.md) and makes several. */
 #ifndef TRAX_COMPARE_H
 #define TRAX_COMPARE_H
 
@@ -9,7 +9,7 @@ extern "C" {
 #endif
 
 /* Becomes trax-eval with these arguments, and returns only with an error. */
-trax_status trax_compare(char **arguments, trax_error *error);
+trax_status trax_become_eval(char **arguments, trax_error *error);
 /* Adds the differences to the run of `other`, a file of --stats or a page, to a page of --explore. */
 trax_status trax_compare_add(const char *other, const char *page, const volatile int *interrupt, trax_error *error);
 

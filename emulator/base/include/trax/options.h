@@ -102,7 +102,8 @@ trax_parsed trax_command_parse_to_operand(const trax_command *command, void *tar
 void trax_command_help(const trax_command *command, FILE *out);
 /* Every command has the options --help-completion, too, which prints a script that completes its options in bash, and
    --help-given, which prints the options before it, one a line, by their whole names, with " reads" or " writes" if the
-   value is a file. */
+   value is a file. After --help-words as the first one, the options are printed in their order as --NAME=VALUE, then
+   "--" and the operands, each ended by a null byte. */
 void trax_command_completion(const trax_command *command, FILE *out);
 
 /* Adds the files that the options name to the list. */
