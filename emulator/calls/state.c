@@ -93,8 +93,10 @@ static void put_file(struct writer *writer, const struct trax_file *file) {
 static void put_name(struct writer *writer, const struct trax_calls *calls, const struct trax_name *name) {
   char *path = trax_place_path(&name->place);
   writer->failed |= !path;
-  if (writer->failed)
+  if (writer->failed) {
+    free(path);
     return;
+  }
   const struct name_record record = {.digest = {name->digest.low64, name->digest.high64},
                                      .file = index_of(calls, name->file),
                                      .was = index_of(calls, name->was),

@@ -20,7 +20,8 @@ enum { TRAX_BLOCK_SHIFT = 4, TRAX_BLOCK_LOADED = 1, TRAX_BLOCK_WRITTEN, TRAX_BLO
 enum { TRAX_STEP_BANK_SHIFT = 4 /* a data bank's place in a step */ };
 
 /* A load of global memory, with the value from a written block; a store to it, with the value that takes effect at its
-   issue; or a word of local memory, or of global memory if the thread is alone, before a store: an undo. */
+   issue, or if the thread is alone the word before it; or a word of local memory before a store: an undo. So no step
+   takes more than one. */
 struct trax_burst_access {
   uint32_t address, word;
 };

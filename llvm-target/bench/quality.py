@@ -115,7 +115,7 @@ def check_equal(source, machine, found, expected):
 
 
 def check_contracted(source, machine, found, expected):
-    """Contraction may change the code of floats only, and no output of a program."""
+    """Contraction may change results of floats only, and those hardly."""
     if expected[1] == 0:
         check_equal(source, machine, found, expected)
     elif not abs(found[1] - expected[1]) <= CONTRACTION_TOLERANCE * abs(expected[1]):

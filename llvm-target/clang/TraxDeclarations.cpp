@@ -36,12 +36,7 @@ public:
   bool HandleTopLevelDecl(DeclGroupRef Group) override {
     label();
     for (const Decl *Declared : Group)
-      if (const auto *Attribute = Declared->getAttr<IFuncAttr>())
-        Context->getDiagnostics().Report(
-            Attribute->getLocation(),
-            Context->getDiagnostics().getCustomDiagID(DiagnosticsEngine::Error,
-                                                      "ifunc is not supported: nothing resolves functions at start"))
-            << Attribute->getRange();
+      refuseIFunc(Declared);
     return true;
   }
   void HandleInlineFunctionDefinition(FunctionDecl *) override { label(); }
@@ -52,6 +47,18 @@ public:
 
 private:
   ASTContext *Context = nullptr;
+
+  void refuseIFunc(const Decl *Declared) {
+    if (const auto *Attribute = Declared->getAttr<IFuncAttr>())
+      Context->getDiagnostics().Report(
+          Attribute->getLocation(),
+          Context->getDiagnostics().getCustomDiagID(DiagnosticsEngine::Error,
+                                                    "ifunc is not supported: nothing resolves functions at start"))
+          << Attribute->getRange();
+    if (isa<NamespaceDecl, LinkageSpecDecl>(Declared)) // extern "C" { ... }
+      for (const Decl *Inner : cast<DeclContext>(Declared)->decls())
+        refuseIFunc(Inner);
+  }
 
   /// Clang refuses _Float16 where it is written, but not the builtins that take it. A builtin is declared at its first
   /// use.

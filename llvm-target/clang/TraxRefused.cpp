@@ -55,12 +55,12 @@ struct Choice {
   StringRef Only;
 };
 const Choice Choices[] = {{OPT_mcpu_EQ, "generic"}, {OPT_march_EQ, "generic"}, {OPT_mtune_EQ, "generic"},
-                          {OPT_stdlib_EQ, "libc++"}, {OPT_fuse_ld_EQ, "trax-ld"}};
+                          {OPT_stdlib_EQ, "libc++"}, {OPT_fuse_ld_EQ, "trax-ld"}, {OPT_fopenmp_EQ, "libomp"}};
 
 bool isOpenCL(const Arg &Given) {
   const StringRef Value = Given.getNumValues() ? Given.getValue() : "";
   return Given.getOption().matches(OPT_x) ? Value == "cl" || Value == "clcpp"
-                                          : Given.getOption().matches(OPT_INPUT) && Value.ends_with(".cl");
+                                          : Given.getOption().matches(OPT_INPUT) && (Value.ends_with(".cl") || Value.ends_with(".clcpp"));
 }
 
 bool isFixedRegister(const Arg &Given) {

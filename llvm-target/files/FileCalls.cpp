@@ -189,9 +189,15 @@ int collect(const char *Path, bool Appended, const struct stat *Existing) {
   } else if (Appended && Existing ? access(Path, W_OK) != 0 : trax_output_check(Path, &Reason) != TRAX_OK) {
     return errno ? -1 : (errno = EACCES, -1);
   }
-  const int Memory = memfd_create("output", MFD_CLOEXEC), Copy = Memory < 0 ? -1 : fcntl(Memory, F_DUPFD_CLOEXEC, 64);
-  if (Copy >= 0)
+  const int Memory = memfd_create("output", MFD_CLOEXEC), Copy = Memory < 0 ? -1 : fcntl(Memory, F_DUPFD_CLOEXEC, 0);
+  if (Copy >= 0) {
     add(Written::Collected, Copy, Appended, Path);
+  } else if (Memory >= 0) {
+    const int Reason = errno;
+    close(Memory);
+    errno = Reason;
+    return -1;
+  }
   return Memory;
 }
 

@@ -309,7 +309,7 @@ size_t malloc_usable_size(void *memory) {
 }
 
 void *aligned_alloc(size_t alignment, size_t size) {
-  if (alignment & (alignment - 1)) {
+  if (!alignment || alignment & (alignment - 1)) {
     errno = EINVAL;
     return NULL;
   }

@@ -16,7 +16,7 @@ typedef struct entry {
 typedef enum { FIND, ENTER } ACTION;
 typedef enum { preorder, postorder, endorder, leaf } VISIT;
 
-/* One hash table for all threads, which has no lock. */
+/* One hash table for all threads, which has no lock. hcreate fails while there is one. */
 int hcreate(size_t count);
 void hdestroy(void);
 ENTRY *hsearch(ENTRY item, ACTION action);

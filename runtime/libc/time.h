@@ -25,7 +25,7 @@ struct timespec {
 struct tm {
   int tm_sec, tm_min, tm_hour, tm_mday, tm_mon, tm_year, tm_wday, tm_yday, tm_isdst;
 #ifdef __TRAX_ALL_NAMES
-  long tm_gmtoff;      /* 0 */
+  long tm_gmtoff;      /* 0, unless strptime has read another one */
   const char *tm_zone; /* "UTC" */
 #else
   long __tm_gmtoff;

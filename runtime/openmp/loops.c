@@ -35,9 +35,12 @@ static unsigned long long trips_of(unsigned long long distance, long long step) 
     UNSIGNED first, length;                                                                                            \
     if ((schedule & ~MODIFIERS) == STATIC_CHUNKS) {                                                                    \
       length = chunk < 1 ? 1 : (UNSIGNED)chunk;                                                                        \
-      first = length * rank;                                                                                           \
-      *stride = (SIGNED)(length * size * (UNSIGNED)step);                                                              \
-      *last = (UNSIGNED)(trips - 1) / length % size == rank;                                                           \
+      const UNSIGNED before_last = (UNSIGNED)(trips - 1) / length; /* chunks */                                        \
+      first = rank <= before_last ? length * rank : (UNSIGNED)trips;                                                   \
+      length = before_last ? length : (UNSIGNED)trips;                                                                 \
+      /* Without a second chunk for a thread, the stride leads behind the loop: more could overflow. */                \
+      *stride = (SIGNED)((before_last < size ? (UNSIGNED)trips - first : length * size) * (UNSIGNED)step);             \
+      *last = before_last % size == rank;                                                                              \
     } else {                                                                                                           \
       const UNSIGNED each = (UNSIGNED)trips / size, more = (UNSIGNED)trips % size;                                     \
       length = each + (rank < more);                                                                                   \

@@ -31,6 +31,25 @@ static const char *name(const char *text, const char *const *names, int count, i
   return NULL;
 }
 
+/* "Z", or hours east of Greenwich and minutes, if any: "+01", "+0130", "-01:30". Sets the seconds. */
+static const char *offset(const char *text, long *to) {
+  while (isspace((unsigned char)*text))
+    text++;
+  const int sign = *text == '-' ? -1 : *text == '+';
+  int value = 0, digits = 0;
+  if (!sign && *text != 'Z')
+    return NULL;
+  for (text++; sign && digits < 4 && isdigit((unsigned char)*text); digits++) {
+    value = value * 10 + (*text++ - '0');
+    text += digits == 1 && text[0] == ':' && isdigit((unsigned char)text[1]);
+  }
+  value *= digits == 2 ? 100 : 1;
+  if (digits % 2 || (sign && !digits) || value % 100 >= 60)
+    return NULL;
+  *to = sign * (value / 100 * 3600L + value % 100 * 60L);
+  return text;
+}
+
 char *strptime(const char *restrict text, const char *restrict format, struct tm *restrict to) {
   enum { NONE = -1 };
   int century = NONE, year = NONE, afternoon = NONE, has_day = 0, has_year_day = 0, ignored;
@@ -82,6 +101,12 @@ char *strptime(const char *restrict text, const char *restrict format, struct tm
     case 'F':
       text = strptime(text, "%Y-%m-%d", to);
       has_day = 1;
+      break;
+    case 'g':
+      text = number(text, 2, 0, 99, 0, &ignored);
+      break;
+    case 'G':
+      text = number(text, 4, 0, 9999, 0, &ignored);
       break;
     case 'H':
     case 'k':
@@ -142,6 +167,7 @@ char *strptime(const char *restrict text, const char *restrict format, struct tm
       text = number(text, 1, 0, 6, 0, &to->tm_wday);
       break;
     case 'U':
+    case 'V':
     case 'W':
       text = number(text, 2, 0, 53, 0, &ignored);
       break;
@@ -152,6 +178,9 @@ char *strptime(const char *restrict text, const char *restrict format, struct tm
       text = number(text, 4, 0, 9999, 1900, &to->tm_year);
       has_day = 1;
       year = century = NONE;
+      break;
+    case 'z':
+      text = offset(text, &to->tm_gmtoff);
       break;
     case 'Z':
       while (isalpha((unsigned char)*text))

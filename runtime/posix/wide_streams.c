@@ -128,7 +128,7 @@ int vfwprintf(FILE *restrict stream, const wchar_t *restrict format, va_list arg
 int vswprintf(wchar_t *restrict to, size_t size, const wchar_t *restrict format, va_list arguments) {
   int count;
   char *text = format_bytes(format, arguments, &count);
-  size_t length = text ? __trax_characters(text, (size_t)count) : size, at = 0;
+  size_t length = text ? __trax_characters(text, (size_t)count) : 0, at = 0;
   const char *from = text;
   mbstate_t state = {0};
   while (at < length && at + 1 < size) {
@@ -138,7 +138,7 @@ int vswprintf(wchar_t *restrict to, size_t size, const wchar_t *restrict format,
   if (size)
     to[at] = 0;
   free(text);
-  return length < size ? (int)length : -1;
+  return text && length < size ? (int)length : -1;
 }
 
 #define WITH_ARGUMENTS(CALL)                                                                                           \

@@ -12,7 +12,7 @@ __attribute__((noinline)) static void show(const char *name, void *volatile got)
 
 int main(void) {
   void *(*volatile malloc_of)(size_t) = malloc;
-  volatile size_t large = (size_t)-1 / 2 - 100, half = (size_t)-1 / 4, more = 5, odd = 24;
+  volatile size_t large = (size_t)-1 / 2 - 100, half = (size_t)-1 / 4, more = 5, odd = 24, none = 0;
   void *block = malloc_of(16), *given = NULL;
   errno = 0;
   show("malloc", malloc(large));
@@ -22,6 +22,7 @@ int main(void) {
   show("realloc", realloc(NULL, large));
   show("aligned_alloc", aligned_alloc(64, half));
   show("aligned_alloc", aligned_alloc(odd, 48));
+  show("aligned_alloc", aligned_alloc(none, 48));
   printf("posix_memalign %d %d\n", posix_memalign(&given, 64, half), posix_memalign(&given, odd, 1));
   free(block);
   void *volatile empty = aligned_alloc(8192, 0), *volatile other = aligned_alloc(8192, 0);

@@ -55,6 +55,12 @@ static void loops(int n) {
 #pragma omp parallel for schedule(runtime)
   for (int i = 0; i < n; i++)
     other[i] = values[n - 1 - i];
+#pragma omp parallel for schedule(static, 1 << 28)
+  for (int i = 0; i < n; i++) /* other threads' parts would begin behind 2^31 */
+    other[i] += 5 * i;
+#pragma omp parallel for schedule(static, 200)
+  for (unsigned i = 0; i < (unsigned)n; i++)
+    other[i] ^= 9;
 #pragma omp parallel for simd collapse(2) schedule(static)
   for (int i = 0; i < 20; i++)
     for (int j = 0; j < 25; j++)

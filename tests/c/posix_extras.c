@@ -104,7 +104,8 @@ static void tables(void) {
   printf(" %d %d", visited, sorted);
   tdestroy(root, forget);
   printf(" %d\n", visited);
-  hcreate(30);
+  printf("tables %d", hcreate(30));
+  printf(" %d\n", hcreate(30));
   static char words[30][8];
   for (int i = 0; i < 30; i++) {
     snprintf(words[i], sizeof words[i], "key%d", i);
@@ -131,13 +132,21 @@ static void times(void) {
                                          {"20 07 15 03", "%C %y %d %m"},
                                          {"100%", "100%%"},
                                          {"x", "y"},
-                                         {"2023-06-01T10:20:30 rest", "%FT%T"}};
+                                         {"2023-06-01T10:20:30 rest", "%FT%T"},
+                                         {"12:30 +0145", "%R %z"},
+                                         {"-01:30,", "%z"},
+                                         {"+01", "%z"},
+                                         {"Z", "%z"},
+                                         {"+010", "%z"},
+                                         {"-0160", "%z"},
+                                         {"01", "%z"},
+                                         {"2024 24 09", "%G %g %V"}};
   for (unsigned i = 0; i < sizeof cases / sizeof *cases; i++) {
     struct tm t = {0};
     const char *end = strptime(cases[i][0], cases[i][1], &t);
     if (end)
-      printf("%d-%d-%d %d:%d:%d %d %d '%s'; ", t.tm_year, t.tm_mon, t.tm_mday, t.tm_hour, t.tm_min, t.tm_sec, t.tm_wday,
-             t.tm_yday, end);
+      printf("%d-%d-%d %d:%d:%d %d %d %ld '%s'; ", t.tm_year, t.tm_mon, t.tm_mday, t.tm_hour, t.tm_min, t.tm_sec,
+             t.tm_wday, t.tm_yday, t.tm_gmtoff, end);
     else
       printf("no; ");
   }

@@ -58,18 +58,19 @@ int main(void) {
   printf("swprintf %d", swprintf(text, 40, L"%s-%ls-%d", "ab", L"\u00e9", 7));
   printf(" %ls", text);
   printf(" %d", swprintf(text, 4, L"%d", 12345));
-  printf(" %d\n", swprintf(text, 6, L"%d", 12345));
+  printf(" %d", swprintf(text, 6, L"%d", 12345));
+  printf(" %d\n", swprintf(text, 40, L"%s", "a\xff"));
   printf("swscanf %d", swscanf(L"12 \u00e4bc 0x1f", L"%d %ls %i", &number, text, &other));
   printf(" %d %x %d\n", number, (unsigned)text[0], other);
 
   /* Widths and precisions count characters. */
   static const wchar_t *const formats[] = {L"[%5ls|%.2ls|%-6.3ls]", L"[%6s|%.1s|%-3s]"};
   for (int i = 0; i < 2; i++) {
-    const int count = i ? swprintf(text, 60, formats[i], "\u00e9t\u20ac", "\u20acx", "\u00e9")
-                        : swprintf(text, 60, formats[i], L"\u00e9t\u20ac", L"\u20acxy", L"\u00e9\u00e8xyz");
+    const int count = i ? swprintf(text, 40, formats[i], "\u00e9t\u20ac", "\u20acx", "\u00e9")
+                        : swprintf(text, 40, formats[i], L"\u00e9t\u20ac", L"\u20acxy", L"\u00e9\u00e8xyz");
     printf("%d %ls\n", count, text);
   }
-  const int count = swprintf(text, 60, L"\u00e9%-4lc%3c%*d%n", L'\u20ac', 'b', -4, 7, &number);
+  const int count = swprintf(text, 40, L"\u00e9%-4lc%3c%*d%n", L'\u20ac', 'b', -4, 7, &number);
   printf("%d %d %ls|\n", count, number, text);
 
   f = fopen("d/bad", "wb");

@@ -1,5 +1,6 @@
 // Features of other ELF targets that do not exist here are refused, with their place.
 // RUN: not %clang -DIFUNC -fsyntax-only %s 2>&1 | FileCheck %s --check-prefix=IFUNC
+// RUN: not %clangxx -x c++ -DIFUNC -fsyntax-only %s 2>&1 | FileCheck %s --check-prefixes=IFUNC,LINKAGE
 // RUN: not %clang -DEH -c %s -o %t.o 2>&1 | FileCheck %s --check-prefix=EH
 // RUN: not %clang -DREGISTER -c %s -o %t.o 2>&1 | FileCheck %s --check-prefix=REGISTER
 // RUN: not %clang -DWIDE -fsyntax-only %s 2>&1 | FileCheck %s --check-prefix=WIDE
@@ -10,10 +11,21 @@
 // RUN: clang --target=x86_64-linux-gnu -DIFUNC -fsyntax-only %s
 
 #ifdef IFUNC
-static void f(void) {}
-static void *choose(void) { return f; }
+#ifdef __cplusplus
+extern "C" {
+#endif
+void f(void) {}
+void (*choose(void))(void) { return f; }
 // IFUNC: unsupported.c:[[@LINE+1]]:{{[0-9]+}}: error: ifunc is not supported: nothing resolves functions at start
 void chosen(void) __attribute__((ifunc("choose")));
+#ifdef __cplusplus
+}
+namespace inner {
+extern "C" void (*choose_other(void))(void) { return f; }
+// LINKAGE: unsupported.c:[[@LINE+1]]:{{[0-9]+}}: error: ifunc is not supported
+extern "C" void other(void) __attribute__((ifunc("choose_other")));
+}
+#endif
 #endif
 
 #ifdef EH

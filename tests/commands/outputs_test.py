@@ -82,6 +82,19 @@ def outputs():
     yield ["trax-eval", "report", "results.json"], lambda path: ["-o", path], ""
 
 
+def few_descriptors():
+    """With few descriptors an output is there, or its lack is an error."""
+    for few in range(8, 66):
+        for path in ("few.d", "few.o"):
+            if os.path.exists(path):
+                os.remove(path)
+        ended = subprocess.run([path_of("clang"), *CLANG[1:], "-c", "h.c", "-o", "few.o", "-MD", "-MF", "few.d"],
+                               capture_output=True, timeout=60, stdin=subprocess.DEVNULL,
+                               preexec_fn=lambda few=few: resource.setrlimit(resource.RLIMIT_NOFILE, (few, few)))
+        if ended.returncode == 0 and not (os.path.exists("few.d") and os.path.exists("few.o")):
+            fail(f"with {few} descriptors an output is not there: {os.listdir('.')}")
+
+
 def kind_of(path):
     status = os.lstat(path)
     return stat.S_IFMT(status.st_mode), status.st_ino, status.st_rdev
@@ -233,7 +246,7 @@ with tempfile.TemporaryDirectory() as directory:
     for number, each in enumerate(outputs()):
         special(number, *each)
         full(*each)
-    for part in (failures, inputs, closed):
+    for part in (failures, inputs, closed, few_descriptors):
         part()
     os.chdir("/")
 end()

@@ -11,6 +11,7 @@ earlier division, too. DIR keeps a work tree with the commit's runtime/ and its 
 
 import argparse
 import pathlib
+import shutil
 import struct
 import subprocess
 import sys
@@ -78,8 +79,8 @@ def build_earlier(build, commit, work):
     subprocess.run(["cmake", "--preset", "release"], cwd=tree, check=True, stdout=subprocess.DEVNULL)
     subprocess.run(["ninja", "-C", "build", "clang", "trax-ld", "trax-runtime"], cwd=tree, check=True)
     for program in ("trax-render", "trax-sim"):
-        (tree / "build/bin" / program).write_bytes((build / "bin" / program).read_bytes())
-        (tree / "build/bin" / program).chmod(0o755)
+        shutil.copy(build / "bin" / program, tree / "build/bin")
+    shutil.copytree(build / "share", tree / "build/share", dirs_exist_ok=True)  # views: another one is another program
     return tree / "build"
 
 

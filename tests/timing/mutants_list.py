@@ -426,8 +426,8 @@ MUTANTS = [
     ("fast/time/alone.c", "(trax_tp_stores(tp, load) &&", "(0 &&"),
     ("fast/function/burst.c", "tp->burst.access[load].word = value;", "tp->burst.access[load % 4].word = value;"),
     # Local memory is as it was.
-    ("fast/function/blocks.c", ": tp->local + (undo->address - TRAX_LOCAL_BASE),",
-     ": (uint8_t *)&tp->begin_reg[TRAX_NO_REGISTER],"),
+    ("fast/function/blocks.c", "memcpy(tp->local + (undo->address - TRAX_LOCAL_BASE), &undo->word",
+     "memcpy(&tp->begin_reg[TRAX_NO_REGISTER], &undo->word"),
     # Records of translated bursts.
     ("translate/burst.c", "  run->burst->undo_begin = TRAX_BURST + 1;\n", ""),
     ("translate/burst.c", "(uint32_t)(TRAX_BURST - count)", "(uint32_t)(TRAX_BURST + 32 - count)"),
@@ -570,10 +570,12 @@ MUTANTS = [
     ("reference/data_cache.c", "filling ? -1 : ", "filling && !filling ? -1 : "),
     # --- One TP, one thread ---
     ("fast/time/alone.c", "used.data_banks |= (uint64_t)1 << (step >> TRAX_STEP_BANK_SHIFT & 63);", ";"),
-    ("fast/time/alone.c", "used.fetch_banks |= (uint64_t)1 << (step >> TRAX_STEP_FETCH_SHIFT);\n  }", "}"),
+    ("fast/time/alone.c", "used.fetch_banks |= (uint64_t)1 << (step >> TRAX_STEP_FETCH_SHIFT);\n    }", "}"),
     ("fast/time/alone.c", "used.fetch_banks |= (uint64_t)1 << (step >> TRAX_STEP_FETCH_SHIFT);\n        tp->pc",
      "tp->pc"),
-    ("fast/time/alone.c", "used.kinds |= 1u << (kind >> 1);", ";"),
+    ("fast/time/alone.c", "used->kinds |= kinds;", ";"),
+    ("fast/time/alone.c", "used->fetch_banks |= fetch_banks;", ";"),
+    ("fast/time/alone.c", "busy || uncertain ? 1 : most", "most"),
     ("fast/tm/tm.c", "completion < end)\n    end =", "completion < end)\n    end +="),
     ("fast/tm/tm.c", "if (t + trax_first(rotated) < end)", "if (0)"),
     ("fast/time/alone.c", "tm->tp[number].usable[trax_first(rest)] > t)",
@@ -588,8 +590,10 @@ MUTANTS = [
     ("fast/time/alone.c", "tm->dcache.all_fills_end > t ||", "0 ||"),
     ("fast/time/alone.c", "!trax_queue_has_place(&tm->queue) ||", "0 ||"),
     ("fast/time/alone.c", "tm->now = t; /* of a request */", ";"),
-    ("fast/function/blocks.c", "undo->address < TRAX_LOCAL_BASE ? chip->machine->space.bytes + undo->address",
-     "undo->address < TRAX_LOCAL_BASE ? tp->local"),
+    # Global memory is as it was, in the reverse order, when a thread that is alone has stored ahead.
+    ("fast/function/blocks.c", "tp->alone ? tp->burst.load_count : 0", "0"),
+    ("fast/function/burst.c", "tp->stores[load / 64] |= (uint64_t)1 << load % 64;\n  memcpy(",
+     "tp->stores[0] |= (uint64_t)1 << load % 64;\n  memcpy("),
     ("fast/function/burst.c", "trax_space_check(space, address, bytes, true) ||", "(address & (bytes - 1)) ||"),
     ("fast/chip.c", "  if (chip->alone) /* bursts may have stored */\n    trax_fast_roll_back(chip);", ""),
     ("fast/chip.c", "return !increments;", "return true;"),

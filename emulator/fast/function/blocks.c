@@ -35,6 +35,18 @@ void trax_fast_blocks_destroy(struct trax_fast_blocks *blocks) {
     munmap(blocks->state, blocks->bytes);
 }
 
+/* Undoes the stores of the TP's burst. */
+static void undo_stores(const struct trax_chip *chip, struct trax_tp *tp) {
+  for (; tp->burst.undo_begin <= TRAX_BURST; tp->burst.undo_begin++) {
+    const struct trax_burst_access *undo = &tp->burst.access[tp->burst.undo_begin];
+    memcpy(tp->local + (undo->address - TRAX_LOCAL_BASE), &undo->word, sizeof undo->word);
+  }
+  for (uint32_t i = tp->alone ? tp->burst.load_count : 0; i-- > 0;)
+    if (tp->stores[i / 64] >> i % 64 & 1)
+      memcpy(chip->machine->space.bytes + (tp->burst.access[i].address & ~3u), &tp->burst.access[i].word,
+             sizeof tp->burst.access[i].word);
+}
+
 /* Undoes the TP's burst, and executes the issued steps again. They give the same results, since the values of loads
    from WRITTEN blocks are kept, and no other word that they loaded has been written since. */
 void trax_fast_roll_back_tp(struct trax_tm *tm, unsigned number) {
@@ -45,12 +57,7 @@ void trax_fast_roll_back_tp(struct trax_tm *tm, unsigned number) {
     return;
   if (tm->observed)
     trax_fast_tell_before(tm, number);
-  for (; tp->burst.undo_begin <= TRAX_BURST; tp->burst.undo_begin++) {
-    const struct trax_burst_access *undo = &tp->burst.access[tp->burst.undo_begin];
-    memcpy(undo->address < TRAX_LOCAL_BASE ? chip->machine->space.bytes + undo->address
-                                           : tp->local + (undo->address - TRAX_LOCAL_BASE),
-           &undo->word, sizeof undo->word);
-  }
+  undo_stores(chip, tp);
   memcpy(tp->reg, tp->begin_reg, sizeof tp->begin_reg);
   const unsigned issued = tm->heads.at[number];
   const uint32_t head = trax_fast_head(tm, number);

@@ -65,15 +65,16 @@ static __attribute__((noinline)) bool store_later(const struct trax_tm *tm, stru
   return true;
 }
 
-/* Stores to global memory ahead of the issue: the thread is alone. False: the store must execute at issue. */
-static __attribute__((noinline)) bool store_ahead(const struct trax_chip *chip, struct trax_tp *tp, uint32_t address,
-                                                  uint32_t value, unsigned bytes) {
+/* Stores to global memory ahead of the issue: the thread is alone. The access keeps the word for a roll back. False:
+   the store must execute at issue. */
+static __attribute__((noinline)) bool store_ahead(const struct trax_chip *chip, struct trax_tp *tp, unsigned load,
+                                                  uint32_t address, uint32_t value, unsigned bytes) {
   const struct trax_space *space = &chip->machine->space;
   if (trax_space_check(space, address, bytes, true) || address - chip->blocks.input < chip->blocks.input_bytes)
     return false;
-  struct trax_burst_access *const undo = &tp->burst.access[--tp->burst.undo_begin];
-  undo->address = address & ~3u;
-  memcpy(&undo->word, space->bytes + undo->address, sizeof undo->word);
+  uint32_t *const before = &tp->burst.access[load].word;
+  memcpy(before, space->bytes + (address & ~3u), sizeof *before);
+  tp->stores[load / 64] |= (uint64_t)1 << load % 64;
   memcpy(space->bytes + address, &value, bytes);
   return true;
 }

@@ -94,7 +94,7 @@ static unsigned BURST(struct trax_chip *chip, struct trax_tm *tm, unsigned numbe
       undo->address = address & ~3u;                                                                                   \
       memcpy(&undo->word, place, sizeof undo->word);                                                                   \
       memcpy(place + (address & 3), &word, BYTES);                                                                     \
-    } else if (alone ? store_ahead(chip, tp, address, word, BYTES)                                                     \
+    } else if (alone ? store_ahead(chip, tp, loads, address, word, BYTES)                                              \
                      : store_later(tm, tp, loads, address, word, BYTES)) {                                             \
       at = AT;                                                                                                         \
       burst->access[loads++].address = address;                                                                        \

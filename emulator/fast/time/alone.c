@@ -6,7 +6,7 @@
 /* The kinds of units, and the banks, that the TP has used: their round robins go on behind it. */
 struct used {
   uint64_t fetch_banks, data_banks;
-  unsigned kinds; /* bits TRAX_STEP_KIND >> 1 */
+  unsigned kinds; /* bits TRAX_STEP_KIND */
 };
 
 static void pass_unit(struct trax_tm *tm, trax_shared which, unsigned number) {
@@ -34,7 +34,7 @@ static void pass_arbiters(struct trax_tm *tm, unsigned number, const struct used
   for (uint64_t rest = used->data_banks; rest; rest &= rest - 1)
     ((uint64_t *)tm->data_bank_rr_masks)[trax_first(rest)] = ~(uint64_t)1 << number;
   for (trax_shared unit = TRAX_SHARED_FP_ADD; unit <= TRAX_SHARED_INT_MUL; unit++)
-    if (used->kinds >> ((TRAX_STEP_FP_ADD >> 1) + unit) & 1)
+    if (used->kinds >> (TRAX_STEP_FP_ADD + 2 * unit) & 1)
       pass_unit(tm, unit, number);
 }
 
@@ -67,6 +67,22 @@ static bool has_operands(struct trax_tm *tm, unsigned number, uint32_t waits, ui
   return true;
 }
 
+/* Issues quick steps that need no bank of the data cache, at most so many. Returns how many there are. */
+static unsigned issue_quick(const uint16_t *steps, unsigned most, struct used *used) {
+  uint64_t fetch_banks = 0;
+  unsigned kinds = 0, count = 0;
+  for (; count < most; count++) {
+    const unsigned step = steps[count], kind = step & TRAX_STEP_KIND;
+    if ((step & TRAX_STEP_SLOW) || kind > TRAX_STEP_INT_MUL)
+      break;
+    kinds |= 1u << kind;
+    fetch_banks |= (uint64_t)1 << (step >> TRAX_STEP_FETCH_SHIFT);
+  }
+  used->kinds |= kinds;
+  used->fetch_banks |= fetch_banks;
+  return count;
+}
+
 bool trax_fast_run_alone(struct trax_tm *tm, uint64_t t, uint64_t end) {
   const uint64_t begin = t, requests = tm->stats->memory_requests;
   const unsigned number = trax_first(tm->awake), first = tm->heads.at[number], last = tm->heads.last[number];
@@ -82,8 +98,8 @@ bool trax_fast_run_alone(struct trax_tm *tm, uint64_t t, uint64_t end) {
   unsigned at = first, load = tm->heads.load[number], next_line = first;
   uint64_t hits = 0;
   struct used used = {0};
-  for (; t < end && at < last && tm->stats->memory_requests == requests; t++, at++) {
-    const unsigned step = tp->burst.step[at], kind = step & TRAX_STEP_KIND;
+  while (t < end && at < last && tm->stats->memory_requests == requests) {
+    const unsigned step = tp->burst.step[at];
     const bool enters_line = uncertain && (at == next_line || is_behind_jump(&tp->burst, at));
     if (busy || enters_line) {
       const struct trax_fast_timing *timing = &tm->chip->program.timing[trax_fast_index(tp, at)];
@@ -99,18 +115,23 @@ bool trax_fast_run_alone(struct trax_tm *tm, uint64_t t, uint64_t end) {
       if (busy && !has_operands(tm, number, timing->waits, t))
         break;
     }
-    if (kind == TRAX_STEP_BANK) {
+    unsigned issued = 1;
+    if ((step & TRAX_STEP_KIND) == TRAX_STEP_BANK) {
       if (step & TRAX_STEP_SLOW ? !store(tm, number, at, load, t)
                                 : !trax_cache_tags_have(tags, trax_line_of(tags, tp->burst.access[load].address)))
         break;
       hits += !(step & TRAX_STEP_SLOW);
       load++;
       used.data_banks |= (uint64_t)1 << (step >> TRAX_STEP_BANK_SHIFT & 63);
-    } else if ((step & TRAX_STEP_SLOW) || kind > TRAX_STEP_INT_MUL) {
-      break;
+      used.fetch_banks |= (uint64_t)1 << (step >> TRAX_STEP_FETCH_SHIFT);
+    } else {
+      const unsigned most = end - t < last - at ? (unsigned)(end - t) : last - at;
+      issued = issue_quick(&tp->burst.step[at], busy || uncertain ? 1 : most, &used);
+      if (!issued)
+        break;
     }
-    used.kinds |= 1u << (kind >> 1);
-    used.fetch_banks |= (uint64_t)1 << (step >> TRAX_STEP_FETCH_SHIFT);
+    t += issued;
+    at += issued;
   }
   tm->busy &= ~((uint64_t)!tm->busy_registers[number] << number);
   if (t == begin)

@@ -41,7 +41,7 @@ struct trax_tp {
   bool alone;             /* the current burst has stored to global memory (trax_chip.alone) */
   bool again;             /* the issued part of the burst is executed again, after a roll back */
   uint64_t stored;        /* words of stores that take effect at their issue, as bits of trax_fast_word_bit */
-  uint64_t stores[2];     /* bits of burst.access: these stores; not valid if `stored` is 0 */
+  uint64_t stores[2];     /* bits of burst.access: these stores, or those that a thread that is alone has made */
 
   /* The state at the beginning of the burst, for a roll back (blocks.c). */
   const struct trax_fast_inst *begin;
