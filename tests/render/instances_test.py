@@ -184,6 +184,10 @@ def check_gltf():
     done = call("trax-scene", "bad.gltf", "--instances", "-o", "bad.trax", status=1)
     check("bad.gltf: node 1, which is instance 1 (from 0): the transform" in done.stderr, done.stderr)
     call("trax-scene", "bad.gltf", "--instances", "--flatten", "-q", "-o", "flattened.trax")
+    far = '"translation": [0, 1729382256910270464, -1], "scale": [65536, 65536, 65536]'
+    write("far.gltf", text.replace('"translation": [0, 2, -1]', far))
+    done = call("trax-scene", "far.gltf", "--instances", "-o", "bad.trax", status=1)
+    check("far.gltf: node 2, which is instance 2 (from 0): a coordinate of its box" in done.stderr, done.stderr)
     equal(statistics["kept"]["scene.instances"], 3, "instances")
     equal(statistics["kept"]["scene.triangles"], 4, "stored triangles")
     equal(statistics["flat"]["scene.triangles"], 12, "flattened triangles")
