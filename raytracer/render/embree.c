@@ -217,7 +217,7 @@ static trax_status add_triangles(RTCDevice device, RTCScene scene, const struct 
 }
 
 /* Places a scene for each mesh. They live as long as the instances. */
-static trax_status add_instances(RTCDevice device, RTCScene scene, RTCScene *meshes, const struct trax_scene *source) {
+static void add_instances(RTCDevice device, RTCScene scene, RTCScene *meshes, const struct trax_scene *source) {
   for (uint32_t i = 0; i < source->instance_count; i++) {
     const struct trax_instance *instance = &source->instances[i];
     float rows[3][4];
@@ -232,7 +232,6 @@ static trax_status add_instances(RTCDevice device, RTCScene scene, RTCScene *mes
     rtcAttachGeometryByID(scene, geometry, i);
     rtcReleaseGeometry(geometry);
   }
-  return TRAX_OK;
 }
 
 /* Embree transforms rays in binary32, by an inverse of its own. Boxes must be wide enough for those errors. */
@@ -274,7 +273,7 @@ static trax_status build_scene(RTCDevice device, RTCScene scene, const struct tr
       status = committed(device, to, error);
   }
   if (status == TRAX_OK && source->instances)
-    status = add_instances(device, scene, meshes, source);
+    add_instances(device, scene, meshes, source);
   for (uint32_t i = 0; i < count && meshes; i++)
     if (meshes[i])
       rtcReleaseScene(meshes[i]);

@@ -187,7 +187,8 @@ bool embree_seen(const struct embree *embree, struct double3 eye, struct double3
   struct surface surface;
   double distance;
   const bool seen = find_surface(&surface, &sample, eye, direction, &distance);
-  *hit = surface.hit;
+  if (seen)
+    *hit = surface.hit;
   return seen;
 }
 

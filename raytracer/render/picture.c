@@ -167,13 +167,21 @@ static void take_bytes(png_structp png, png_bytep to, size_t count) {
   source->at += count;
 }
 
+/* A byte of a PNG unpacks to at most 1032. Pixels of a bit, of which a byte has eight, would take a gigabyte of memory
+   for 32 kB. */
+enum { PIXELS_OF_A_BYTE = 1032, MOST_BLANK = 1 << 24 };
+
 /* The caller frees *pixels, also after a failure. */
 static void decode(png_structp png, png_infop info, struct source *source, struct trax_picture *picture) {
+  const size_t size = (size_t)(source->end - source->at);
   png_set_read_fn(png, source, take_bytes);
   png_set_user_limits(png, TRAX_RENDER_MAX_SIDE, TRAX_RENDER_MAX_SIDE);
   png_read_info(png, info);
   picture->width = png_get_image_width(png, info);
   picture->height = png_get_image_height(png, info);
+  const uint64_t pixels = (uint64_t)picture->width * picture->height;
+  if (pixels > MOST_BLANK && pixels / PIXELS_OF_A_BYTE > size)
+    png_error(png, "its few bytes have too many pixels");
   png_set_expand(png);
   png_set_strip_16(png);
   png_set_gray_to_rgb(png);

@@ -65,9 +65,13 @@ uint32_t trax_number_of_hit(const struct trax_scene *scene, uint32_t triangle, u
   if (!scene->instances)
     return number;
   const struct trax_instance *at = (const struct trax_instance *)((const char *)scene->header + instance);
-  if (at < scene->instances || at >= scene->instances + scene->instance_count)
+  if (at < scene->instances || at >= scene->instances + scene->instance_count ||
+      ((const char *)at - (const char *)scene->instances) % sizeof *at != 0)
     return TRAX_NO_TRIANGLE;
-  return at->first_number + number - scene->meshes[at->mesh].first_triangle;
+  const struct trax_scene_mesh *mesh = &scene->meshes[at->mesh];
+  if (number - mesh->first_triangle >= mesh->triangle_count) /* also of a number below the first */
+    return TRAX_NO_TRIANGLE;
+  return at->first_number + number - mesh->first_triangle;
 }
 
 uint32_t trax_source_of(const struct trax_scene *scene, uint32_t number) {

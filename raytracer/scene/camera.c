@@ -57,13 +57,35 @@ static double along(const float axis[3], const double v[3]) {
   return axis[0] * v[0] + axis[1] * v[1] + axis[2] * v[2];
 }
 
+static int triangle_corners(float corners[8][3], const struct trax_triangle *triangle) {
+  memcpy(corners, triangle, 9 * sizeof(float));
+  return 3;
+}
+
+/* Of the mesh's box, placed: an instance may have as many triangles as any mesh, and there may be millions. */
+static int box_corners(float corners[8][3], const struct trax_scene *scene, const struct trax_instance *instance) {
+  const struct trax_scene_mesh *mesh = &scene->meshes[instance->mesh];
+  for (int c = 0; c < 8; c++)
+    for (int row = 0; row < 3; row++) {
+      double sum = instance->origin[row];
+      for (int column = 0; column < 3; column++)
+        sum +=
+            (double)instance->to_world[row][column] * (c >> column & 1 ? mesh->bounds_max : mesh->bounds_min)[column];
+      corners[c][row] = (float)sum;
+    }
+  return 8;
+}
+
 static struct extent measure(const struct trax_scene *scene, const double middle[3], const float *direction,
                              const float *up, const float *right, const double slopes[2]) {
   struct extent extent = {0, 0, 0, 0, 0};
+  const uint32_t shapes = scene->instances ? scene->instance_count : scene->triangle_count;
   bool is_first = true;
-  for (uint32_t i = 0; i < scene->triangle_count; i++) {
-    const float *const corners[3] = {scene->triangles[i].v0, scene->triangles[i].v1, scene->triangles[i].v2};
-    for (int c = 0; c < 3; c++) {
+  for (uint32_t i = 0; i < shapes; i++) {
+    float corners[8][3];
+    const int count = scene->instances ? box_corners(corners, scene, &scene->instances[i])
+                                       : triangle_corners(corners, &scene->triangles[i]);
+    for (int c = 0; c < count; c++) {
       const double place[3] = {corners[c][0] - middle[0], corners[c][1] - middle[1], corners[c][2] - middle[2]};
       const double x = along(right, place), y = along(up, place), z = along(direction, place);
       const struct extent one = {x - slopes[0] * z, -x - slopes[0] * z, y - slopes[1] * z, -y - slopes[1] * z, z};

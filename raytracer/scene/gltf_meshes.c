@@ -1,5 +1,6 @@
 /* The primitives of glTF's meshes. */
 #include "gltf.h"
+#include "placing.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -215,27 +216,6 @@ static trax_status find_targets(struct placing *placing, struct gltf *gltf) {
   return TRAX_OK;
 }
 
-/* By the cofactors of the matrix, which is the inverse's transpose but for its length. */
-static void copy_normal(float out[3], const struct primitive *primitive, uint32_t index, const double m[3][4],
-                        bool mirror) {
-  float n[3];
-  gltf_read(n, 3, &primitive->normals, index);
-  for (int row = 0; row < 3; row++) {
-    const double *y = m[(row + 1) % 3], *z = m[(row + 2) % 3];
-    double sum = 0;
-    for (int column = 0; column < 3; column++)
-      sum +=
-          (y[(column + 1) % 3] * z[(column + 2) % 3] - y[(column + 2) % 3] * z[(column + 1) % 3]) * (double)n[column];
-    out[row] = (float)(mirror ? -sum : sum);
-  }
-}
-
-static bool mirrors(const double m[3][4]) {
-  return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
-             m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]) <
-         0;
-}
-
 static void copy_uv(float out[2], const struct gltf *gltf, const struct primitive *primitive, uint32_t index) {
   const struct gltf_uvs *map = &gltf->uvs[primitive->material];
   float uv[2];
@@ -247,7 +227,7 @@ static void copy_uv(float out[2], const struct gltf *gltf, const struct primitiv
 static trax_status copy_triangles(struct gltf *gltf, const struct placing *placing, size_t number) {
   const struct primitive *primitive = placing->primitive;
   struct trax_mesh *mesh = gltf->mesh;
-  const bool mirror = mirrors(placing->matrix), shared = shares_vertices(primitive);
+  const bool mirror = scene_determinant(placing->matrix) < 0, shared = shares_vertices(primitive);
   const uint32_t first = mesh->vertex_count;
   for (uint32_t i = 0; shared && i < primitive->positions.count; i++)
     if (place_vertex(mesh->vertices[mesh->vertex_count++], placing, i, gltf) != TRAX_OK)
@@ -269,8 +249,11 @@ static trax_status copy_triangles(struct gltf *gltf, const struct placing *placi
       triangle->vertices[corner] = shared ? first + index : mesh->vertex_count - 1;
       if (mesh->uvs && primitive->has_uvs)
         copy_uv(mesh->uvs[triangle_number][corner], gltf, primitive, index);
-      if (mesh->normals && primitive->has_normals)
-        copy_normal(mesh->normals[triangle_number][corner], primitive, index, placing->matrix, mirror);
+      if (mesh->normals && primitive->has_normals) {
+        float normal[3];
+        gltf_read(normal, 3, &primitive->normals, index);
+        scene_place_normal(mesh->normals[triangle_number][corner], normal, placing->matrix);
+      }
     }
   }
   gltf->report->other_primitives += points_and_lines_of(primitive);

@@ -17,6 +17,7 @@ struct nodes {
   struct gltf_size whole;
   size_t cameras, instances;
   uint32_t *part_of; /* with instances: of each mesh: its part and 1, 0: it is not copied yet */
+  struct scene_box *boxes; /* of parts */
 };
 
 static const json_t *node_at(const struct gltf *gltf, size_t number) {
@@ -184,6 +185,8 @@ static trax_status place_mesh(struct nodes *nodes, size_t node_number, size_t nu
     for (uint32_t i = first; i < mesh->triangle_count; i++)
       mesh->triangles[i].source_id -= first;
     mesh->parts[mesh->part_count] = (struct trax_mesh_part){first, count, count};
+    if (result == TRAX_OK)
+      nodes->boxes[mesh->part_count] = scene_part_box(mesh, first, count);
     nodes->part_of[number] = ++mesh->part_count;
   }
   gltf_release_deform(&deform);
@@ -192,9 +195,9 @@ static trax_status place_mesh(struct nodes *nodes, size_t node_number, size_t nu
   struct trax_mesh_instance *out = &mesh->instances[mesh->instance_count++];
   *out = (struct trax_mesh_instance){.part = nodes->part_of[number] - 1, .material = TRAX_NO_MATERIAL};
   memcpy(out->transform, matrix, sizeof out->transform);
-  struct trax_instance placed = {0};
-  const char *wrong =
-      gltf->options->flatten || !mesh->parts[out->part].triangle_count ? NULL : scene_place_instance(&placed, matrix);
+  const char *wrong = gltf->options->flatten || !mesh->parts[out->part].triangle_count
+                          ? NULL
+                          : scene_misplaced(&nodes->boxes[out->part], matrix);
   return wrong ? trax_fail(gltf->error, "%s: node %zu, which is instance %u (from 0): %s", gltf->path, node_number,
                            mesh->instance_count - 1, wrong)
                : TRAX_OK;
@@ -277,8 +280,9 @@ trax_status gltf_copy_nodes(struct gltf *gltf) {
   nodes.parents = calloc(nodes.count + 1, sizeof *nodes.parents);
   nodes.sizes = calloc(gltf_count(gltf, "meshes") + 1, sizeof *nodes.sizes);
   nodes.part_of = calloc(gltf_count(gltf, "meshes") + 1, sizeof *nodes.part_of);
-  trax_status result = nodes.parents && nodes.sizes && nodes.part_of ? check_trees(&nodes)
-                                                                     : scene_out_of_memory(gltf->error, gltf->path);
+  nodes.boxes = calloc(gltf_count(gltf, "meshes") + 1, sizeof *nodes.boxes);
+  const bool room = nodes.parents && nodes.sizes && nodes.part_of && nodes.boxes;
+  trax_status result = room ? check_trees(&nodes) : scene_out_of_memory(gltf->error, gltf->path);
   if (result == TRAX_OK)
     result = gltf_find_poses(gltf, nodes.parents);
   if (result == TRAX_OK)
@@ -292,5 +296,6 @@ trax_status gltf_copy_nodes(struct gltf *gltf) {
   free(nodes.parents);
   free(nodes.sizes);
   free(nodes.part_of);
+  free(nodes.boxes);
   return result;
 }

@@ -29,7 +29,7 @@ struct target {
   char *name;
   bool is_mesh;
   uint32_t part;        /* of a mesh */
-  float min[3], max[3]; /* its box */
+  struct scene_box box; /* of a mesh */
   uint32_t first, last; /* of the group's places; NONE: there are none */
   uint64_t instances;   /* below it */
   unsigned levels;      /* of groups below it */
@@ -85,17 +85,6 @@ static trax_status add_target(struct reader *reader, char *name, struct target *
 
 /* --- statements --- */
 
-static void find_box(struct target *target, const struct trax_mesh *mesh) {
-  for (int axis = 0; axis < 3; axis++) {
-    target->min[axis] = INFINITY, target->max[axis] = -INFINITY;
-    for (size_t i = 0; i < 3 * (size_t)mesh->triangle_count; i++) {
-      const float value = mesh->vertices[mesh->triangles[i / 3].vertices[i % 3]][axis];
-      target->min[axis] = fminf(target->min[axis], value);
-      target->max[axis] = fmaxf(target->max[axis], value);
-    }
-  }
-}
-
 static trax_status import_mesh(struct reader *reader, const char *at, const char *path) {
   struct trax_import_options options = *reader->options;
   struct trax_import_report report = {0};
@@ -114,7 +103,7 @@ static trax_status import_mesh(struct reader *reader, const char *at, const char
   if (mesh.triangle_count == 0)
     result = fail_at(reader, at, "a mesh without triangles:", path);
   if (result == TRAX_OK) {
-    find_box(&reader->targets[reader->target_count - 1], &mesh);
+    reader->targets[reader->target_count - 1].box = scene_part_box(&mesh, 0, mesh.triangle_count);
     struct trax_mesh_part *part = malloc(sizeof *part);
     if (part)
       *part = (struct trax_mesh_part){0, mesh.triangle_count, (uint32_t)report.source_triangles};
@@ -182,7 +171,7 @@ static trax_status read_numbers(const struct reader *reader, struct place *place
     place->transform[i / 4][i % 4] = number;
     *word = next_word(rest);
   }
-  if (!scene_is_invertible((const double(*)[4])place->transform))
+  if (scene_determinant((const double(*)[4])place->transform) == 0)
     return fail_at(reader, first, "the transform is singular", NULL);
   return TRAX_OK;
 }
@@ -305,23 +294,6 @@ static trax_status refuse_instance(const struct reader *reader, const struct cha
                    reason);
 }
 
-/* Why the mesh cannot be placed so; NULL: it can. */
-static const char *misplaced(const struct target *mesh, const double transform[3][4]) {
-  struct trax_instance placed = {0};
-  const char *wrong = scene_place_instance(&placed, transform);
-  for (int row = 0; row < 3 && !wrong; row++) {
-    double low = transform[row][3], high = low;
-    for (int column = 0; column < 3; column++) {
-      const double a = transform[row][column] * (double)mesh->min[column],
-                   b = transform[row][column] * (double)mesh->max[column];
-      low += fmin(a, b), high += fmax(a, b);
-    }
-    if (!(low >= -SCENE_MAX_COORDINATE && high <= SCENE_MAX_COORDINATE))
-      wrong = "a coordinate of its box is too large";
-  }
-  return wrong;
-}
-
 static trax_status expand(struct reader *reader, const struct target *group, const double above[3][4],
                           uint32_t material, const struct chain *outer) {
   for (uint32_t i = group->first; i != NONE; i = reader->places[i].next) {
@@ -335,7 +307,8 @@ static trax_status expand(struct reader *reader, const struct target *group, con
       struct trax_mesh_instance *out = &reader->mesh->instances[reader->mesh->instance_count++];
       *out = (struct trax_mesh_instance){.part = target->part, .material = own};
       memcpy(out->transform, transform, sizeof transform);
-      const char *wrong = reader->options->flatten ? NULL : misplaced(target, (const double(*)[4])transform);
+      const char *wrong =
+          reader->options->flatten ? NULL : scene_misplaced(&target->box, (const double(*)[4])transform);
       if (wrong)
         return refuse_instance(reader, &chain, wrong);
     } else if (expand(reader, target, (const double(*)[4])transform, own, &chain) != TRAX_OK) {

@@ -76,6 +76,34 @@ const char *scene_place_instance(struct trax_instance *instance, const double tr
   return scene_derive_instance(instance);
 }
 
+struct scene_box scene_part_box(const struct trax_mesh *mesh, uint32_t first, uint32_t count) {
+  struct scene_box box = scene_empty_box();
+  for (uint32_t i = first; i < first + count; i++) {
+    bool good = true;
+    for (int k = 0; k < 9; k++)
+      good &= fabsf(mesh->vertices[mesh->triangles[i].vertices[k / 3]][k % 3]) <= SCENE_MAX_COORDINATE;
+    for (int corner = 0; corner < 3 && good; corner++)
+      scene_box_add_point(&box, mesh->vertices[mesh->triangles[i].vertices[corner]]);
+  }
+  return box;
+}
+
+const char *scene_misplaced(const struct scene_box *box, const double transform[3][4]) {
+  struct trax_instance placed = {0};
+  const char *wrong = scene_place_instance(&placed, transform); /* an empty box is anywhere */
+  for (int row = 0; row < 3 && !wrong && box->min[0] <= box->max[0]; row++) {
+    double low = transform[row][3], high = low;
+    for (int column = 0; column < 3; column++) {
+      const double a = transform[row][column] * (double)box->min[column],
+                   b = transform[row][column] * (double)box->max[column];
+      low += fmin(a, b), high += fmax(a, b);
+    }
+    if (!(low >= -SCENE_MAX_COORDINATE && high <= SCENE_MAX_COORDINATE))
+      wrong = "a coordinate of its box is too large";
+  }
+  return wrong;
+}
+
 /* render/frame.c's margin is 64 units of 2^-24 of D, the greatest distance of a ray's origin from the scene, which is
    twice what tests of boxes and triangles need. In the mesh both tests see one and the same ray, and distances grow by
    the norm of to_object at most. But the margin is added to coordinates of the origin there, which may be larger than
@@ -241,8 +269,15 @@ static struct vertex_range vertices_of(const struct trax_mesh *mesh, const struc
   return range;
 }
 
-/* By the cofactors of the matrix, which is the inverse's transpose but for its length. */
-static void place_normal(float out[3], const float n[3], const double m[3][3], bool mirror) {
+double scene_determinant(const double m[3][4]) {
+  double sum = 0;
+  for (int i = 0; i < 3; i++)
+    sum += m[0][i] * (m[1][(i + 1) % 3] * m[2][(i + 2) % 3] - m[1][(i + 2) % 3] * m[2][(i + 1) % 3]);
+  return sum;
+}
+
+void scene_place_normal(float out[3], const float n[3], const double m[3][4]) {
+  const bool mirror = scene_determinant(m) < 0;
   for (int row = 0; row < 3; row++) {
     const double *y = m[(row + 1) % 3], *z = m[(row + 2) % 3];
     double sum = 0;
@@ -254,35 +289,21 @@ static void place_normal(float out[3], const float n[3], const double m[3][3], b
   }
 }
 
-static double determinant_of(const double x[3], const double y[3], const double z[3]) {
-  double sum = 0;
-  for (int i = 0; i < 3; i++)
-    sum += x[i] * (y[(i + 1) % 3] * z[(i + 2) % 3] - y[(i + 2) % 3] * z[(i + 1) % 3]);
-  return sum;
-}
-
-bool scene_is_invertible(const double m[3][4]) {
-  return determinant_of(m[0], m[1], m[2]) != 0;
-}
-
 /* Appends an instance to `out`, which has room. */
 static void place_part(struct trax_mesh *out, const struct trax_mesh *mesh, const struct trax_mesh_instance *instance,
                        struct vertex_range range, uint32_t first_source) {
   const struct trax_mesh_part *part = &mesh->parts[instance->part];
-  double m[3][3];
-  float origin[3];
-  for (int row = 0; row < 3; row++) {
-    origin[row] = (float)instance->transform[row][3];
-    for (int column = 0; column < 3; column++)
+  double m[3][4]; /* as floats, which an instance has */
+  for (int row = 0; row < 3; row++)
+    for (int column = 0; column < 4; column++)
       m[row][column] = (double)(float)instance->transform[row][column];
-  }
-  const bool mirror = determinant_of(m[0], m[1], m[2]) < 0;
+  const bool mirror = scene_determinant(m) < 0;
   const uint32_t first = out->vertex_count;
   for (uint32_t i = range.first; i < range.end; i++) {
     const float *v = mesh->vertices[i];
     for (int row = 0; row < 3; row++)
       out->vertices[out->vertex_count][row] =
-          (float)(m[row][0] * (double)v[0] + m[row][1] * (double)v[1] + m[row][2] * (double)v[2] + (double)origin[row]);
+          (float)(m[row][0] * (double)v[0] + m[row][1] * (double)v[1] + m[row][2] * (double)v[2] + m[row][3]);
     out->vertex_count++;
   }
   for (uint32_t i = part->first_triangle; i < part->first_triangle + part->triangle_count; i++) {
@@ -295,7 +316,7 @@ static void place_part(struct trax_mesh *out, const struct trax_mesh *mesh, cons
       const int from = mirror && corner ? 3 - corner : corner;
       out->triangles[number].vertices[corner] = triangle->vertices[from] - range.first + first;
       if (out->normals)
-        place_normal(out->normals[number][corner], mesh->normals[i][from], (const double(*)[3])m, mirror);
+        scene_place_normal(out->normals[number][corner], mesh->normals[i][from], m);
       if (out->uvs)
         memcpy(out->uvs[number][corner], mesh->uvs[i][from], sizeof out->uvs[number][corner]);
     }

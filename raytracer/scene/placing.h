@@ -10,6 +10,12 @@ const char *scene_derive_instance(struct trax_instance *instance);
 /* Sets to_world and origin, and derives the others. NULL, or why there is no such instance. */
 const char *scene_place_instance(struct trax_instance *instance, const double transform[3][4]);
 
+/* The box of a mesh's triangles from number `first` on, without those that have a coordinate which is too large. */
+struct scene_box scene_part_box(const struct trax_mesh *mesh, uint32_t first, uint32_t count);
+
+/* Why triangles in the box cannot be placed so; NULL: they can. */
+const char *scene_misplaced(const struct scene_box *box, const double transform[3][4]);
+
 /* The stretch of an instance in a scene with these bounds. */
 float scene_stretch_of(const struct trax_instance *instance, const struct scene_box *bounds);
 
@@ -25,8 +31,12 @@ trax_status scene_check_lamps(const struct trax_scene *scene, const char *name, 
 /* out = a b, of the first three rows of matrices. */
 void scene_multiply(double out[3][4], const double a[3][4], const double b[3][4]);
 
-/* Whether the first three columns have a determinant that is not 0. */
-bool scene_is_invertible(const double m[3][4]);
+/* Of the first three columns. */
+double scene_determinant(const double m[3][4]);
+
+/* Transforms a normal, whose length may change: by the cofactors of the matrix, which are the inverse's transpose but
+   for the length. */
+void scene_place_normal(float out[3], const float n[3], const double m[3][4]);
 
 /* placing.c: gives every instance triangles of its own. */
 trax_status scene_flatten_mesh(struct trax_mesh *mesh, trax_error *error);

@@ -7,10 +7,12 @@ import pathlib
 import struct
 import sys
 import tempfile
+import zlib
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 import checking  # noqa: E402
 from checking import check  # noqa: E402
+from png_files import SIGNATURE  # noqa: E402
 
 BIN = pathlib.Path(sys.argv[1]).resolve()
 call = functools.partial(checking.call, BIN)
@@ -197,6 +199,24 @@ def test_hdr():
         check(said in done.stderr, name, done.stderr)
 
 
+def blank_png(side, bits):
+    """A PNG of one colour."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    rows = zlib.compress(bytes((side * bits // 8 + 1) * side), 9)
+    header = struct.pack(">IIBBBBB", side, side, bits, 0, 0, 0, 0)
+    return SIGNATURE + chunk(b"IHDR", header) + chunk(b"IDAT", rows) + chunk(b"IEND", b"")
+
+
+def test_blank():
+    """Few bytes may have many pixels, but not a gigabyte of them."""
+    for side, bits, status in ((2048, 1, 0), (5000, 8, 0), (16384, 1, 1)):
+        pathlib.Path("blank.png").write_bytes(blank_png(side, bits))
+        done = call("trax-compare", "-q", "blank.png", "blank.png", status=status)
+        check(not status or "blank.png: not a readable PNG: its few bytes have too many pixels" in done.stderr, done)
+
+
 def test_refusals():
     write_pfm("nan.pfm", 4, 2, lambda x, y: (1, math.nan if (x, y) == (2, 1) else 1, 1))
     write_pfm("minus.pfm", 4, 2, lambda x, y: (1, 1, -1 if (x, y) == (3, 0) else 1))
@@ -215,7 +235,7 @@ def test_refusals():
 def main():
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
-        for test in (test_directions, test_irradiance, test_noise, test_engines, test_hdr, test_refusals):
+        for test in (test_directions, test_irradiance, test_noise, test_engines, test_hdr, test_blank, test_refusals):
             test()
         os.chdir("/")
     print(f"environment: {checking.failures} failed")

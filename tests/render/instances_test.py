@@ -79,6 +79,19 @@ def looking(scale, offset):
             "--size", "40x24", "-q", "--engine", "native"]
 
 
+def check_view():
+    """Without a view the instances are in the picture where they are placed: of boxes as of the flattened ones."""
+    write("box.obj", *(f"v {i & 1} {i >> 1 & 1} {i >> 2}\n" for i in range(8)),
+          "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n")
+    write("away.instances", "mesh box box.obj\n", "place box 1 0 0 64  0 1 0 32  0 0 1 0\n",
+          "place box 0 -2 0 70  2 0 0 30  0 0 2 -8\n")
+    pictures = []
+    for words in ([], ["--flatten"]):
+        call("trax-render", "away.instances", *words, "--engine", "native", "--size", "40x24", "-q", "-o", "away.png")
+        pictures.append(pathlib.Path("away.png").read_bytes())
+    check(pictures[0] == pictures[1], "the view of all")
+
+
 def scaled_rows(rows, factor, offset):
     numbers, _, rest = rows.partition("material")
     words = [float(word) for word in numbers.split()]
@@ -184,6 +197,10 @@ def check_gltf():
     done = call("trax-scene", "bad.gltf", "--instances", "-o", "bad.trax", status=1)
     check("bad.gltf: node 1, which is instance 1 (from 0): the transform" in done.stderr, done.stderr)
     call("trax-scene", "bad.gltf", "--instances", "--flatten", "-q", "-o", "flattened.trax")
+    far = '"translation": [0, 1729382256910270464, -1], "scale": [65536, 65536, 65536]'
+    write("far.gltf", text.replace('"translation": [0, 2, -1]', far))
+    done = call("trax-scene", "far.gltf", "--instances", "-o", "bad.trax", status=1)
+    check("far.gltf: node 2, which is instance 2 (from 0): a coordinate of its box" in done.stderr, done.stderr)
     equal(statistics["kept"]["scene.instances"], 3, "instances")
     equal(statistics["kept"]["scene.triangles"], 4, "stored triangles")
     equal(statistics["flat"]["scene.triangles"], 12, "flattened triangles")
@@ -285,6 +302,7 @@ def main():
         check_exact()
         check_shading()
         check_scales()
+        check_view()
         check_shadows()
         check_groups()
         check_story()

@@ -39,7 +39,7 @@ from compare.figures import SECTIONS, Figures  # noqa: E402
 from compare.page import without  # noqa: E402
 from compare.runs import HOST, Run, read_folded  # noqa: E402
 from compare.text import is_empty, percent, print_comparison  # noqa: E402
-from trax_eval.pictures import png, rows_of  # noqa: E402
+from trax_eval.pictures import png, read_png  # noqa: E402
 from trax_eval.tools import Tools  # noqa: E402
 from trax_eval.util import Problem  # noqa: E402
 
@@ -350,7 +350,7 @@ class Files(Scratch):
         self.command("a.json", "b.json", "--html", page, "--picture", pixels, "--cost-picture", costs)
         self.assertTrue(page.is_file())
         for path, is_equal in ((pixels, True), (costs, False)):
-            alphas = set(b"".join(rows_of(path.read_bytes())[1])[3::4])
+            alphas = set(read_png(path.read_bytes())[3][3::4])
             self.assertEqual(alphas == {0}, is_equal, path)
             path.unlink()
         page.unlink()

@@ -17,7 +17,7 @@ READERS = ("scene-material-test", "scene-import-test")
 TESTS = {"bvh.c": TREES, "clip.c": TREES, "rank.c": TREES, "ply_values.c": READERS[1:],
          "ply_reader.c": READERS[1:], "../layouts/grid.c": TREES, "splits.c": TREES,
          "reinsert.c": TREES, "reinsert.h": TREES, "reinsert_search.c": TREES, "sah.c": TREES, "sah_spatial.c": TREES,
-         "texture.c": READERS[:1],
+         "texture.c": READERS[:1], "placing.c": READERS,
          "gltf_reader.c": READERS,
          "gltf_materials.c": READERS[:1], "gltf_meshes.c": READERS, "gltf_nodes.c": READERS}
 SECONDS = 300
@@ -93,8 +93,8 @@ MUTANTS = [
      "triangle + 1, corners[2] = triangle + 2"),
     ("gltf-index", "gltf_meshes.c", "if (index >= primitive->positions.count)", "if (index > 255)"),
     ("gltf-shared", "gltf_meshes.c", "shared ? first + index : mesh->vertex_count - 1", "first + index"),
-    ("gltf-mirror", "gltf_meshes.c", "mirror = mirrors(placing->matrix)", "mirror = false"),
-    ("gltf-normal-side", "gltf_meshes.c", "mirror ? -sum : sum", "sum"),
+    ("gltf-mirror", "gltf_meshes.c", "mirror = scene_determinant(placing->matrix) < 0", "mirror = false"),
+    ("gltf-normal-side", "placing.c", "mirror ? -sum : sum", "sum"),
     ("gltf-v", "gltf_meshes.c", "(1 - uv[1])", "uv[1]"),
     ("gltf-order", "gltf_nodes.c", "scene_multiply(matrix, above, own);", "scene_multiply(matrix, own, above);"),
     ("gltf-quaternion", "gltf_nodes.c", "q[row] * q[next] - q[3] * q[last]", "q[row] * q[next] + q[3] * q[last]"),

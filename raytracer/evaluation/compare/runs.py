@@ -7,9 +7,8 @@ import pathlib
 import re
 import zlib
 
+from trax_eval.pictures import read_rgb
 from trax_eval.util import FILE_LIMIT, STRICT, Problem, read_bytes, read_json
-
-from .png import read_png
 
 TINIEST, LARGEST = 1e-100, 1e100  # quotients and sums of such numbers are finite
 HOST = ("host_seconds", "instructions_per_host_second")  # figures of the host, which no comparison is about
@@ -102,7 +101,7 @@ class Run:
                 self.notes.append(f"{beside('.csv')}: has the rays of another run, and is not used")
                 self.kinds = None
         if self.picture is None and beside(".png"):
-            self.picture = read_png(beside(".png"))
+            self.picture = read_rgb(beside(".png"))
 
     def of_this_run(self, path, profile):
         found = sum(sum(causes.values()) for causes in profile["functions"].values())

@@ -3,9 +3,10 @@
 import struct
 import zlib
 
-from .util import Problem
+from .util import FILE_LIMIT, Problem, read_bytes
 
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
+CHANNELS = {0: 1, 2: 3, 6: 4}  # of the colour types grey, RGB, RGBA
 
 
 def png(picture, pixels):
@@ -22,29 +23,70 @@ def png(picture, pixels):
     return SIGNATURE + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows, 6)) + chunk(b"IEND", b"")
 
 
-def rows_of(data):
-    """Size and rows of a picture that png() wrote."""
-    width, height = struct.unpack(">II", data[16:24])
-    place, packed = len(SIGNATURE), b""
+def read_png(data):
+    """(width, height, channels, bytes of the pixels) of a PNG of 8 bits a channel, not interlaced, as trax writes them.
+    Raises ValueError, struct.error or zlib.error."""
+    if data[:8] != SIGNATURE:
+        raise ValueError("it has another beginning")
+    width, height, depth, kind, _, _, interlaced = struct.unpack(">IIBBBBB", data[16:29])
+    if depth != 8 or kind not in CHANNELS or interlaced or width * height * 4 > FILE_LIMIT:
+        raise ValueError("only pictures of 8 bits a channel, not interlaced, are read")
+    if not width * height:
+        raise ValueError("it has no pixels")
+    place, packed = len(SIGNATURE), []
     while place < len(data):
-        size, kind = struct.unpack(">I4s", data[place:place + 8])
-        packed += data[place + 8:place + 8 + size] if kind == b"IDAT" else b""
+        size, name = struct.unpack(">I4s", data[place:place + 8])
+        packed += [data[place + 8:place + 8 + size]] if name == b"IDAT" else []
         place += 12 + size
-    rows = zlib.decompress(packed)
-    return (width,
-            height), [memoryview(rows)[row * (4 * width + 1) + 1:(row + 1) * (4 * width + 1)] for row in range(height)]
+    step = CHANNELS[kind]
+    unpacking = zlib.decompressobj()
+    rows = unpacking.decompress(b"".join(packed), (width * step + 1) * height)
+    if len(rows) != (width * step + 1) * height:
+        raise ValueError("it ends early")
+    return width, height, step, bytes(unfilter(rows, width * step, step))
+
+
+def unfilter(rows, size, step):
+    out, above = bytearray(), bytes(size)
+    for begin in range(0, len(rows), size + 1):
+        kind, row = rows[begin], bytearray(rows[begin + 1:begin + 1 + size])
+        if kind > 4:
+            raise ValueError(f"a row has the filter {kind}")
+        for place in range(size if kind else 0):
+            left, corner = (row[place - step], above[place - step]) if place >= step else (0, 0)
+            guess = (left, above[place], (left + above[place]) // 2, nearest(left, above[place], corner))[kind - 1]
+            row[place] = (row[place] + guess) & 255
+        out += row
+        above = row
+    return out
+
+
+def nearest(left, above, corner):
+    """Paeth's predictor."""
+    guess = left + above - corner
+    return min((left, above, corner), key=lambda value: abs(value - guess))
 
 
 def pixels_that_differ(one, other):
     """Counts the pixels that differ between two of our pictures (paths); None for pictures of two sizes."""
     if one == other:
         return 0
-    (size, rows), (other_size, other_rows) = rows_of(one.read_bytes()), rows_of(other.read_bytes())
+    (*size, pixels), (*other_size, other_pixels) = read_png(one.read_bytes()), read_png(other.read_bytes())
     if size != other_size:
         return None
-    return sum(a != b for row, beside in zip(rows, other_rows) if row != beside
-               for a, b in zip(pixels_of(row), pixels_of(beside)))
+    return pixels != other_pixels and sum(
+        a != b for a, b in zip(memoryview(pixels).cast("I"), memoryview(other_pixels).cast("I")))
 
 
-def pixels_of(row):
-    return memoryview(bytes(row)).cast("I")
+def read_rgb(path):
+    """(width, height, bytes of R, G, B) of a picture."""
+    try:
+        width, height, step, pixels = read_png(read_bytes(path))
+    except (ValueError, struct.error, zlib.error) as error:
+        raise Problem(f"{path}: is no PNG that can be read: {error}") from error
+    if step == 3:
+        return width, height, pixels
+    out = bytearray(3 * width * height)
+    for channel in range(3):
+        out[channel::3] = pixels[channel if step == 4 else 0::step]
+    return width, height, bytes(out)
