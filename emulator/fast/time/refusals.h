@@ -7,27 +7,41 @@
 #ifdef __AVX2__
 /* Returns a byte of ones for each TP of a mask, and of zeros for others. */
 static ALWAYS_INLINE __m256i bytes_of(uint32_t tps) {
+#ifdef __AVX512BW__
+  return _mm256_movm_epi8(tps);
+#else
   const __m256i spread = _mm256_shuffle_epi8(
       _mm256_set1_epi32((int)tps), _mm256_set_epi64x(0x0303030303030303, 0x0202020202020202, 0x0101010101010101, 0));
   const __m256i bit = _mm256_set1_epi64x((long long)0x8040201008040201);
   return _mm256_cmpeq_epi8(_mm256_and_si256(spread, bit), bit);
+#endif
 }
 #endif
 
-/* Adds 1 to the bytes of some TPs. Returns the TPs whose bytes are full. */
-static ALWAYS_INLINE uint64_t count_bytes(uint8_t *bytes, const bool wide, uint64_t tps) {
+/* Adds 1 to the lower half of the bytes of some TPs, and to the upper half of those of others. Returns the TPs that
+   have a full half. */
+static ALWAYS_INLINE uint64_t count_halves(uint8_t *bytes, const bool wide, uint64_t lower, uint64_t upper) {
   uint64_t full = 0;
 #ifdef __AVX2__
+  const __m256i most = _mm256_set1_epi8(TRAX_MOST_REFUSED), one = _mm256_set1_epi8(1 << TRAX_REFUSED_SHIFT);
   for (unsigned i = 0; i < 32u + 32 * wide; i += 32) {
-    const __m256i sum =
-        _mm256_sub_epi8(_mm256_load_si256((const __m256i *)(bytes + i)), bytes_of((uint32_t)(tps >> i)));
-    _mm256_store_si256((__m256i *)(bytes + i), sum);
-    full |= (uint64_t)(uint32_t)_mm256_movemask_epi8(_mm256_cmpeq_epi8(sum, _mm256_set1_epi8(TRAX_MOST_REFUSED))) << i;
+    __m256i *const some = (__m256i *)(bytes + i);
+    const __m256i sum = _mm256_add_epi8(_mm256_sub_epi8(_mm256_load_si256(some), bytes_of((uint32_t)(lower >> i))),
+                                        _mm256_and_si256(bytes_of((uint32_t)(upper >> i)), one));
+    _mm256_store_si256(some, sum);
+    const __m256i is_full = _mm256_or_si256(_mm256_cmpeq_epi8(_mm256_and_si256(sum, most), most),
+                                            _mm256_cmpeq_epi8(_mm256_or_si256(sum, most), _mm256_set1_epi8(-1)));
+    full |= (uint64_t)(uint32_t)_mm256_movemask_epi8(is_full) << i;
   }
 #else
   (void)wide;
-  for (uint64_t rest = tps; rest; rest &= rest - 1)
-    full |= (uint64_t)(++bytes[trax_first(rest)] == TRAX_MOST_REFUSED) << trax_first(rest);
+  for (uint64_t rest = lower | upper; rest; rest &= rest - 1) {
+    uint8_t *const byte = &bytes[trax_first(rest)];
+    *byte += rest & -rest & lower ? 1 : 1 << TRAX_REFUSED_SHIFT;
+    const bool is_full =
+        trax_refused_fetch(*byte) == TRAX_MOST_REFUSED || trax_refused_others(*byte) == TRAX_MOST_REFUSED;
+    full |= (uint64_t)is_full << trax_first(rest);
+  }
 #endif
   return full;
 }
@@ -49,15 +63,12 @@ static ALWAYS_INLINE void clear_bytes(uint8_t *bytes, const bool wide, uint64_t 
 /* Counts the refusals of a cycle. A TP has at most one. */
 static ALWAYS_INLINE void count_refusals(struct trax_tm *tm, const bool wide, const struct trax_fast_refused *refused) {
   struct trax_fast_observed *const observed = tm->observed;
-  uint64_t others = refused->bank, full = 0;
+  uint64_t others = refused->bank;
 #pragma GCC unroll 8
   for (unsigned i = 0; i < TRAX_SHARED_COUNT; i++)
     others |= refused->unit[i];
   observed->tps |= refused->fetch | others;
-  if (refused->fetch)
-    full = count_bytes(observed->fetch, wide, refused->fetch);
-  if (others)
-    full |= count_bytes(observed->others, wide, others);
+  const uint64_t full = count_halves(observed->of_head, wide, refused->fetch, others);
   if (__builtin_expect(full != 0, false))
     trax_fast_log_refusals(tm, full);
 }
@@ -70,13 +81,9 @@ static ALWAYS_INLINE void record_refusals(struct trax_tm *tm, const bool wide, u
     trax_fast_log_refusals(tm, single);
   if (!in_bursts)
     return;
-  for (uint64_t rest = in_bursts; rest; rest &= rest - 1) {
-    const unsigned tp = trax_first(rest);
-    observed->refused[tp][tm->heads.at[tp]] =
-        (uint8_t)(observed->fetch[tp] | observed->others[tp] << TRAX_REFUSED_SHIFT);
-  }
-  clear_bytes(observed->fetch, wide, in_bursts);
-  clear_bytes(observed->others, wide, in_bursts);
+  for (uint64_t rest = in_bursts; rest; rest &= rest - 1)
+    observed->refused[trax_first(rest)][tm->heads.at[trax_first(rest)]] = observed->of_head[trax_first(rest)];
+  clear_bytes(observed->of_head, wide, in_bursts);
   observed->tps &= ~in_bursts;
 }
 
