@@ -87,6 +87,11 @@ static void add_stretch(void *context, const struct trax_stretch *stretch) {
   trax_passages_add(explain->passages, stretch, &explain->observer.logs[thread]);
 }
 
+static void *room(void *context, uint32_t tm) {
+  const struct trax_explain *explain = context;
+  return trax_passages_room(explain->passages, tm);
+}
+
 static void begin_run(void *context, unsigned host_threads) {
   struct trax_explain *explain = context;
   for (uint64_t i = 0; i < explain->machine->stats.threads && !explain->begun; i++)
@@ -314,6 +319,7 @@ trax_status trax_explain_begin(struct trax_explain **result, trax_machine *machi
   explain->observer.arrival = add_arrival;
   if (!explain->has_spans) {
     explain->observer.stretch = add_stretch;
+    explain->observer.room = room;
     explain->observer.keep = keep;
     explain->observer.go_back = go_back;
   }

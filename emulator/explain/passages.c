@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A stretch in a log. Its pieces, charges, accesses, refusals and cycles follow. */
+/* A stretch in a log. Its pieces, accesses, charges, refusals and cycles follow. */
 struct stored {
   uint64_t cycle;
   uint32_t thread, next_pc, result;
@@ -22,6 +22,7 @@ struct stored {
 enum {
   PADDING = 8, /* bytes behind the refusals, which readers load by vectors */
   MUCH = 4096, /* new in the logs, after which few are read at once */
+  AHEAD = 512, /* bytes of a stretch, about */
 };
 
 /* The additions of a TM. */
@@ -100,6 +101,12 @@ static uint32_t size_of(const struct log *log) {
 
 static void read_logs(struct trax_passages *passages);
 
+void *trax_passages_room(struct trax_passages *passages, uint32_t tm) {
+  struct log *log = &passages->logs[tm];
+  const size_t bytes = sizeof(struct stored) + TRAX_STRETCH_ROOM;
+  return reserve(log, bytes) ? log->bytes + log->now.used + sizeof(struct stored) : NULL;
+}
+
 void trax_passages_add(struct trax_passages *passages, const struct trax_stretch *stretch,
                        struct trax_thread_log *thread) {
   struct log *log = &passages->logs[stretch->tm];
@@ -119,15 +126,20 @@ void trax_passages_add(struct trax_passages *passages, const struct trax_stretch
                                 .stores = stretch->stores,
                                 .misses = stretch->misses,
                                 .has_cycles = stretch->cycles != NULL};
+  const bool in_room = (const uint8_t *)stretch->piece == log->bytes + log->now.used + sizeof stored;
   const size_t refused = refused_bytes(stored.is_refused, stretch->count), cycles = cycles_bytes(stored.has_cycles);
-  const size_t arrays = stretch->pieces * sizeof *stretch->piece + charged * sizeof *thread->charged +
-                        stretch->accessed_count * sizeof *stretch->accessed;
-  const size_t gap = -arrays & 7;
+  const size_t pieces = stretch->pieces * sizeof *stretch->piece,
+               accessed = stretch->accessed_count * sizeof *stretch->accessed,
+               arrays = pieces + accessed + charged * sizeof *thread->charged, gap = -arrays & 7;
   if (reserve(log, sizeof stored + arrays + gap + refused + cycles)) {
     append(log, &stored, sizeof stored);
-    append(log, stretch->piece, stretch->pieces * sizeof *stretch->piece);
+    if (in_room) {
+      log->now.used += pieces + accessed;
+    } else {
+      append(log, stretch->piece, pieces);
+      append(log, stretch->accessed, accessed);
+    }
     append(log, thread->charged, charged * sizeof *thread->charged);
-    append(log, stretch->accessed, stretch->accessed_count * sizeof *stretch->accessed);
     log->now.used += gap;
     append(log, stretch->refused, refused ? stretch->count : 0);
     log->now.used = (log->now.used + 7) / 8 * 8;
@@ -170,11 +182,13 @@ static void place(struct trax_explain *explain, struct trax_passage *passage, co
 static void place_next(const struct trax_passages *passages, struct log *log, const struct trax_places_range **range) {
   uint8_t *at = log->bytes + log->placed_bytes;
   const struct stored *stored = (const void *)at;
+  for (size_t i = 0; i < AHEAD; i += 64) /* the host does not know where the stretches after this one are */
+    __builtin_prefetch(at + AHEAD + i);
   struct trax_piece *piece = (void *)(at + sizeof *stored);
-  struct trax_charged *charged = (void *)(piece + stored->pieces);
-  const struct trax_accessed *accessed = (const void *)(charged + stored->charged);
-  const uintptr_t arrays_end = (uintptr_t)(accessed + stored->accessed);
-  uint8_t *refused = (uint8_t *)(accessed + stored->accessed) + (-arrays_end & 7);
+  const struct trax_accessed *accessed = (const void *)(piece + stored->pieces);
+  struct trax_charged *charged = (void *)((uint8_t *)(piece + stored->pieces) + stored->accessed * sizeof *accessed);
+  const uintptr_t arrays_end = (uintptr_t)(charged + stored->charged);
+  uint8_t *refused = (uint8_t *)(charged + stored->charged) + (-arrays_end & 7);
   struct passage *placed = &log->passages[log->placed++];
   struct trax_passage *passage = &placed->passage;
   placed->cycle = stored->cycle;

@@ -18,6 +18,8 @@ enum { TRAX_PASSAGES_ROUNDS = 8 };
 struct trax_passages *trax_passages_create(struct trax_explain *explain);
 /* Reads with so many threads of the host from now on. The readers are open. False: out of memory. */
 bool trax_passages_start(struct trax_passages *passages, unsigned threads);
+/* trax_observer.room */
+void *trax_passages_room(struct trax_passages *passages, uint32_t tm);
 void trax_passages_add(struct trax_passages *passages, const struct trax_stretch *stretch, struct trax_thread_log *log);
 /* Keeps all additions so far; they may be read at once. holds: later additions are not read before the next call, and
    trax_passages_go_back removes them. */

@@ -5,9 +5,12 @@
 
 #include <stdlib.h>
 #include <string.h>
-#ifdef __SSE2__
-#include <emmintrin.h>
+
+#ifdef __x86_64__
+#include <immintrin.h>
 #endif
+
+#define ALWAYS_INLINE inline __attribute__((always_inline))
 
 enum {
   CONTEXTS = TRAX_TALLY_CONTEXTS,
@@ -33,6 +36,7 @@ struct slot {
 struct trax_tally {
   struct trax_explain *explain;
   size_t places;
+  void (*add_pieces)(const struct slot *slot, const struct trax_passage *passage);
   struct slot slots[CONTEXTS][KINDS]; /* `executed` is NULL before the first passage */
   struct trax_counts *ended;          /* [ended_count]: accesses to regions that are not the latest */
   size_t ended_count, ended_capacity;
@@ -121,50 +125,66 @@ static void add_accesses(struct trax_tally *tally, const struct slot *slot, cons
 }
 
 /* Adds eight bytes to eight sums. */
-static inline void add_bytes(uint32_t *sums, uint64_t bytes) {
-#ifdef __SSE2__
-  const __m128i none = _mm_setzero_si128();
-  const __m128i halves = _mm_unpacklo_epi8(_mm_cvtsi64_si128((long long)bytes), none);
-  __m128i *const to = (__m128i *)sums;
-  _mm_storeu_si128(to, _mm_add_epi32(_mm_loadu_si128(to), _mm_unpacklo_epi16(halves, none)));
-  _mm_storeu_si128(to + 1, _mm_add_epi32(_mm_loadu_si128(to + 1), _mm_unpackhi_epi16(halves, none)));
-#else
+typedef void add_eight(uint32_t *sums, uint64_t bytes);
+
+static inline void add_eight_anywhere(uint32_t *sums, uint64_t bytes) {
   for (unsigned i = 0; i < 8; i++)
     sums[i] += bytes >> 8 * i & 0xFF;
-#endif
 }
 
 /* Adds the refusals of `count` neighbouring instructions. */
-static inline void add_refused(uint32_t *fetch, uint32_t *others, const uint8_t *refused, uint32_t count) {
+static ALWAYS_INLINE void add_refused(uint32_t *fetch, uint32_t *others, const uint8_t *refused, uint32_t count,
+                                      add_eight *add) {
   const uint64_t low = UINT64_MAX / UINT8_MAX * TRAX_MOST_REFUSED; /* of each byte */
   uint64_t some;
   for (uint32_t i = 0; i < count; i += 8) {
     memcpy(&some, refused + i, sizeof some);
     if (count - i < 8)
       some &= ((uint64_t)1 << 8 * (count - i)) - 1;
-    add_bytes(fetch + i, some & low);
-    add_bytes(others + i, some >> TRAX_REFUSED_SHIFT & low);
+    add(fetch + i, some & low);
+    add(others + i, some >> TRAX_REFUSED_SHIFT & low);
   }
 }
+
+static ALWAYS_INLINE void add_pieces(const struct slot *slot, const struct trax_passage *passage, add_eight *add) {
+  const uint8_t *refused = passage->refused;
+  for (const struct trax_piece *piece = passage->piece; piece < passage->piece + passage->pieces; piece++) {
+    slot->executed[piece->index]++;
+    slot->executed[piece->index + piece->count]--;
+    if (refused) {
+      add_refused(slot->fetch + piece->index, slot->others + piece->index, refused, piece->count, add);
+      refused += piece->count;
+    }
+  }
+}
+
+static void add_pieces_anywhere(const struct slot *slot, const struct trax_passage *passage) {
+  add_pieces(slot, passage, add_eight_anywhere);
+}
+
+#ifdef __x86_64__
+static inline __attribute__((target("avx2"))) void add_eight_by_avx2(uint32_t *sums, uint64_t bytes) {
+  __m256i *const to = (__m256i *)sums;
+  const __m256i terms = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128((long long)bytes));
+  _mm256_storeu_si256(to, _mm256_add_epi32(_mm256_loadu_si256(to), terms));
+}
+
+static __attribute__((target("avx2"))) void add_pieces_by_avx2(const struct slot *slot,
+                                                               const struct trax_passage *passage) {
+  add_pieces(slot, passage, add_eight_by_avx2);
+}
+#endif
 
 void trax_tally_add(struct trax_tally *tally, const struct trax_passage *passage) {
   if (passage->context >= CONTEXTS)
     return;
   struct slot *slot = &tally->slots[passage->context][passage->kind];
-  const uint8_t *refused = passage->refused;
   if (!slot->executed && !open_slot(tally, slot)) {
     lose(tally);
     return;
   }
   add_accesses(tally, slot, passage);
-  for (const struct trax_piece *piece = passage->piece; piece < passage->piece + passage->pieces; piece++) {
-    slot->executed[piece->index]++;
-    slot->executed[piece->index + piece->count]--;
-    if (refused) {
-      add_refused(slot->fetch + piece->index, slot->others + piece->index, refused, piece->count);
-      refused += piece->count;
-    }
-  }
+  tally->add_pieces(slot, passage);
 }
 
 /* --- giving --- */
@@ -231,6 +251,11 @@ struct trax_tally *trax_tally_create(struct trax_explain *explain) {
     return NULL;
   tally->explain = explain;
   tally->places = (size_t)trax_places_count(explain->places) + 2;
+  tally->add_pieces = add_pieces_anywhere;
+#ifdef __x86_64__
+  if (__builtin_cpu_supports("avx2"))
+    tally->add_pieces = add_pieces_by_avx2;
+#endif
   return tally;
 }
 

@@ -2,6 +2,9 @@
 #include "fast/time/head.h"
 
 #include <string.h>
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
 
 _Static_assert((int)TRAX_BURST <= (int)TRAX_MOST_STRETCH, "a burst is a stretch");
 
@@ -35,9 +38,10 @@ void trax_fast_log_refusals(struct trax_tm *tm, uint64_t tps) {
   struct trax_fast_observed *const observed = tm->observed;
   for (uint64_t rest = tps & observed->tps; rest; rest &= rest - 1) {
     const unsigned tp = trax_first(rest), at = trax_fast_next_of_stretch(tm, tp);
-    trax_log_charge(tm->observer, log_of(tm, tp), at, TRAX_CAUSE_ICACHE_BANK, 0, observed->fetch[tp]);
-    trax_log_charge(tm->observer, log_of(tm, tp), at, refusal_of(tm, tp), 0, observed->others[tp]);
-    observed->fetch[tp] = observed->others[tp] = 0;
+    const uint8_t refused = observed->of_head[tp];
+    trax_log_charge(tm->observer, log_of(tm, tp), at, TRAX_CAUSE_ICACHE_BANK, 0, trax_refused_fetch(refused));
+    trax_log_charge(tm->observer, log_of(tm, tp), at, refusal_of(tm, tp), 0, trax_refused_others(refused));
+    observed->of_head[tp] = 0;
   }
   observed->tps &= ~tps;
 }
@@ -134,81 +138,120 @@ void trax_fast_tell_single(struct trax_tm *tm, unsigned number, uint32_t pc, con
                                   .result = result_of(tp, inst)});
 }
 
-typedef uint16_t eight __attribute__((vector_size(16)));
-typedef int8_t eight_bytes __attribute__((vector_size(8)));
+#ifdef __SSE2__
+/* Returns a bit for each of 16 numbers: those that are equal to `value` in the bits of `mask`. */
+static inline unsigned like_16(__m128i some, __m128i others, uint16_t mask, uint16_t value) {
+  const __m128i bits = _mm_set1_epi16((short)mask), wanted = _mm_set1_epi16((short)value);
+  return (unsigned)_mm_movemask_epi8(_mm_packs_epi16(_mm_cmpeq_epi16(_mm_and_si128(some, bits), wanted),
+                                                     _mm_cmpeq_epi16(_mm_and_si128(others, bits), wanted)));
+}
+#endif
 
-static inline eight load_8(const uint16_t *from) {
-  eight some;
-  memcpy(&some, from, sizeof some);
-  return some;
+/* Returns a bit for each of 16 steps, from `first` on, which is not 0: those that are behind a taken jump. */
+static inline unsigned jumps_of_16(const uint16_t *index, unsigned first) {
+#ifdef __SSE2__
+  const __m128i *const at = (const __m128i *)(index + first), *const before = (const __m128i *)(index + first - 1);
+  return 0xFFFF ^ like_16(_mm_sub_epi16(_mm_loadu_si128(at), _mm_loadu_si128(before)),
+                          _mm_sub_epi16(_mm_loadu_si128(at + 1), _mm_loadu_si128(before + 1)), UINT16_MAX, 1);
+#else
+  unsigned found = 0;
+  for (unsigned i = 0; i < 16; i++)
+    found |= (unsigned)((uint16_t)(index[first + i] - index[first + i - 1]) != 1) << i;
+  return found;
+#endif
 }
 
-/* Returns bit 8 * i of those of eight steps for which `which` is all ones. */
-static inline uint64_t bits_of_8(eight which) {
-  return (uint64_t) __builtin_convertvector(which, eight_bytes) & 0x0101010101010101;
+/* Returns a bit for each of 16 steps: those that access global memory. */
+static inline unsigned accesses_of_16(const uint16_t *step) {
+#ifdef __SSE2__
+  return like_16(_mm_loadu_si128((const __m128i *)step), _mm_loadu_si128((const __m128i *)(step + 8)), TRAX_STEP_KIND,
+                 TRAX_STEP_BANK);
+#else
+  unsigned found = 0;
+  for (unsigned i = 0; i < 16; i++)
+    found |= (unsigned)((step[i] & TRAX_STEP_KIND) == TRAX_STEP_BANK) << i;
+  return found;
+#endif
 }
-_Static_assert((int)TRAX_CHUNK >= 8, "so many steps may follow the last one");
+_Static_assert((int)TRAX_CHUNK >= 16, "so many steps may follow the last one");
 
-/* Returns the first step from `at` on, and before `end`, that is behind a taken jump; else `end`. `at` is not 0. */
-static unsigned next_piece(const struct trax_burst *burst, unsigned at, unsigned end) {
-  for (; at < end; at += 8) {
-    const uint64_t jumps = bits_of_8((eight)(load_8(&burst->index[at]) - load_8(&burst->index[at - 1]) != 1));
-    if (jumps)
-      return at + trax_first(jumps) / 8 < end ? at + trax_first(jumps) / 8 : end;
+/* The bits of the first `count` of 16. */
+static inline unsigned first_bits(unsigned count) {
+  return count < 16 ? (1u << count) - 1 : 0xFFFF;
+}
+
+/* Lists the pieces of the steps from `begin` to `end`. */
+static size_t list_pieces(const struct trax_tm *tm, unsigned number, unsigned begin, unsigned end,
+                          struct trax_piece *pieces) {
+  const struct trax_tp *const tp = &tm->tp[number];
+  const struct trax_fast_timing *const timing = tm->chip->program.timing;
+  size_t count = 0;
+  unsigned at = begin;
+  for (unsigned first = begin + 1; first < end; first += 16)
+    for (unsigned rest = jumps_of_16(tp->burst.index, first) & first_bits(end - first); rest; rest &= rest - 1) {
+      const unsigned next = first + trax_first(rest);
+      pieces[count++] = (struct trax_piece){timing[trax_fast_index(tp, at)].pc, next - at, 0};
+      at = next;
+    }
+  pieces[count++] = (struct trax_piece){timing[trax_fast_index(tp, at)].pc, end - at, 0};
+  return count;
+}
+
+/* Takes the outcomes of accesses that have not hit. Returns whether there are any. */
+static bool take_outcomes(uint8_t *outcomes, struct trax_accessed *accessed, size_t count) {
+  bool any = false;
+  for (size_t i = 0; i < count; i += 8) {
+    uint64_t some;
+    memcpy(&some, outcomes + i, sizeof some);
+    some = ~some & (count - i < 8 ? ((uint64_t)1 << 8 * (count - i)) - 1 : UINT64_MAX);
+    for (; __builtin_expect(some != 0, false); any = true) {
+      const unsigned byte = trax_first(some) / 8;
+      accessed[i + byte].outcome = outcomes[i + byte];
+      outcomes[i + byte] = TRAX_FAST_NO_OUTCOME;
+      some &= ~((uint64_t)UINT8_MAX << 8 * byte);
+    }
   }
-  return end;
+  return any;
 }
+_Static_assert(TRAX_FAST_NO_OUTCOME == UINT8_MAX, "its bits are all set");
 
-/* Lists the accesses to global memory of the steps from `begin` to `end`, and clears their outcomes. *misses: not all
-   have hit. */
+/* Lists the accesses to global memory of the steps from `begin` to `end`. *misses: not all have hit. */
 static size_t list_accesses(struct trax_tm *tm, unsigned number, unsigned begin, unsigned end,
                             struct trax_accessed *accessed, bool *misses) {
   const struct trax_burst *const burst = &tm->tp[number].burst;
-  uint8_t *const outcomes = tm->observed->outcomes[number];
-  unsigned load = tm->observed->told_loads[number];
+  const unsigned told = tm->observed->told_loads[number];
+  const struct trax_burst_access *access = &burst->access[told];
   size_t count = 0;
-  unsigned all = TRAX_FAST_NO_OUTCOME;
-  for (unsigned first = begin; first < end; first += 8) {
-    uint64_t rest = bits_of_8((eight)((load_8(&burst->step[first]) & TRAX_STEP_KIND) == TRAX_STEP_BANK));
-    if (end - first < 8)
-      rest &= ((uint64_t)1 << 8 * (end - first)) - 1;
-    for (; rest; rest &= rest - 1, load++) {
-      const uint8_t outcome = outcomes[load];
-      outcomes[load] = TRAX_FAST_NO_OUTCOME;
-      all &= outcome;
-      accessed[count++] =
-          (struct trax_accessed){.address = burst->access[load].address,
-                                 .at = (uint8_t)(first - begin + trax_first(rest) / 8),
-                                 .outcome = outcome == TRAX_FAST_NO_OUTCOME ? TRAX_OUTCOME_HIT : outcome};
-    }
-  }
-  *misses = all != TRAX_FAST_NO_OUTCOME;
+  for (unsigned first = begin; first < end; first += 16)
+    for (unsigned rest = accesses_of_16(&burst->step[first]) & first_bits(end - first); rest; rest &= rest - 1)
+      accessed[count++] = (struct trax_accessed){.address = (access++)->address,
+                                                 .at = (uint8_t)(first - begin + trax_first(rest)),
+                                                 .outcome = TRAX_OUTCOME_HIT};
+  *misses = take_outcomes(&tm->observed->outcomes[number][told], accessed, count);
   return count;
 }
 
 void trax_fast_tell_steps(struct trax_tm *tm, unsigned number, unsigned end, uint32_t next_pc) {
-  const struct trax_tp *tp = &tm->tp[number];
   struct trax_fast_observed *const observed = tm->observed;
-  struct trax_piece pieces[TRAX_BURST];
-  struct trax_accessed accessed[TRAX_BURST + 1];
   const unsigned begin = observed->told[number];
-  size_t count = 0;
+  struct trax_piece own_piece[TRAX_BURST], *piece = own_piece;
+  struct trax_accessed own_accessed[TRAX_BURST], *accessed = own_accessed;
   bool misses;
   if (begin == end)
     return;
-  for (unsigned at = begin; at < end;) {
-    const uint32_t pc = tm->chip->program.timing[trax_fast_index(tp, at)].pc;
-    const unsigned next = next_piece(&tp->burst, at + 1, end);
-    pieces[count++] = (struct trax_piece){pc, next - at, 0};
-    at = next;
-  }
+  void *const room = tm->observer->room ? tm->observer->room(tm->observer->context, tm->number) : NULL;
+  if (room)
+    piece = room;
+  const size_t pieces = list_pieces(tm, number, begin, end, piece);
+  if (room)
+    accessed = (void *)(piece + pieces);
   const size_t accessed_count = list_accesses(tm, number, begin, end, accessed, &misses);
   tell(tm, &(struct trax_stretch){.cycle = tm->now,
                                   .tm = tm->number,
                                   .tp = number,
                                   .count = end - begin,
-                                  .piece = pieces,
-                                  .pieces = count,
+                                  .piece = piece,
+                                  .pieces = pieces,
                                   .accessed = accessed,
                                   .accessed_count = accessed_count,
                                   .stores = tm->storing >> number & 1,
@@ -232,8 +275,7 @@ void trax_fast_tell_before(struct trax_tm *tm, unsigned number) {
   trax_fast_tell_issued(tm, number);
   uint8_t *const outcome =
       &observed->outcomes[number][observed->told_loads[number]]; /* of the head, if it issues now */
-  observed->fetch[number] = (uint8_t)trax_refused_fetch(*refused);
-  observed->others[number] = (uint8_t)trax_refused_others(*refused);
+  observed->of_head[number] = *refused;
   observed->tps |= (uint64_t)1 << number;
   trax_fast_log_refusals(tm, (uint64_t)1 << number);
   *refused = 0;

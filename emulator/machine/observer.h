@@ -76,6 +76,8 @@ struct trax_accessed {
   uint8_t at, outcome;
 };
 
+enum { TRAX_STRETCH_ROOM = TRAX_MOST_STRETCH * (sizeof(struct trax_piece) + sizeof(struct trax_accessed)) };
+
 /* An instruction's refusals in a byte; more are charges. */
 enum { TRAX_REFUSED_SHIFT = 4, TRAX_MOST_REFUSED = (1 << TRAX_REFUSED_SHIFT) - 1 };
 static inline unsigned trax_refused_fetch(uint8_t refused) {
@@ -130,14 +132,17 @@ struct trax_observer {
      instructions of the cycles before have been reported, and the logs have the charges since then. Several threads of
      the host may call it at the same time, each for other TMs; then the order over the chip is that of (cycle, TM). */
   void (*stretch)(void *context, const struct trax_stretch *stretch);
+  /* For stretches: returns the observer's memory, TRAX_STRETCH_ROOM bytes, for the arrays of the TM's next one: its
+     pieces, and its accesses directly behind them, so that they need not be copied. NULL: there is none. */
+  void *(*room)(void *context, uint32_t tm);
   /* For stretches: the engine does not go back any more behind the present state. If it holds, it may come back to it,
      which it tells by `go_back`: then the stretches told since are not valid, nor what has been added to the logs. */
   void (*keep)(void *context, bool holds);
   void (*go_back)(void *context);
   struct trax_thread_log *logs; /* [threads]; for stretches */
   bool single; /* the observer wants stretches of one instruction from now on; set during `keep` or `stretch` */
-  bool full;                    /* it wants a call of `keep` soon; any thread may set it */
-  bool lost;                    /* a charge was not recorded: out of memory */
+  bool full;   /* it wants a call of `keep` soon; any thread may set it */
+  bool lost;   /* a charge was not recorded: out of memory */
 };
 
 /* For engines: adds a charge before the instruction `at` to a log. */

@@ -207,10 +207,10 @@ static ALWAYS_INLINE void simulate(struct trax_tm *tm, const bool wide, const bo
   if (refuses && trax_fast_count(&tm->refusal_counts, wide, &refused))
     trax_fast_charge_refusals(tm);
   if (__builtin_expect(tm->observer != NULL, false)) {
-    if (tm->observed)
-      count_refusals(tm, wide, &refused);
-    else
+    if (!tm->observed)
       trax_fast_notify_refusals(tm, &refused);
+    else if (refuses)
+      count_refusals(tm, wide, &refused);
   }
   tm->next_cycle = tm->awake ? t + 1 : trax_tm_next_cycle(tm, t);
 }

@@ -4,6 +4,19 @@
 
 #include "fast/time/head.h"
 
+/* Adds 1 to the lower half of the bytes of some TPs, and to the upper half of those of others. Returns the TPs that
+   have a full half. */
+static ALWAYS_INLINE uint64_t count_halves(uint8_t *bytes, const bool wide, uint64_t lower, uint64_t upper) {
+  const uint8_t one = 1 << TRAX_REFUSED_SHIFT, most = TRAX_MOST_REFUSED;
+  uint64_t full = 0;
+  for (unsigned i = 0; i < 32u + 32 * wide; i += TRAX_FAST_VECTOR) {
+    trax_fast_bytes *const some = (trax_fast_bytes *)(bytes + i);
+    *some += (trax_fast_bytes_of(upper >> i) & one) - trax_fast_bytes_of(lower >> i);
+    full |= trax_fast_top_bits((trax_fast_bytes)(((*some & most) == most) | ((*some | most) == UINT8_MAX))) << i;
+  }
+  return full;
+}
+
 /* Clears the bytes of some TPs; all at once, since the host forwards no stores of bytes to loads of vectors. */
 static ALWAYS_INLINE void clear_bytes(uint8_t *bytes, const bool wide, uint64_t tps) {
   for (unsigned i = 0; i < 32u + 32 * wide; i += TRAX_FAST_VECTOR)
@@ -13,15 +26,12 @@ static ALWAYS_INLINE void clear_bytes(uint8_t *bytes, const bool wide, uint64_t 
 /* Counts the refusals of a cycle. A TP has at most one. */
 static ALWAYS_INLINE void count_refusals(struct trax_tm *tm, const bool wide, const struct trax_fast_refused *refused) {
   struct trax_fast_observed *const observed = tm->observed;
-  uint64_t others = refused->bank, full = 0;
+  uint64_t others = refused->bank;
 #pragma GCC unroll 8
   for (unsigned i = 0; i < TRAX_SHARED_COUNT; i++)
     others |= refused->unit[i];
   observed->tps |= refused->fetch | others;
-  if (refused->fetch)
-    full = trax_fast_count_bytes(observed->fetch, wide, refused->fetch, TRAX_MOST_REFUSED);
-  if (others)
-    full |= trax_fast_count_bytes(observed->others, wide, others, TRAX_MOST_REFUSED);
+  const uint64_t full = count_halves(observed->of_head, wide, refused->fetch, others);
   if (__builtin_expect(full != 0, false))
     trax_fast_log_refusals(tm, full);
 }
@@ -34,13 +44,9 @@ static ALWAYS_INLINE void record_refusals(struct trax_tm *tm, const bool wide, u
     trax_fast_log_refusals(tm, single);
   if (!in_bursts)
     return;
-  for (uint64_t rest = in_bursts; rest; rest &= rest - 1) {
-    const unsigned tp = trax_first(rest);
-    observed->refused[tp][tm->heads.at[tp]] =
-        (uint8_t)(observed->fetch[tp] | observed->others[tp] << TRAX_REFUSED_SHIFT);
-  }
-  clear_bytes(observed->fetch, wide, in_bursts);
-  clear_bytes(observed->others, wide, in_bursts);
+  for (uint64_t rest = in_bursts; rest; rest &= rest - 1)
+    observed->refused[trax_first(rest)][tm->heads.at[trax_first(rest)]] = observed->of_head[trax_first(rest)];
+  clear_bytes(observed->of_head, wide, in_bursts);
   observed->tps &= ~in_bursts;
 }
 

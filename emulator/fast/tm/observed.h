@@ -12,12 +12,13 @@ enum { TRAX_FAST_NO_OUTCOME = 0xFF /* a load that hit */ };
 struct trax_fast_observed {
   uint8_t told[TRAX_MAX_TPS_PER_TM];       /* steps of the burst of which the observer knows */
   uint8_t told_loads[TRAX_MAX_TPS_PER_TM]; /* the accesses to global memory among them */
-  /* Cycles in which the head was refused its fetch, and then its unit or bank, and the TPs with some. They go to
-     `refused` when the head of a burst issues, and otherwise to the log. */
+  /* The refusals of the head, and the TPs with some. They go to `refused` when the head of a burst issues, and
+     otherwise to the log. */
   uint64_t tps;
-  _Alignas(64) uint8_t fetch[TRAX_MAX_TPS_PER_TM], others[TRAX_MAX_TPS_PER_TM];
-  uint8_t refused[TRAX_MAX_TPS_PER_TM][TRAX_BURST];      /* of each step: trax_stretch.refused */
-  uint8_t outcomes[TRAX_MAX_TPS_PER_TM][TRAX_BURST + 1]; /* of each access to global memory of the burst */
+  _Alignas(64) uint8_t of_head[TRAX_MAX_TPS_PER_TM]; /* trax_stretch.refused */
+  uint8_t refused[TRAX_MAX_TPS_PER_TM][TRAX_BURST];  /* the same, of each step */
+  /* Of each access to global memory of the burst; they are read by eight. */
+  uint8_t outcomes[TRAX_MAX_TPS_PER_TM][TRAX_BURST + 8];
 };
 
 #endif
