@@ -42,10 +42,6 @@ void trax::fail(const Twine &Message) {
   exit(1);
 }
 
-void trax::fail(Error E, StringRef File) {
-  fail("'" + File + "': " + toString(std::move(E)));
-}
-
 void trax::checkFiles(ArrayRef<std::string> Inputs, const std::string &Output) {
   trax_files Files = {};
   trax_error Reason;

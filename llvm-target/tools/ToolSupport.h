@@ -8,9 +8,8 @@
 #define TRAX_TOOLS_TOOLSUPPORT_H
 
 #include "llvm/ADT/ArrayRef.h"
-#include "llvm/ADT/STLFunctionalExtras.h"
 #include "llvm/ADT/StringRef.h"
-#include "llvm/Support/Error.h"
+#include "llvm/ADT/Twine.h"
 
 namespace llvm {
 class raw_ostream;
@@ -25,7 +24,6 @@ const llvm::Target &startTool(int Argc, char **Argv, llvm::StringRef Overview);
 
 /// Reports "TOOL: error: MESSAGE" and exits with status 1.
 [[noreturn]] void fail(const llvm::Twine &Message);
-[[noreturn]] void fail(llvm::Error E, llvm::StringRef File);
 
 /// Fails if one of the inputs is the output. Called before any work; what is included is compared when it is written.
 void checkFiles(llvm::ArrayRef<std::string> Inputs, const std::string &Output);

@@ -16,7 +16,7 @@ from mutation import ROOT, Mutant, failure, main  # noqa: E402
 
 SOURCE = ROOT / "emulator/python/trax"
 PYTHON = pathlib.Path("/usr/bin/python3")
-SECONDS = 120
+SECONDS = 60
 
 # File of emulator/python/trax, text, what it becomes.
 MUTANTS = [

@@ -44,6 +44,7 @@ CASES = {
     "bundle": ".bundle_align_mode 30\nnop",
     "chain": ".set s0, x\n" + "".join(f".set s{i}, s{i - 1}+1\n" for i in range(1, 600)) + ".word s599",
     "double": ".set s0, x-y\n" + "".join(f".set s{i}, s{i - 1}+s{i - 1}\n" for i in range(1, 60)) + ".word s59",
+    "negated": ".set s0, x-y\n" + "".join(f".set s{i}, -s{i - 1}+-s{i - 1}\n" for i in range(1, 60)) + ".word s59",
     "labels": "a:" * 3000,
     "itself": '.include "itself.s"',
     "twice": '.include "twice.s"\n.include "twice.s"',
