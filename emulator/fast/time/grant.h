@@ -66,7 +66,25 @@ static __attribute__((noinline)) uint64_t in_filling_banks(const struct trax_tm 
   return found;
 }
 
+static bool load_hits(struct trax_tm *tm, unsigned number, uint64_t t) {
+  const uint32_t address = tm->heads.address[number];
+  if (!trax_cache_tags_use(&tm->dcache.tags, trax_line_of(&tm->dcache.tags, address)))
+    return false;
+  tm->stats->dcache_hits++;
+  tm->single_hits += tm->serial_hits;
+  const uint32_t latency = tm->config->dcache.hit_latency_cycles;
+  if (latency > 1) {
+    const unsigned rd = trax_fast_head_timing(tm, number)->decoded->rd;
+    trax_tp_set_usable(&tm->tp[number], rd, t + latency, TRAX_CAUSE_DATA_HIT);
+    trax_fast_set_busy(tm, number, rd);
+  }
+  return true;
+}
+
 static bool serve(struct trax_tm *tm, unsigned number, uint64_t t) {
+  if (!(tm->executes_at_issue >> number & 1) && !trax_fast_head_timing(tm, number)->decoded->is_store &&
+      load_hits(tm, number, t))
+    return true;
   trax_fast_export_head(tm, number);
   const trax_cause refused = trax_tm_serve(tm, number, t);
   if (refused != TRAX_CAUSE_ISSUED) {
