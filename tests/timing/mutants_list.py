@@ -138,8 +138,6 @@ MUTANTS = [
     ("fast/time/grant.h", "trax_arbiter_grant(&unit->arbiter[group], all, kind->per_group)",
      "trax_arbiter_grant(&unit->arbiter[group], all, 1)"),
     ("fast/time/alone.c", "    trax_arbiter_to_back(&unit->arbiter[group], number);", "    (void)unit;"),
-    ("fast/time/cycle.c", "for (uint32_t port = 0; port < ports; port++)",
-     "for (uint32_t port = 0; port < ports && port < 1; port++)"),
     # --- steps 1 and 2 ---
     ("fast/time/cycle.c", "return (woken & tm->holding) | recheck;", "return (woken & tm->holding) | (recheck & 0);"),
     ("fast/time/cycle.c",
@@ -150,15 +148,12 @@ MUTANTS = [
     # --- steps 3 and 4 ---
     ("fast/time/grant.h", "const unsigned pointer = tm->queue_arbiter % 64;", "const unsigned pointer = 0;"),
     ("fast/time/grant.h", "tm->load_hits & ~tm->executes_at_issue & ~", "tm->load_hits & ~"),
-    ("fast/time/grant.h", " & ~(tm->storing & ready.slow);", ";"),
-    # Few TPs are awake: banks one after the other.
-    ("fast/time/few.h", "requesters & rr_mask ? requesters & rr_mask : requesters;",
-     "requesters & (rr_mask | requesters);"),
-    ("fast/time/few.h", "losers |= here ^ winner;", "(void)here;"),
-    ("fast/time/few.h", "*rr_mask = (uint16_t)(-2 * winner >> cache);", "(void)cache;"),
-    ("fast/time/few.h", "*rr_mask = -2 * winner;", "(void)rr_mask;"),
-    ("fast/time/few.h", "(uint64_t)0xFFFF << cache, ", "~(uint64_t)0, "),
-    ("fast/time/grant.h", "ready->slow |= (uint64_t)(low & TRAX_STEP_SLOW) << trax_first(rest);", "(void)low;"),
+    ("fast/time/grant.h", " & ~(tm->storing & *slow);", ";"),
+    # Banks one after the other: of many data banks, and of instruction caches of any shape.
+    ("fast/time/grant.h", "here & *rr_mask ? here & *rr_mask : here,", "here,"),
+    ("fast/time/grant.h", "*rr_mask = -2 * winner;", "(void)rr_mask;"),
+    ("fast/time/cycle.c", "rest & trax_group_mask(icache, config->icache.tps_per_cache), ", "rest, "),
+    ("fast/time/cycle.c", "config->icache.ports_per_bank);", "1);"),
     ("fast/time/grant.h", "if (!tm->serial_hits)", "if (1)"),
     # Whether the next load's line is resident: after arrivals, evictions and fences.
     ("fast/time/cycle.c", "      trax_fast_find_line(tm, tp);", "      (void)tm;"),

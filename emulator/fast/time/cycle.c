@@ -71,12 +71,10 @@ static uint64_t refuse_fetches_of_any_shape(struct trax_tm *tm, uint64_t request
 }
 
 /* Grants the instruction caches' banks; returns the losers. */
-static ALWAYS_INLINE uint64_t refuse_fetches(struct trax_tm *tm, const bool wide, const bool few, uint64_t requesters) {
+static ALWAYS_INLINE uint64_t refuse_fetches(struct trax_tm *tm, const bool wide, uint64_t requesters) {
   uint64_t bit[4];
   if (!tm->simple_fetch)
     return refuse_fetches_of_any_shape(tm, requesters);
-  if (few)
-    return refuse_few_fetches(tm, requesters);
   trax_fast_transpose(&tm->heads, wide, TRAX_STEP_FETCH_SHIFT, 4, bit);
   return wide ? trax_fast_refuse_four(&tm->fetch_rr_masks16, requesters, bit)
               : trax_fast_refuse_two(&tm->fetch_rr_masks16, requesters, bit);
@@ -153,14 +151,14 @@ static bool operands_usable(struct trax_tm *tm, unsigned number, bool fetched, u
 }
 
 /* Steps 1 and 2; woken: TPs that hold an instruction whose operands must be checked. */
-static ALWAYS_INLINE void fetch_and_check(struct trax_tm *tm, const bool wide, const bool few, uint64_t woken,
+static ALWAYS_INLINE void fetch_and_check(struct trax_tm *tm, const bool wide, uint64_t woken,
                                           struct trax_fast_refused *refused, uint64_t t) {
   if (tm->no_text)
     fault_no_text(tm, t);
   const uint64_t requesters = tm->awake & ~tm->holding;
   uint64_t hits = 0;
   if (requesters) {
-    const uint64_t losers = refuse_fetches(tm, wide, few, requesters);
+    const uint64_t losers = refuse_fetches(tm, wide, requesters);
     refused->fetch = losers;
     hits = requesters & ~losers;
   }
@@ -197,11 +195,11 @@ static ALWAYS_INLINE void issue(struct trax_tm *tm, const bool wide, uint64_t gr
     issue_quickly(tm, wide, quick);
 }
 
-static ALWAYS_INLINE void simulate(struct trax_tm *tm, const bool wide, const bool few, uint64_t woken, uint64_t t) {
+static ALWAYS_INLINE void simulate(struct trax_tm *tm, const bool wide, uint64_t woken, uint64_t t) {
   struct trax_fast_refused refused = {0};
   uint64_t slow, banks;
-  fetch_and_check(tm, wide, few, woken, &refused, t);
-  const uint64_t granted = grant(tm, wide, few, &refused, &slow, &banks, t);
+  fetch_and_check(tm, wide, woken, &refused, t);
+  const uint64_t granted = grant(tm, wide, &refused, &slow, &banks, t);
   const bool refuses = refused.fetch | tm->ready; /* who is still ready was refused something */
   issue(tm, wide, granted, slow, banks, t);
   if (refuses && trax_fast_count(&tm->refusal_counts, wide, &refused))
@@ -218,12 +216,10 @@ static ALWAYS_INLINE void simulate(struct trax_tm *tm, const bool wide, const bo
 static void run_cycle(struct trax_tm *tm, uint64_t t) {
   tm->now = t;
   const uint64_t woken = wake(tm, t);
-  if (are_few(tm->awake))
-    simulate(tm, true, true, woken, t);
-  else if (tm->wide)
-    simulate(tm, true, false, woken, t);
+  if (tm->wide)
+    simulate(tm, true, woken, t);
   else
-    simulate(tm, false, false, woken, t);
+    simulate(tm, false, woken, t);
 }
 
 static void run_quantum(struct trax_tm *tm, uint64_t end) {

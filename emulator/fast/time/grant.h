@@ -2,10 +2,28 @@
 #ifndef TRAX_FAST_GRANT_H
 #define TRAX_FAST_GRANT_H
 
-#include "fast/time/few.h"
+#include "fast/time/head.h"
 
 static inline unsigned count_bits(uint64_t mask) {
   return (unsigned)__builtin_popcountll(mask);
+}
+
+static inline unsigned step_of(const struct trax_tm *tm, unsigned tp) {
+  return tm->heads.low[tp] | (unsigned)tm->heads.high[tp] << 8;
+}
+
+/* Returns the data bank of the head's step, or what stands in its place. */
+static inline unsigned bank_of(const struct trax_tm *tm, unsigned tp) {
+  return step_of(tm, tp) >> TRAX_STEP_BANK_SHIFT & 63;
+}
+
+/* Returns those of the TPs, which are some, whose steps are equal to the first one's in the bits of `mask`. */
+static inline uint64_t like_first(const struct trax_tm *tm, uint64_t tps, unsigned mask) {
+  const unsigned first = step_of(tm, trax_first(tps));
+  uint64_t like = tps & -tps;
+  for (uint64_t rest = tps & (tps - 1); rest; rest &= rest - 1)
+    like |= (step_of(tm, trax_first(rest)) ^ first) & mask ? 0 : rest & -rest;
+  return like;
 }
 
 /* Grants the banks of the data cache, of which there are at most two vectors, and returns the winners; bit: the planes
@@ -27,6 +45,19 @@ static ALWAYS_INLINE uint64_t grant_banks(struct trax_tm *tm, uint64_t requester
   return trax_fast_any(&winner);
 }
 
+/* The same one bank after the other, for any number of banks. */
+static __attribute__((noinline)) uint64_t grant_many_banks(struct trax_tm *tm, uint64_t requesters) {
+  uint64_t winners = 0;
+  for (uint64_t rest = requesters, here; rest; rest &= ~here) {
+    uint64_t *const rr_mask = &((uint64_t *)tm->data_bank_rr_masks)[bank_of(tm, trax_first(rest))];
+    here = like_first(tm, rest, 63 << TRAX_STEP_BANK_SHIFT);
+    const uint64_t among = here & *rr_mask ? here & *rr_mask : here, winner = among & -among;
+    *rr_mask = -2 * winner;
+    winners |= winner;
+  }
+  return winners;
+}
+
 /* Returns those of the TPs whose data bank is being filled. */
 static __attribute__((noinline)) uint64_t in_filling_banks(const struct trax_tm *tm, uint64_t requesters, uint64_t t) {
   uint64_t found = 0;
@@ -35,7 +66,25 @@ static __attribute__((noinline)) uint64_t in_filling_banks(const struct trax_tm 
   return found;
 }
 
+static bool load_hits(struct trax_tm *tm, unsigned number, uint64_t t) {
+  const uint32_t address = tm->heads.address[number];
+  if (!trax_cache_tags_use(&tm->dcache.tags, trax_line_of(&tm->dcache.tags, address)))
+    return false;
+  tm->stats->dcache_hits++;
+  tm->single_hits += tm->serial_hits;
+  const uint32_t latency = tm->config->dcache.hit_latency_cycles;
+  if (latency > 1) {
+    const unsigned rd = trax_fast_head_timing(tm, number)->decoded->rd;
+    trax_tp_set_usable(&tm->tp[number], rd, t + latency, TRAX_CAUSE_DATA_HIT);
+    trax_fast_set_busy(tm, number, rd);
+  }
+  return true;
+}
+
 static bool serve(struct trax_tm *tm, unsigned number, uint64_t t) {
+  if (!(tm->executes_at_issue >> number & 1) && !trax_fast_head_timing(tm, number)->decoded->is_store &&
+      load_hits(tm, number, t))
+    return true;
   trax_fast_export_head(tm, number);
   const trax_cause refused = trax_tm_serve(tm, number, t);
   if (refused != TRAX_CAUSE_ISSUED) {
@@ -105,42 +154,20 @@ static __attribute__((noinline)) uint64_t grant_further(struct trax_tm *tm, stru
   return granted;
 }
 
-/* The TPs that are ready, by what their heads need: of_kind[kind of TRAX_STEP_FP_ADD ... >> 1]. */
-struct ready {
-  uint64_t of_kind[8], slow;
-};
-
-static ALWAYS_INLINE void sort_few(const struct trax_tm *tm, struct ready *ready) {
-  for (uint64_t rest = tm->ready; rest; rest &= rest - 1) {
-    const unsigned low = tm->heads.low[trax_first(rest)];
-    ready->of_kind[low >> 1 & 7] |= rest & -rest;
-    ready->slow |= (uint64_t)(low & TRAX_STEP_SLOW) << trax_first(rest);
-  }
-}
-
 /* Steps 3 and 4: returns the TPs that were granted all that they need. `slow` receives the TPs with slow heads, and
    `banks` those that request a data bank. */
-static ALWAYS_INLINE uint64_t grant(struct trax_tm *tm, const bool wide, const bool few,
-                                    struct trax_fast_refused *refused, uint64_t *slow, uint64_t *banks, uint64_t t) {
+static ALWAYS_INLINE uint64_t grant(struct trax_tm *tm, const bool wide, struct trax_fast_refused *refused,
+                                    uint64_t *slow, uint64_t *banks, uint64_t t) {
   uint64_t bit[TRAX_STEP_BANK_SHIFT + 3];
-  struct ready ready = {0};
-  if (few) {
-    sort_few(tm, &ready);
-  } else {
-    trax_fast_transpose(&tm->heads, wide, 0, TRAX_STEP_BANK_SHIFT + 3, bit);
-    const uint64_t low = tm->ready & ~bit[3], high = tm->ready & bit[3];
-    const uint64_t some[2] = {low, high};
-    ready.slow = bit[0];
-#pragma GCC unroll 8
-    for (unsigned kind = 0; kind < 8; kind++)
-      ready.of_kind[kind] = some[kind >> 2] & (kind & 1 ? bit[1] : ~bit[1]) & (kind & 2 ? bit[2] : ~bit[2]);
-  }
-#define OF(KIND) ready.of_kind[(KIND) >> 1]
+  trax_fast_transpose(&tm->heads, wide, 0, TRAX_STEP_BANK_SHIFT + 3, bit);
+  *slow = bit[0];
+  const uint64_t some[2] = {tm->ready & ~bit[3], tm->ready & bit[3]};
+/* The TPs that are ready and need this. */
+#define OF(KIND) (some[(KIND) >> 3] & ((KIND) >> 1 & 1 ? bit[1] : ~bit[1]) & ((KIND) >> 2 & 1 ? bit[2] : ~bit[2]))
   uint64_t granted = OF(0);
   uint64_t requesters, won;
   const trax_fast_pair fp_requesters = {OF(TRAX_STEP_FP_ADD), OF(TRAX_STEP_FP_MUL)};
-  const trax_fast_pair fp_won =
-      few && !(fp_requesters[0] | fp_requesters[1]) ? fp_requesters : grant_fp(tm, fp_requesters, t);
+  const trax_fast_pair fp_won = grant_fp(tm, fp_requesters, t);
   granted |= fp_won[0] | fp_won[1];
   refused->unit[TRAX_SHARED_FP_ADD] = fp_requesters[0] & ~fp_won[0];
   refused->unit[TRAX_SHARED_FP_MUL] = fp_requesters[1] & ~fp_won[1];
@@ -156,12 +183,12 @@ static ALWAYS_INLINE uint64_t grant(struct trax_tm *tm, const bool wide, const b
     uint64_t hits = 0, filling = 0;
     if (__builtin_expect(tm->dcache.all_fills_end > t, false))
       filling = in_filling_banks(tm, requesters, t);
-    won = few || __builtin_expect(tm->dcache.banks > 2 * TRAX_FAST_LANES, false)
-              ? grant_few_banks(tm, requesters & ~filling)
+    won = __builtin_expect(tm->dcache.banks > 2 * TRAX_FAST_LANES, false)
+              ? grant_many_banks(tm, requesters & ~filling)
               : grant_banks(tm, requesters & ~filling, bit + TRAX_STEP_BANK_SHIFT);
     refused->bank = requesters & ~won;
     if (!tm->serial_hits) /* else serve() handles them, as it does stores */
-      hits = won & tm->load_hits & ~tm->executes_at_issue & ~(tm->storing & ready.slow);
+      hits = won & tm->load_hits & ~tm->executes_at_issue & ~(tm->storing & *slow);
     tm->stats->dcache_hits += count_bits(hits);
     granted |= hits;
     queue_requesters |= won & ~hits;
@@ -170,7 +197,6 @@ static ALWAYS_INLINE uint64_t grant(struct trax_tm *tm, const bool wide, const b
   if (queue_requesters)
     granted |= grant_queue(tm, queue_requesters, t);
   tm->ready &= ~granted;
-  *slow = ready.slow;
   return granted;
 }
 

@@ -38,7 +38,6 @@ bool trax_dcache_load(struct trax_dcache *dcache, struct trax_tm *tm, unsigned n
   const uint32_t line = trax_line_of(&dcache->tags, tp->address);
   if (trax_cache_tags_use(&dcache->tags, line)) {
     tm->stats->dcache_hits++;
-    tm->single_hits += tm->serial_hits && !(tm->executes_at_issue >> number & 1);
     trax_tp_set_usable(tp, tp->inst->rd, t + tm->config->dcache.hit_latency_cycles, TRAX_CAUSE_DATA_HIT);
     return true;
   }
