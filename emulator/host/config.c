@@ -243,7 +243,7 @@ static void format_value(const struct trax_config_key *key, double value, char *
   }
   if (key->kind != TRAX_KIND_REAL)
     snprintf(text, size, "%.0f", value);
-  else if (!strchr(text, '.') || strchr(text, 'e')) /* a whole number, 2e+01 as well */
+  else if (floor(value) == value && fabs(value) < 0x1p53) /* 20.0, not 2e+01 */
     snprintf(text, size, "%.1f", value);
 }
 

@@ -116,7 +116,7 @@ static ALWAYS_INLINE void trax_fast_move_on(struct trax_fast_heads *heads, const
 #ifdef __AVX2__
   if (__builtin_popcountll(who) > (wide ? 8 : 4)) { /* fewer are faster one by one */
     const bool fills = ++heads->moves % TRAX_FAST_NEXT == 0;
-    trax_fast_count_bytes(heads->at, wide, who, 0);
+    trax_fast_count_bytes(heads->at, wide, who);
 #pragma GCC unroll 2
     for (unsigned half = 0; half < 1u + wide; half++)
       if (fills)

@@ -70,15 +70,10 @@ static inline trax_fast_bytes trax_fast_bytes_of(uint64_t tps) {
   return (trax_fast_bytes)((trax_fast_bytes)(spread & bit) == (trax_fast_bytes)bit);
 }
 
-/* Adds 1 to the bytes of some TPs. Returns the TPs whose bytes are `most` then. `wide`: the TM has more than 32 TPs. */
-static ALWAYS_INLINE uint64_t trax_fast_count_bytes(uint8_t *bytes, const bool wide, uint64_t tps, const uint8_t most) {
-  uint64_t full = 0;
-  for (unsigned i = 0; i < 32u + 32 * wide; i += TRAX_FAST_VECTOR) {
-    trax_fast_bytes *const some = (trax_fast_bytes *)(bytes + i);
-    *some -= trax_fast_bytes_of(tps >> i);
-    full |= trax_fast_top_bits((trax_fast_bytes)(*some == most)) << i;
-  }
-  return full;
+/* Adds 1 to the bytes of some TPs. `wide`: the TM has more than 32 TPs. */
+static ALWAYS_INLINE void trax_fast_count_bytes(uint8_t *bytes, const bool wide, uint64_t tps) {
+  for (unsigned i = 0; i < 32u + 32 * wide; i += TRAX_FAST_VECTOR)
+    *(trax_fast_bytes *)(bytes + i) -= trax_fast_bytes_of(tps >> i);
 }
 
 /* The arbiters of the 16 banks of the instruction caches, with 16 TPs to a cache: bank by bank, two caches of a TM with
@@ -146,7 +141,7 @@ static ALWAYS_INLINE bool trax_fast_count(struct trax_fast_refusal_counts *count
 #pragma GCC unroll 8
   for (unsigned i = 0; i < TRAX_FAST_REFUSALS; i++)
     if (tps[i])
-      trax_fast_count_bytes(counts->count[i], wide, tps[i], 0);
+      trax_fast_count_bytes(counts->count[i], wide, tps[i]);
   return ++counts->cycles == UINT8_MAX;
 }
 
