@@ -74,8 +74,9 @@ def pixels_that_differ(one, other):
     (*size, pixels), (*other_size, other_pixels) = read_png(one.read_bytes()), read_png(other.read_bytes())
     if size != other_size:
         return None
-    return pixels != other_pixels and sum(
-        a != b for a, b in zip(memoryview(pixels).cast("I"), memoryview(other_pixels).cast("I")))
+    if pixels == other_pixels:
+        return 0
+    return sum(a != b for a, b in zip(memoryview(pixels).cast("I"), memoryview(other_pixels).cast("I")))
 
 
 def read_rgb(path):
