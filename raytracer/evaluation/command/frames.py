@@ -20,7 +20,7 @@ CURVES = {
     "curve-cycles": ("Cycles of a frame", "cycles"), "curve-rays": ("Rays of a frame", "rays"),
     "curve-rate": ("Rays a second", "mrps"), "curve-bytes": ("Bytes of a ray", "values.bytes_per_ray"),
     "curve-sah": ("Visits that SAH expects", "values.scene.bvh.sah_nodes"),
-    "curve-rebuild": ("When to rebuild: a new tree pays if it costs fewer cycles than this", f"values.{NAME}")
+    "curve-rebuild": ("When to rebuild", f"values.{NAME}")
 }
 VIEW = ("view", "eye", "look-at", "up", "fov", "light", "orbit")
 HERE = ("at", "frames", "no-refit", "output", "size", "config", "set", "quiet")  # neither program gets them
