@@ -334,6 +334,7 @@ def test_sequence():
     for title in ("Cycles of a frame", "Rays of a frame", "Bytes of a ray", "Visits that SAH expects",
                   "When to rebuild"):
         check(title in page, "the page has", title)
+    check("the paper" not in page, "the page is about the sequence alone")
 
 
 def test_sequence_of_a_file():

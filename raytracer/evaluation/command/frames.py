@@ -1,5 +1,6 @@
 """trax-render --frames with --at X:Y: each frame of a sequence with a new tree and with the first frame's, refitted.
-The frames are sweeps, one for each curve, whose runs are the same."""
+The frames are sweeps, one for each curve, whose runs are the same. None has the name of one that comes with trax, so
+that the report is about them alone."""
 
 import csv
 import io
@@ -16,10 +17,10 @@ from .main import parse
 
 NEW, REFITTED = "new trees", "refitted"
 CURVES = {
-    "cycles": ("Cycles of a frame", "cycles"), "rays": ("Rays of a frame", "rays"),
-    "rate": ("Rays a second", "mrps"), "bytes": ("Bytes of a ray", "values.bytes_per_ray"),
-    "sah": ("Visits that SAH expects", "values.scene.bvh.sah_nodes"),
-    "rebuild": ("When to rebuild: a new tree pays if it costs fewer cycles than this", f"values.{NAME}")
+    "curve-cycles": ("Cycles of a frame", "cycles"), "curve-rays": ("Rays of a frame", "rays"),
+    "curve-rate": ("Rays a second", "mrps"), "curve-bytes": ("Bytes of a ray", "values.bytes_per_ray"),
+    "curve-sah": ("Visits that SAH expects", "values.scene.bvh.sah_nodes"),
+    "curve-rebuild": ("When to rebuild", f"values.{NAME}")
 }
 VIEW = ("view", "eye", "look-at", "up", "fov", "light", "orbit")
 HERE = ("at", "frames", "no-refit", "output", "size", "config", "set", "quiet")  # neither program gets them
@@ -102,7 +103,7 @@ class Sequence:
             variants.append({"name": REFITTED, AT: self.moments, FROM: self.moments[0]})
         chip, paths = self.values.get("config", "4x32"), []
         for name, (title, figure) in CURVES.items():
-            if name == "rebuild" and not self.refits():
+            if name == "curve-rebuild" and not self.refits():
                 continue
             paths.append(self.folder / f"{name}.json")
             write_json(paths[-1], {
