@@ -2,9 +2,11 @@
 #include "explain/tally.h"
 #include "trax/pool.h"
 
+#include <sched.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 
-enum { BATCH = 64 /* passages */, MOST_TALLIES = 4 };
+enum { BATCH = 64 /* passages */, MOST_TALLIES = 4, SPINS = 1000 };
 
 /* Thread-cycles between two flushes of the tallies. As many again may follow until the logs have been read. */
 static const uint64_t most_tallied = UINT32_MAX / 2;
@@ -18,32 +20,54 @@ struct trax_reading {
   uint64_t cycle, flushed; /* up to which passages have been read; of the latest flush */
   struct trax_pool *pool;  /* its items are `work`; NULL: there is one thread */
   struct work {
-    struct trax_reader *reader; /* it reads all passages; NULL: a tally takes a part of them */
-    unsigned tally;
-  } work[TRAX_READER_KINDS + MOST_TALLIES]; /* [work_count] */
+    enum { FOLLOW, READ, TALLY } what;
+    struct trax_reader *reader; /* of READ: it reads all passages */
+    unsigned tally;             /* of TALLY: it takes each batch whose number is its own, modulo their number */
+  } work[1 + TRAX_READER_KINDS + MOST_TALLIES]; /* [work_count]; the first one follows the passages */
   unsigned work_count;
+  bool has_further;       /* a passage is of no tally's contexts */
+  atomic_size_t followed; /* the first passages, which may be read */
 };
 
-static void follow(const struct trax_reading *reading) {
+/* Lets readers follow the passages, and gives them to the others by batches. */
+static void follow(struct trax_reading *reading) {
   const struct trax_explain *explain = reading->explain;
   for (size_t i = 0; i < reading->count; i++) {
     for (unsigned k = 0; k < explain->reader_count; k++)
       if (explain->readers[k]->kind->follow)
         explain->readers[k]->kind->follow(explain->readers[k], reading->passages[i]);
-    if (reading->passages[i]->context >= TRAX_TALLY_CONTEXTS)
-      trax_tally_add_alone(reading->tallies[0], reading->passages[i]);
+    reading->has_further |= reading->passages[i]->context >= TRAX_TALLY_CONTEXTS;
+    if ((i + 1) % BATCH == 0 || i + 1 == reading->count)
+      atomic_store_explicit(&reading->followed, i + 1, memory_order_release);
   }
 }
 
+/* Waits until passage number `end` - 1 has been followed, which a thread does that has begun before. */
+static void wait_for(const struct trax_reading *reading, size_t end) {
+  for (unsigned i = 0; atomic_load_explicit(&reading->followed, memory_order_acquire) < end; i++)
+    if (i < SPINS)
+      trax_pause();
+    else
+      sched_yield();
+}
+
 static void do_work(void *context, uint32_t item) {
-  const struct trax_reading *reading = context;
+  struct trax_reading *reading = context;
   const struct work *work = &reading->work[item];
-  const size_t begin = work->reader ? 0 : reading->count * work->tally / reading->tally_count,
-               end = work->reader ? reading->count : reading->count * (work->tally + 1) / reading->tally_count;
-  for (size_t i = begin; work->reader && i < end; i++)
-    work->reader->kind->passage(work->reader, reading->passages[i]);
-  for (size_t i = begin; !work->reader && i < end; i++)
-    trax_tally_add(reading->tallies[work->tally], reading->passages[i]);
+  if (work->what == FOLLOW) {
+    follow(reading);
+    return;
+  }
+  for (size_t begin = 0, end; begin < reading->count; begin = end) {
+    end = reading->count - begin < BATCH ? reading->count : begin + BATCH;
+    if (work->what == TALLY && begin / BATCH % reading->tally_count != work->tally)
+      continue;
+    wait_for(reading, end);
+    for (size_t i = begin; work->what == READ && i < end; i++)
+      work->reader->kind->passage(work->reader, reading->passages[i]);
+    for (size_t i = begin; work->what == TALLY && i < end; i++)
+      trax_tally_add(reading->tallies[work->tally], reading->passages[i]);
+  }
 }
 
 size_t trax_reading_batch(const struct trax_reading *reading) {
@@ -53,11 +77,15 @@ size_t trax_reading_batch(const struct trax_reading *reading) {
 void trax_reading_read(struct trax_reading *reading, struct trax_passage *const *passages, size_t count) {
   reading->passages = passages;
   reading->count = count;
-  follow(reading);
+  reading->has_further = false;
+  atomic_store_explicit(&reading->followed, 0, memory_order_relaxed);
   if (reading->pool)
     trax_pool_run(reading->pool);
   for (uint32_t i = 0; !reading->pool && i < reading->work_count; i++)
     do_work(reading, i);
+  for (size_t i = 0; reading->has_further && i < count; i++)
+    if (passages[i]->context >= TRAX_TALLY_CONTEXTS)
+      trax_tally_add_alone(reading->tallies[0], passages[i]);
 }
 
 void trax_reading_flush(struct trax_reading *reading) {
@@ -74,27 +102,23 @@ void trax_reading_drain(struct trax_reading *reading, uint64_t cycle) {
     trax_tally_drain(reading->tallies[i]);
 }
 
-/* Lists the work for so many threads, each of which begins with its tally (base/pool.c). False: out of memory. */
+/* Lists the work for so many threads: what others wait for first, since the first thread begins with it (base/pool.c).
+   False: out of memory. */
 static bool list_work(struct trax_reading *reading, unsigned threads) {
   struct trax_explain *explain = reading->explain;
-  unsigned tallies = 0, count = 0, next = 0;
+  unsigned count = 0;
   reading->tally_count = threads < MOST_TALLIES ? threads : MOST_TALLIES;
   for (unsigned i = 0; i < reading->tally_count; i++)
     if (!reading->tallies[i] && !(reading->tallies[i] = trax_tally_create(explain)))
       return false;
+  reading->work[count++] = (struct work){.what = FOLLOW};
+  reading->work[count++] = (struct work){.what = TALLY, .tally = 0};
   for (unsigned i = 0; i < explain->reader_count; i++)
-    count += explain->readers[i]->kind->passage != NULL;
-  count += reading->tally_count;
-  for (reading->work_count = 0; reading->work_count < count; reading->work_count++) {
-    struct work *work = &reading->work[reading->work_count];
-    if (tallies < reading->tally_count && reading->work_count == count * tallies / reading->tally_count) {
-      *work = (struct work){.tally = tallies++};
-      continue;
-    }
-    while (!explain->readers[next]->kind->passage)
-      next++;
-    *work = (struct work){.reader = explain->readers[next++]};
-  }
+    if (explain->readers[i]->kind->passage)
+      reading->work[count++] = (struct work){.what = READ, .reader = explain->readers[i]};
+  for (unsigned i = 1; i < reading->tally_count; i++)
+    reading->work[count++] = (struct work){.what = TALLY, .tally = i};
+  reading->work_count = count;
   return true;
 }
 
