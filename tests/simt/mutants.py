@@ -6,6 +6,7 @@ emulator/simt. The changed file is compiled and linked into the tests, before th
     mutants.py --stale             only lists texts that are not there
 """
 
+import itertools
 import pathlib
 import sys
 
@@ -84,7 +85,7 @@ def noticed(folder, build, mutant):
     programs = relinked(folder, build, "emulator/CMakeFiles/traxemu.dir/simt", SOURCE / mutant.file,
                         mutant.changed(SOURCE), TESTS)
     failures = (failure(SECONDS, program, *TESTS[program.name]) for program in programs)
-    return [said for said in failures if said][:1]
+    return list(itertools.islice(filter(None, failures), 1))
 
 
 if __name__ == "__main__":

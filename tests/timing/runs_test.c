@@ -55,6 +55,22 @@ static void special_unit_serves_64_in_turn(void **state) {
   bench_end(&bench);
 }
 
+/* All fetch from the only port from cycle 0 on, and the first one's fetch brings the line. */
+static void one_port_serves_64_in_turn(void **state) {
+  (void)state;
+  struct trax_config config = bench_near(1, 64);
+  config.icache.tps_per_cache = 64;
+  config.icache.banks = config.icache.ports_per_bank = 1;
+  struct bench bench = BENCH(config, HALT);
+  ISSUES(&bench, 0, 1);
+  CHARGES(&bench, 0, TRAX_CAUSE_ICACHE_MISS, 1);
+  for (unsigned tp = 1; tp < 64; tp++) {
+    ISSUES(&bench, tp, tp);
+    CHARGES(&bench, tp, TRAX_CAUSE_ICACHE_BANK, tp);
+  }
+  bench_end(&bench);
+}
+
 /* A store past the cache and a load of the same word in one cycle, 109: the effects happen in the TPs' order. */
 static void effects_of_one_cycle(void **state) {
   (void)state;
@@ -335,6 +351,7 @@ int main(void) {
       cmocka_unit_test(branch_bubbles),
       cmocka_unit_test(comparisons_use_the_adder),
       cmocka_unit_test(special_unit_serves_64_in_turn),
+      cmocka_unit_test(one_port_serves_64_in_turn),
       cmocka_unit_test(effects_of_one_cycle),
       cmocka_unit_test(a_store_past_the_cache_of_a_load_ahead),
       cmocka_unit_test(own_increment_before_load),
