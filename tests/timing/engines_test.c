@@ -194,8 +194,7 @@ static void help(void) {
        "  --engine NAME    the engine that is compared with the reference; default fast\n"
        "  --stop           end with the first case that differs, as it is, instead of making it small\n"
        "  --help           print this text, and end\n\n"
-       "Exit status: 0 if nothing differs, 1 if a case differs, 2 for an error of use, 77 if this host cannot run the "
-       "engine.");
+       "Exit status: 0 if nothing differs, 1 if a case differs, 2 for an error of use.");
   exit(0);
 }
 
