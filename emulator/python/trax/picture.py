@@ -11,8 +11,8 @@ import numpy
 
 @dataclasses.dataclass(frozen=True)
 class Picture:
-    """pixels: an array [height, width, 4] of bytes for a display, R, G, B, A, or [height, width, 3] of linear floats. In
-    a notebook it shows itself."""
+    """pixels: an array [height, width, 4] of bytes for a display, R, G, B, A, or [height, width, 3] of linear floats.
+    In a notebook it shows itself."""
     pixels: numpy.ndarray = dataclasses.field(repr=False)
 
     @property

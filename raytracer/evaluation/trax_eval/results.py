@@ -32,7 +32,8 @@ def effective(point, tools):
         if not option_of(pair[0]):
             rest = tuple(other for other in point.machine() if other[0] != pair[0])
             base = tuple(other for other in point.program.settings if other[0] == pair[0])
-            if tools.configuration(point.chip_file, rest + base) == tools.configuration(point.chip_file, point.machine()):
+            without, whole = (tools.configuration(point.chip_file, some) for some in (rest + base, point.machine()))
+            if without == whole:
                 continue
         kept.append(pair)
     return dict(kept)
