@@ -343,8 +343,8 @@ def test_sequence_of_a_file():
     words = ["--at", "0:1", "--frames", "3", "-q", "--size", "16x9", "--material", "mirror", "--set", "chip.tms=1"]
     call("trax-render", "walks.gltf", *words, "--no-refit", "--samples", "2", "-o", "turns")
     rows = frames("turns")
-    check([(key, row["at"]) for key, row in rows.items()] == [((1, "new trees"), "0"), ((2, "new trees"), "0.5"),
-                                                             ((3, "new trees"), "1")], rows)
+    check({key: row["at"] for key, row in rows.items()} ==
+          {(1, "new trees"): "0", (2, "new trees"): "0.5", (3, "new trees"): "1"}, rows)
     run = next(pathlib.Path("turns/jobs").glob("*.json")).read_text()
     check('"tms": 1' in run or "tms = 1" in run, "--set", run)
     refused("--frames with --at X:Y needs -o FOLDER", "trax-render", "walks.gltf", *words)

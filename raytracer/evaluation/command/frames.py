@@ -136,8 +136,8 @@ class Sequence:
                 write_json(statistics, read_json(self.folder / run["json"])["statistics"])
                 stats, values = run["stats"], run["values"]
                 rows.append([number, point["set"][AT], point["variant"], stats["cycles"], stats["rays"],
-                               stats["mrps"], values["bytes_per_ray"], values.get("scene.bvh.sah_nodes"),
-                               values.get(NAME) if point["variant"] == REFITTED else None])
+                             stats["mrps"], values["bytes_per_ray"], values.get("scene.bvh.sah_nodes"),
+                             values.get(NAME) if point["variant"] == REFITTED else None])
         text = io.StringIO()
         columns = ["frame", "at", "tree", "cycles", "rays", "mrps", "bytes_per_ray", "sah_nodes", NAME]
         csv.writer(text, lineterminator="\n").writerows([columns, *sorted(rows, key=lambda row: (row[0], row[2]))])
