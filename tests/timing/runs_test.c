@@ -268,7 +268,8 @@ static void latencies_of_one_tp(void **state) {
   struct trax_config config = bench_near(1, 1);
   for (uint32_t latency = 1; latency < 8; latency++) {
     const uint32_t program[] = {
-        R(FADD, 1, 1, 2), NOP, R(FMUL, 3, 1, 1), NOP, NOP, R(FADD, 1, 3, 1), R(ADD, 4, 1, 3), NOP, NOP, NOP, HALT};
+        R(FADD, 1, 1, 2), NOP, R(FMUL, 3, 1, 1), NOP, NOP, R(FADD, 1, 3, 1), R(ADD, 4, 1, 3), NOP, NOP, NOP,
+        R(FADD, 1, 1, 2), NOP, R(ADD, 4, 1, 3),  NOP, HALT};
     config.fpu.add_latency_cycles = config.fpu.mul_latency_cycles = latency;
     expect_as_reference(&config, program, sizeof program / 4);
   }
@@ -296,6 +297,33 @@ static void a_bank_after_one_was_awake(void **state) {
     words[count++] = B(BNE, 3, 0, -4);
     words[count++] = HALT;
     config.memory.latency_cycles = 100 + i / 8;
+    expect_as_reference(&config, words, count);
+  }
+}
+
+/* The same for the adder: the second TP has used it last when it waits, and wants it when it has its word. */
+static void an_adder_after_one_was_awake(void **state) {
+  (void)state;
+  struct trax_config config = bench_far(1, 2);
+  config.icache.line_bytes = 1024;
+  for (unsigned i = 0; i < 30; i++) {
+    const int32_t pad = 13 + (int32_t)i / 10 * 3;
+    uint32_t words[48] = {U(LUI, 1, 1), U(RDSR, 2, TRAX_SR_THREAD), B(BEQ, 2, 0, 4 * (pad + 5))};
+    size_t count = 3;
+    for (int32_t k = 0; k < pad; k++)
+      words[count++] = NOP;
+    words[count++] = R(FADD, 8, 8, 8);
+    words[count++] = I(LW, 5, 1, 0);
+    words[count++] = R(FADD, 7, 5, 5);
+    words[count++] = HALT;
+    words[count++] = I(ADDI, 3, 0, 70);
+    words[count++] = R(FADD, 6, 6, 6); /* once in ten instructions */
+    for (int32_t k = 0; k < 7; k++)
+      words[count++] = NOP;
+    words[count++] = I(ADDI, 3, 3, -1);
+    words[count++] = B(BNE, 3, 0, -36);
+    words[count++] = HALT;
+    config.memory.latency_cycles = 100 + i % 10;
     expect_as_reference(&config, words, count);
   }
 }
@@ -361,6 +389,7 @@ int main(void) {
       cmocka_unit_test(a_stop_behind_stores),
       cmocka_unit_test(a_byte_before_its_word),
       cmocka_unit_test(a_bank_after_one_was_awake),
+      cmocka_unit_test(an_adder_after_one_was_awake),
       cmocka_unit_test(exit_statuses),
       cmocka_unit_test(the_limit_covers_the_last_store),
       cmocka_unit_test(watchdog_and_interrupt),
