@@ -1,9 +1,9 @@
 /* Suggestions for an undefined symbol.
 
    RUN: rm -rf %t && mkdir %t && cd %t
-   RUN: %clang -x c -DDEFINES -c %s -o defines.o && %clang -x c -DLIBRARY -c %s -o library.o && llvm-ar rc lib.a
-   library.o RUN: %clangxx -O1 -DNEEDS -c %s -o needs.o && %clangxx -DOTHER -c %s -o other.o RUN: not %trax_ld needs.o
-   other.o defines.o lib.a -e main -o no 2>&1 | FileCheck %s --implicit-check-not=error: --implicit-check-not=">>>"
+   RUN: %clang -x c -DDEFINES -c %s -o defines.o && %clang -x c -DLIBRARY -c %s -o library.o && llvm-ar rc lib.a library.o
+   RUN: %clangxx -O1 -DNEEDS -c %s -o needs.o && %clangxx -DOTHER -c %s -o other.o
+   RUN: not %trax_ld needs.o other.o defines.o lib.a -e main -o no 2>&1 | FileCheck %s --implicit-check-not=error: --implicit-check-not=">>>"
    CHECK: error: {{.*}}: undefined symbol 'c_function(int)' (in function 'main')
    CHECK-NEXT: >>> did you mean to declare 'c_function' as extern "C"? 'c_function' is defined
    CHECK: error: {{.*}}: undefined symbol 'cpp_function'
