@@ -54,13 +54,14 @@ struct Choice {
   unsigned Option;
   StringRef Only;
 };
-const Choice Choices[] = {{OPT_mcpu_EQ, "generic"}, {OPT_march_EQ, "generic"}, {OPT_mtune_EQ, "generic"},
+const Choice Choices[] = {{OPT_mcpu_EQ, "generic"},  {OPT_march_EQ, "generic"},   {OPT_mtune_EQ, "generic"},
                           {OPT_stdlib_EQ, "libc++"}, {OPT_fuse_ld_EQ, "trax-ld"}, {OPT_fopenmp_EQ, "libomp"}};
 
 bool isOpenCL(const Arg &Given) {
   const StringRef Value = Given.getNumValues() ? Given.getValue() : "";
-  return Given.getOption().matches(OPT_x) ? Value == "cl" || Value == "clcpp"
-                                          : Given.getOption().matches(OPT_INPUT) && (Value.ends_with(".cl") || Value.ends_with(".clcpp"));
+  return Given.getOption().matches(OPT_x)
+             ? Value == "cl" || Value == "clcpp"
+             : Given.getOption().matches(OPT_INPUT) && (Value.ends_with(".cl") || Value.ends_with(".clcpp"));
 }
 
 bool isFixedRegister(const Arg &Given) {
@@ -121,7 +122,8 @@ void trax::refuseOptions(const Driver &D, const llvm::Triple &Triple, const ArgL
     if (!llvm::is_contained({StringRef("local"), StringRef("global"), StringRef("either")}, Stack->getValue()))
       RefuseValue(*Stack, "are 'local', 'global' and 'either'");
   // Threads read variables on the stack of the thread that started them.
-  if (Args.hasFlag(OPT_fopenmp, OPT_fopenmp_EQ, OPT_fno_openmp, false) && Args.getLastArgValue(OPT_mstack_EQ) != "global")
+  if (Args.hasFlag(OPT_fopenmp, OPT_fopenmp_EQ, OPT_fno_openmp, false) &&
+      Args.getLastArgValue(OPT_mstack_EQ) != "global")
     D.Diag(D.getDiags().getCustomDiagID(clang::DiagnosticsEngine::Error,
                                         "'-fopenmp' needs '-mstack=global' for target '%0'"))
         << Triple.str();

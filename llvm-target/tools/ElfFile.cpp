@@ -228,7 +228,8 @@ Expected<std::vector<uint8_t>> ElfFile::finalContents(const Section &S) const {
       return damaged("section " + Twine(S.Index) + " (" + S.Name + "): relocation at 0x" + Twine::utohexstr(R.Offset) +
                      " lies outside");
     uint32_t Base = R.Target && R.Target->Where ? R.Target->Where->DebugBase : 0;
-    uint32_t Value = Base + (R.Target ? R.Target->Value : 0) + uint32_t(R.Addend) - (R.Type == R_TRAX_PC32 ? R.Offset : 0);
+    uint32_t Value =
+        Base + (R.Target ? R.Target->Value : 0) + uint32_t(R.Addend) - (R.Type == R_TRAX_PC32 ? R.Offset : 0);
     for (unsigned I = 0; I != Width; ++I)
       Bytes[R.Offset + I] = Value >> 8 * I;
   }

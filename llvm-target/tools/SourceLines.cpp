@@ -17,7 +17,8 @@ Expected<SourceLines> SourceLines::read(const ElfFile &File, function_ref<void(E
     Expected<std::vector<uint8_t>> Bytes = File.finalContents(S);
     if (!Bytes)
       return Bytes.takeError();
-    Lines.Contents[Name] = MemoryBuffer::getMemBufferCopy(StringRef(reinterpret_cast<char *>(Bytes->data()), Bytes->size()));
+    Lines.Contents[Name] =
+        MemoryBuffer::getMemBufferCopy(StringRef(reinterpret_cast<char *>(Bytes->data()), Bytes->size()));
   }
 
   Lines.Context =
@@ -35,8 +36,8 @@ Expected<SourceLines> SourceLines::read(const ElfFile &File, function_ref<void(E
     const char *Directory = Directories[Parser.getOffset()];
     Lines.Tables.push_back(Parser.parseNext(Warning, Warning));
     for (const DWARFDebugLine::Sequence &S : Lines.Tables.back().Sequences)
-      Lines.Sequences.push_back({S.LowPC, S.HighPC, &Lines.Tables.back(), Directory ? Directory : "",
-                                 Lines.Sequences.size()});
+      Lines.Sequences.push_back(
+          {S.LowPC, S.HighPC, &Lines.Tables.back(), Directory ? Directory : "", Lines.Sequences.size()});
   }
   llvm::sort(Lines.Sequences, [](const Sequence &A, const Sequence &B) {
     return std::tie(A.Begin, A.Number) < std::tie(B.Begin, B.Number);
