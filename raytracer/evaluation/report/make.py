@@ -16,7 +16,7 @@ from trax_eval.util import Once, Parser, Problem, check_files, complain
 
 from . import choices, estimates, machines, own, rays, simd, tables
 from .charts import all_figures, sweep_figure
-from .claims import AGREES, DIFFERS, FITTED, claims, median, table2_deviations
+from .claims import AGREES, DIFFERS, FITTED, NOT_MEASURED, UNKNOWN, claims, median, table2_deviations
 from .markup import Html, el, join, table
 from .paper import Paper
 from .plots import draw, shapes
@@ -79,6 +79,7 @@ def summary(results, paper, judged):
         text.append(
             f"Agrees with the paper in {said} of {len(judged)} claims, differs in {not_said}; fitted: {fitted}; "
             f"not known: {len(judged) - said - not_said - fitted}."
+            if said + not_said + fitted else f"These runs judge none of the paper's {len(judged)} claims."
         )
         items.append(el("p", *text))
     return join(items)
@@ -177,11 +178,21 @@ class Page:
         self.own = own.sweeps(results)
         figures = self.own_figures() if self.own else all_figures(results, paper)
         figures = (*figures, *rays.figures(results, paper), *simd.figures(results))
-        self.drawn = {figure.identity: draw(figure) for figure in figures}
+        self.made = {figure.identity: figure for figure in figures}
+        self.drawn = {identity: draw(figure) for identity, figure in self.made.items()}
 
     def figures(self, prefix):
-        shown = (figure for identity, figure in self.drawn.items() if identity.startswith(prefix))
-        return el("div", *shown, class_="figures")
+        """The figures whose names begin with the prefix; None if nothing was measured for any of them."""
+        shown = [identity for identity in self.made if identity.startswith(prefix)]
+        if all(self.made[identity].empty() for identity in shown):
+            return None
+        return el("div", *(self.drawn[identity] for identity in shown), class_="figures")
+
+    def has_papers(self):
+        """Whether a cell of the paper's tables was measured."""
+        cells = (self.results.cell(program, scene, chip) for program in self.programs for scene in self.results.papers
+                 for chip in self.paper.chips)
+        return any(run and run.done for run in cells)
 
     def of_programs(self, make):
         return [table(make(self.results, self.paper, program)) for program in self.programs]
@@ -223,28 +234,36 @@ class Page:
     def papers_sections(self):
         results, paper = self.results, self.paper
         judged = claims(results, paper, self.programs)
-        verdicts = table(tables.claims_table(results, judged, self.programs)) if self.programs else None
+        known = any(verdict != (UNKNOWN, NOT_MEASURED) for claim in judged for verdict in claim.verdicts.values())
+        verdicts = table(tables.claims_table(results, judged, self.programs)) if known else None
         by_choice = choices.table(results, paper)
         yield "summary", "Summary", [
             summary(results, paper, judged), verdicts, *([table(by_choice)] if by_choice else [])
         ]
-        yield "tables", "The paper's tables", [
-            table(tables.table1(results, paper)), *self.of_programs(tables.table2), table(tables.table3(results, paper))
-        ]
+        if self.has_papers():
+            yield "tables", "The paper's tables", [
+                table(tables.table1(results, paper)), *self.of_programs(tables.table2),
+                table(tables.table3(results, paper))
+            ]
         yield from self.kinds_sections()
-        text = "Speed-up over the same program on 1x32. Where chips have as many threads, each is a mark of its own."
-        yield "scaling", "Scaling", [
-            el("p", text), self.figures("scaling-"),
-            el("details", el("summary", "As tables"), *self.of_programs(tables.speedups),
-               *self.of_programs(tables.table1_scenes))
-        ]
-        text = "Every thread is charged every cycle to one cause (docs/timing.md)."
-        yield "stalls", "Where the time goes", [el("p", text), self.figures("stalls-")]
+        if self.has_papers():
+            text = ("Speed-up over the same program on 1x32. Where chips have as many threads, each is a mark of its "
+                    "own.")
+            yield "scaling", "Scaling", [
+                el("p", text), self.figures("scaling-"),
+                el("details", el("summary", "As tables"), *self.of_programs(tables.speedups),
+                   *self.of_programs(tables.table1_scenes))
+            ]
+        if stalls := self.figures("stalls-"):
+            text = "Every thread is charged every cycle to one cause (docs/timing.md)."
+            yield "stalls", "Where the time goes", [el("p", text), stalls]
         yield "units", "Hardware and bandwidth", [
-            self.figures("memory-"), table(tables.hardware(results, paper)), table(tables.described(results, paper))
+            self.figures("memory-"), table(tables.hardware(results, paper)) if self.has_papers() else None,
+            table(tables.described(results, paper))
         ]
-        sampled = estimates.every(results)
-        yield "error", "Error and run time", [self.figures("error-"), table(sampled) if sampled else None]
+        sampled, errors = estimates.every(results), self.figures("error-")
+        if sampled or errors:
+            yield "error", "Error and run time", [errors, table(sampled) if sampled else None]
         if results.series:
             text = ("Shares of the thread-cycles of each interval. fetch_refused is the share of instruction fetches "
                     "that a bank conflict refused.")
