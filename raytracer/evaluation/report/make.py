@@ -189,10 +189,10 @@ class Page:
         return el("div", *(self.drawn[identity] for identity in shown), class_="figures")
 
     def has_papers(self):
-        """Whether a cell of the paper's tables was measured."""
+        """Whether a cell of the paper's tables has a run, be it a failed one."""
         cells = (self.results.cell(program, scene, chip) for program in self.programs for scene in self.results.papers
                  for chip in self.paper.chips)
-        return any(run and run.done for run in cells)
+        return any(run is not None for run in cells)
 
     def of_programs(self, make):
         return [table(make(self.results, self.paper, program)) for program in self.programs]
