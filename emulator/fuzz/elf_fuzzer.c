@@ -108,6 +108,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
 }
 
 size_t LLVMFuzzerCustomMutator(uint8_t *bytes, size_t size, size_t capacity, unsigned seed) {
-  static const char *const words[] = {"functional", "main-on-0", NULL};
+  static const char words[] = "functional main-on-0";
   return fuzz_case_mutate(bytes, size, capacity, seed, words);
 }

@@ -87,36 +87,37 @@ size_t fuzz_case_words(char *options, char **words, size_t limit) {
 
 /* --- mutation --- */
 
-static void mutate_options(fuzz_case *fuzz_case, const char *const *words, fuzz_random *random) {
+static void mutate_options(fuzz_case *fuzz_case, const char *words, fuzz_random *random) {
   char copy[FUZZ_MAX_OPTIONS + 1], *parts[128];
   memcpy(copy, fuzz_case->options, sizeof copy);
-  size_t count = fuzz_case_words(copy, parts, 127), word_count = 0;
-  while (words[word_count])
-    word_count++;
+  size_t count = fuzz_case_words(copy, parts, 127);
   char added[128];
   switch (fuzz_below(random, 4)) {
   case 0:
-  case 1: { /* one of the known words more, somewhere */
-    const char *word = words[fuzz_below(random, (uint32_t)word_count)], *percent = strchr(word, '%');
-    if (percent && fuzz_case->file_count)
-      snprintf(added, sizeof added, "%.*s%s%s", (int)(percent - word), word,
-               fuzz_case->files[fuzz_below(random, (uint32_t)fuzz_case->file_count)].name, percent + 1);
+  case 1: { /* adds a known word: the one around a random place of the list */
+    const char *word = words + fuzz_below(random, (uint32_t)strlen(words));
+    while (word > words && word[-1] != ' ')
+      word--;
+    size_t length = strcspn(word, " "), before = strcspn(word, " %");
+    if (before < length && fuzz_case->file_count)
+      snprintf(added, sizeof added, "%.*s%s", (int)before, word,
+               fuzz_case->files[fuzz_below(random, (uint32_t)fuzz_case->file_count)].name);
     else
-      snprintf(added, sizeof added, "%s", word);
+      snprintf(added, sizeof added, "%.*s", (int)length, word);
     size_t place = fuzz_below(random, (uint32_t)count + 1);
     memmove(parts + place + 1, parts + place, (count - place) * sizeof *parts);
     parts[place] = added;
     count++;
     break;
   }
-  case 2: /* one less */
+  case 2: /* removes a word */
     if (count > 1) {
       size_t place = fuzz_below(random, (uint32_t)count);
       memmove(parts + place, parts + place + 1, (count - place - 1) * sizeof *parts);
       count--;
     }
     break;
-  default: { /* plain bytes */
+  default: { /* changes bytes */
     size_t length = LLVMFuzzerMutate((uint8_t *)fuzz_case->options, strlen(fuzz_case->options), FUZZ_MAX_OPTIONS);
     fuzz_case->options[length] = '\0';
     for (char *c = fuzz_case->options; *c; c++)
@@ -188,7 +189,7 @@ static void mutate_files(fuzz_case *fuzz_case, fuzz_random *random) {
   size_t chosen = fuzz_below(random, (uint32_t)fuzz_case->file_count);
   fuzz_file *file = &fuzz_case->files[chosen];
   switch (fuzz_below(random, 4)) {
-  case 0: /* twice */
+  case 0: /* copies a file */
     if (fuzz_case->file_count < FUZZ_MAX_FILES) {
       fuzz_file *copy = &fuzz_case->files[fuzz_case->file_count++];
       *copy = *file;
@@ -196,7 +197,7 @@ static void mutate_files(fuzz_case *fuzz_case, fuzz_random *random) {
       copy->name[0] = (char)('a' + fuzz_below(random, 4));
     }
     break;
-  case 1: /* not at all */
+  case 1: /* removes it */
     if (fuzz_case->file_count > 1) {
       free(file->bytes);
       *file = fuzz_case->files[--fuzz_case->file_count];
@@ -205,7 +206,7 @@ static void mutate_files(fuzz_case *fuzz_case, fuzz_random *random) {
   case 2:
     wrap_in_archive(file);
     break;
-  default: { /* under another name */
+  default: { /* renames it */
     static const char *const names[] = {"a.o", "b.o", "c.o", "libc.a", "liba.a", "response"};
     snprintf(file->name, sizeof file->name, "%s", names[fuzz_below(random, sizeof names / sizeof *names)]);
     break;
@@ -213,7 +214,7 @@ static void mutate_files(fuzz_case *fuzz_case, fuzz_random *random) {
   }
 }
 
-size_t fuzz_case_mutate(uint8_t *bytes, size_t size, size_t capacity, unsigned seed, const char *const *words) {
+size_t fuzz_case_mutate(uint8_t *bytes, size_t size, size_t capacity, unsigned seed, const char *words) {
   fuzz_random random = {seed};
   fuzz_case fuzz_case;
   fuzz_case_read(&fuzz_case, bytes, size);

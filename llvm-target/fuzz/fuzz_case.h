@@ -41,9 +41,9 @@ const fuzz_file *fuzz_case_find(const fuzz_case *fuzz_case, const char *name); /
 /* Cuts options into words at spaces, in place; how many there are, at most limit. */
 size_t fuzz_case_words(char *options, char **words, size_t limit);
 
-/* The parts of a program's custom mutator. words: options that may be added, NULL-terminated; "%" in one is replaced by
-   the name of a file. */
-size_t fuzz_case_mutate(uint8_t *bytes, size_t size, size_t capacity, unsigned seed, const char *const *words);
+/* The body of a program's custom mutator. words: options that it may add, with a space between two; "%" at the end of
+   one becomes the name of a file. */
+size_t fuzz_case_mutate(uint8_t *bytes, size_t size, size_t capacity, unsigned seed, const char *words);
 
 /* --- fuzz_elf.c --- */
 

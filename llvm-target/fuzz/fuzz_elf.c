@@ -78,47 +78,16 @@ static bool has_contents(const elf_file *file, Elf32_Shdr *section) {
 
 /* A value that is often at the edge of something in this file. */
 static uint32_t telling_value(elf_file *file, uint32_t old) {
-  static const uint32_t values[] = {0,
-                                    1,
-                                    2,
-                                    3,
-                                    4,
-                                    8,
-                                    12,
-                                    16,
-                                    0x3F,
-                                    0x40,
-                                    0xFF,
-                                    0x1000,
-                                    0x7FFF,
-                                    0x8000,
-                                    0xFF00,
-                                    0xFFF1,
-                                    0xFFF2,
-                                    0xFFFF,
-                                    0x10000,
-                                    0x00FFFFFF,
-                                    0x7FFFFFFF,
-                                    0x80000000u,
-                                    0xFFFFFE00u,
-                                    0xFFFFFFFFu,
-                                    0x800,
-                                    0x900,
-                                    0x70000000,
-                                    0x6FFF4C03u,
-                                    SHT_GROUP,
-                                    SHT_RELA,
-                                    SHT_REL,
-                                    SHT_NOBITS,
-                                    SHT_SYMTAB,
-                                    SHT_STRTAB,
-                                    SHT_SYMTAB_SHNDX,
-                                    SHT_INIT_ARRAY,
-                                    SHT_NOTE};
+  static const uint32_t values[] = {0,        1,          2,          3,          4,          8,          0xC,
+                                    0x10,     0x3F,       0x40,       0xFF,       0x800,      0x900,      0x1000,
+                                    0x7FFF,   0x8000,     0xFF00,     0xFFF1,     0xFFF2,     0xFFFF,     0x10000,
+                                    0xFFFFFF, 0x6FFF4C03, 0x70000000, 0x7FFFFFFF, 0x80000000, 0xFFFFFE00, 0xFFFFFFFF};
+  static const uint32_t types[] = {SHT_GROUP,  SHT_RELA,         SHT_REL,        SHT_NOBITS, SHT_SYMTAB,
+                                   SHT_STRTAB, SHT_SYMTAB_SHNDX, SHT_INIT_ARRAY, SHT_NOTE};
   uint32_t count = section_count(file);
   switch (fuzz_below(file->random, 8)) {
   case 0:
-    return CHOOSE(file, values);
+    return fuzz_below(file->random, 4) ? CHOOSE(file, values) : CHOOSE(file, types);
   case 1:
     return old + fuzz_below(file->random, 9) - 4;
   case 2:

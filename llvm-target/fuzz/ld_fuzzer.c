@@ -62,66 +62,14 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
 }
 
 size_t LLVMFuzzerCustomMutator(uint8_t *bytes, size_t size, size_t capacity, unsigned seed) {
-  static const char *const words[] = {"%",
-                                      "-l:%",
-                                      "-lc",
-                                      "-la",
-                                      "@%",
-                                      "-L.",
-                                      "-e",
-                                      "-ef",
-                                      "-emain",
-                                      "-e0x1000",
-                                      "-u",
-                                      "-uf",
-                                      "--defsym=f=g+4",
-                                      "--defsym=g=f",
-                                      "--defsym=_start=0x1000",
-                                      "--wrap=f",
-                                      "--wrap=main",
-                                      "--whole-archive",
-                                      "--no-whole-archive",
-                                      "--gc-sections",
-                                      "--no-gc-sections",
-                                      "--print-gc-sections",
-                                      "-s",
-                                      "-S",
-                                      "-Ttext=0x2000",
-                                      "-Ttext=0xFFFFF000",
-                                      "-Map=-",
-                                      "-M",
-                                      "--print-memory-usage",
-                                      "-t",
-                                      "--error-limit=0",
-                                      "--fatal-warnings",
-                                      "-w",
-                                      "-v",
-                                      "--help",
-                                      "-Tdata=0x4000",
-                                      "-Tbss=0x10000",
-                                      "--section-start=.data=0x3000",
-                                      "--section-start=.rodata=0xF0000000",
-                                      "--section-start=extra=0x8000",
-                                      "--symbol-ordering-file=%",
-                                      "--print-stack",
-                                      "--stack-check=none",
-                                      "--stack-check=warn",
-                                      "-zstack-size=64",
-                                      "--allow-multiple-definition",
-                                      "-o%",
-                                      "--print-stack",
-                                      "--stack-check=warn",
-                                      "--stack-check=none",
-                                      "-zstack-size=64",
-                                      "--allow-multiple-definition",
-                                      "-Tdata=0x2000",
-                                      "-Tbss=0x1040",
-                                      "--section-start=.rodata=0x4000",
-                                      "--section-start=.text.f=0x8000",
-                                      "--symbol-ordering-file=%",
-                                      "-O2",
-                                      "-znow",
-                                      "--",
-                                      NULL};
+  static const char words[] =
+      "% -l:% -lc -la @% -L. -e -ef -emain -e0x1000 -u -uf --defsym=f=g+4 --defsym=g=f "
+      "--defsym=_start=0x1000 --wrap=f --wrap=main --whole-archive --no-whole-archive --gc-sections "
+      "--no-gc-sections --print-gc-sections -s -S -Ttext=0x2000 -Ttext=0xFFFFF000 -Map=- -M "
+      "--print-memory-usage -t --error-limit=0 --fatal-warnings -w -v --help -Tdata=0x4000 -Tbss=0x10000 "
+      "--section-start=.data=0x3000 --section-start=.rodata=0xF0000000 --section-start=extra=0x8000 "
+      "--symbol-ordering-file=% --print-stack --stack-check=none --stack-check=warn -zstack-size=64 "
+      "--allow-multiple-definition -o% -Tdata=0x2000 -Tbss=0x1040 --section-start=.rodata=0x4000 "
+      "--section-start=.text.f=0x8000 -O2 -znow --";
   return fuzz_case_mutate(bytes, size, capacity, seed, words);
 }

@@ -81,25 +81,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *Bytes, size_t Size) {
 }
 
 extern "C" size_t LLVMFuzzerCustomMutator(uint8_t *Bytes, size_t Size, size_t Capacity, unsigned Seed) {
-  static const char *const Words[] = {"-f",
-                                      "-h",
-                                      "-p",
-                                      "-t",
-                                      "-r",
-                                      "-s",
-                                      "-d",
-                                      "-D",
-                                      "-l",
-                                      "-S",
-                                      "-x",
-                                      "--units",
-                                      "--no-aliases",
-                                      "-j.text",
-                                      "-j.data",
-                                      "-jextra",
-                                      "--disassemble-symbols=f",
-                                      "--start-address=8",
-                                      "--stop-address=0x1010",
-                                      nullptr};
+  static const char Words[] = "-f -h -p -t -r -s -d -D -l -S -x --units --no-aliases -j.text -j.data -jextra "
+                              "--disassemble-symbols=f --start-address=8 --stop-address=0x1010";
   return fuzz_case_mutate(Bytes, Size, Capacity, Seed, Words);
 }

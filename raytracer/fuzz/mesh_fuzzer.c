@@ -63,7 +63,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
 /* --- mutation: within files, by words of their formats --- */
 
 size_t LLVMFuzzerCustomMutator(uint8_t *bytes, size_t size, size_t capacity, unsigned seed) {
-  static const char *const words[] = {"moves", "mirror", "glass:2", "a=ggx:0.5", "emit:1,2,3", "b=lambert", NULL};
+  static const char words[] = "moves mirror glass:2 a=ggx:0.5 emit:1,2,3 b=lambert";
   static const char *const lines[] = {"f 1/1/1 2/2/2 3/3/3\n",
                                       "f -1 -2 -3 -4 -5\n",
                                       "vt 0.5 1e9\n",

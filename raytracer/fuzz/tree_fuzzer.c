@@ -106,7 +106,7 @@ static void change_number(fuzz_file *file, fuzz_random *random) {
 }
 
 size_t LLVMFuzzerCustomMutator(uint8_t *bytes, size_t size, size_t capacity, unsigned seed) {
-  static const char *const words[] = {"twins", "lamps", "deep", "quantised", "smooth", NULL};
+  static const char words[] = "twins lamps deep quantised smooth";
   fuzz_random random = {seed};
   if (fuzz_below(&random, 3) == 0)
     return fuzz_case_mutate(bytes, size, capacity, seed, words);
