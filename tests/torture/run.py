@@ -10,7 +10,8 @@ object file, or to be refused where it says so. Each first has the 512 bytes of 
 needs more gets -mstack=global.
 
 not_applicable.txt names the programs that cannot pass and why. It is checked: a listed program that passes is an error,
-unless its behaviour is undefined, and so is one that the host's clang -m32 passes, which is tried for each.
+unless its behaviour is undefined, and so is one that the host's clang -m32 passes, which is tried for each. Those that
+gcc's own driver excludes are not tried.
 
 Exit status: 0 if at least 98 % of the applicable programs pass at every level and the list holds, else 1.
 """
@@ -29,7 +30,6 @@ import subprocess
 import sys
 import tarfile
 
-import dejagnu
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 import interrupts  # noqa: E402
 
@@ -47,8 +47,9 @@ SIMULATOR = ["--engine", "fast", "--quiet", "--max-cycles", str(CYCLES), "--set"
 DIALECT = ["-w", "-std=gnu17", "-Wno-implicit-int", "-Wno-implicit-function-declaration", "-Wno-int-conversion",
            "-Wno-return-mismatch",
            "-Wno-incompatible-function-pointer-types"]
-# Options that our driver passes by itself, where a program asks to be skipped with them.
-TARGET_OPTIONS = ["-fomit-frame-pointer"]
+# The directives that matter: options without a condition on the target, and that the compiler must refuse the program.
+OPTIONS = re.compile(r'\{\s*dg-(?:additional-)?options\s+[{\s]*"([^"]*)"[}\s]*\}')
+ERROR = re.compile(r'\bdg-error\s+"[^"]*"[^{}]*\}')
 # Options that gcc's drivers (ieee.exp, builtins.exp) add for a folder.
 FOLDER_OPTIONS = {"execute/ieee": ["-fno-inline", "-DSIGNAL_SUPPRESS"],
                   "execute/builtins": ["-fno-inline-functions", "-Wl,--allow-multiple-definition"]}
@@ -77,13 +78,14 @@ class Listed:
     """A program of not_applicable.txt."""
 
     name: str
-    levels: str  # all, undefined, optimized or a list
+    levels: str  # all, excluded, undefined, optimized or a list
     reason: str
     used: bool = False
 
     def covers(self, level):
-        return self.levels in ("all", "undefined") or (level != "-O0" if self.levels == "optimized" else level
-                                                       in self.levels.split(","))
+        if self.levels == "optimized":
+            return level != "-O0"
+        return self.levels in ("all", "excluded", "undefined") or level in self.levels.split(",")
 
 
 def fail(message):
@@ -136,19 +138,19 @@ def read_list(path):
             if line[0].isspace() and levels:
                 listed += [Listed(name, levels, reason) for name in line.split()]
                 continue
-            match = re.fullmatch(r"(all|undefined|optimized|-O\S+) (.+)\n", line)
+            match = re.fullmatch(r"(all|excluded|undefined|optimized|-O\S+) (.+)\n", line)
             if not match:
                 fail(
-                    f"{path}:{number}: expected 'all|undefined|optimized|LEVELS REASON', or names with a blank before "
-                    f"them"
+                    f"{path}:{number}: expected 'all|excluded|undefined|optimized|LEVELS REASON', or names with a "
+                    f"blank before them"
                 )
             levels, reason = match.groups()
     return listed
 
 
-def options_of(program, directives):
+def options_of(program, text):
     """The options that the program, its .x file and its folder ask for."""
-    options = FOLDER_OPTIONS.get(os.path.dirname(program.name), []) + directives.options
+    options = FOLDER_OPTIONS.get(os.path.dirname(program.name), []) + " ".join(OPTIONS.findall(text)).split()
     driver = program.sources[0][:-2] + ".x"
     if os.path.exists(driver):
         with open(driver, encoding="latin-1") as file:
@@ -203,15 +205,15 @@ class Compiler:
     def __init__(self, command, simulator):
         self.command, self.simulator = command, simulator
 
-    def attempt(self, program, directives, level, folder, extra=()):
+    def attempt(self, program, text, level, folder, extra=()):
         """Return "" if the program does what it has to, else why not; and the output of the failing step."""
         binary = os.path.join(folder, "program")
         mode = [] if program.run else ["-c"]
         # -lm stands last, as in gcc's driver.
         command = [*self.command, *DIALECT, level, *extra, *mode, *program.sources, "-o", binary,
                    *(["-lm"] if program.run else [])]
-        status, output = compile_(command, options_of(program, directives), folder)
-        if directives.errors:
+        status, output = compile_(command, options_of(program, text), folder)
+        if ERROR.search(text):
             return ("", "") if status == 1 else ("is compiled, and should not be", output)
         if status != 0:
             return f"compilation: {first_error(output)}", output
@@ -249,20 +251,19 @@ class Runner:
     def attempt(self, program):
         """Return the program's Result."""
         with open(program.sources[0], encoding="latin-1") as file:
-            directives = dejagnu.read(file.read(), [self.level, *TARGET_OPTIONS])
-        if directives.unsupported:
-            return Result("not applicable", f"gcc's own driver: {directives.unsupported}")
-        run = dataclasses.replace(program, run=program.run if directives.action in ("", "run") else False)
+            text = file.read()
+        listed = self.listed(program.name)
+        if listed and listed.levels == "excluded":
+            return Result("not applicable", f"gcc's own driver: {listed.reason}")
         folder = os.path.join(self.folder, self.level, program.name)
         shutil.rmtree(folder, ignore_errors=True)
         os.makedirs(folder)
-        problem, output = self.trax.attempt(run, directives, self.level, folder)
+        problem, output = self.trax.attempt(program, text, self.level, folder)
         global_stack = bool(problem and needs_global_stack(output))
         if global_stack:
-            problem, output = self.trax.attempt(run, directives, self.level, folder, GLOBAL_STACK)
-        listed = self.listed(program.name)
+            problem, output = self.trax.attempt(program, text, self.level, folder, GLOBAL_STACK)
         if listed and listed.levels == "undefined":
-            if not any(self.host.attempt(run, directives, level, folder)[0] for level in ("-O2", "-Os", "-O0")):
+            if not any(self.host.attempt(program, text, level, folder)[0] for level in ("-O2", "-Os", "-O0")):
                 return Result("failed",
                               f"in not_applicable.txt, but clang -m32 passes it at all levels: {listed.reason}")
             return Result("not applicable", f"undefined: {listed.reason}")
@@ -275,7 +276,7 @@ class Runner:
             file.write(output)
         if not listed:
             return Result("failed", problem)
-        if not self.host.attempt(run, directives, self.level, folder)[0]:
+        if not self.host.attempt(program, text, self.level, folder)[0]:
             return Result("failed", f"{problem}; in not_applicable.txt, but clang -m32 passes it: {listed.reason}")
         return Result("not applicable", listed.reason)
 
