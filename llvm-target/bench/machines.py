@@ -112,7 +112,8 @@ class Riscv:
     def add_sources(self, sources):
         """Compiles them with the flags that the runtime is compiled with."""
         command = [*self.compiler, "-std=c17", "-D_DEFAULT_SOURCE", "-O2", "-ffreestanding", "-fno-builtin",
-                   "-fno-math-errno", "-ffunction-sections", LIBRARY_SQRT, f"-I{ROOT / 'isa/include'}"]
+                   "-fno-math-errno", "-ffunction-sections", LIBRARY_SQRT, f"-I{ROOT / 'isa/include'}",
+                   f"-I{self.build / 'runtime/math'}"]
         with self.growing:
             for source in sources:
                 made = self.work / f"{self.name}-{source.parent.name}-{source.stem}.o"

@@ -79,7 +79,7 @@ class OutsideRiscv(Riscv):
                 run([*self.compiler, "-std=c17", "-D_DEFAULT_SOURCE", "-O2", *(["-Os"] if part in small else []),
                      "-ffreestanding", "-fno-builtin",
                      "-fno-math-errno", "-ffunction-sections", f"-I{ROOT / 'isa/include'}",
-                     f"-I{self.build / 'isa/include'}", "-c", source,
+                     f"-I{self.build / 'isa/include'}", f"-I{self.build / 'runtime/math'}", "-c", source,
                      "-o", objects[-1]])
         newlib = self.build / "runtime/newlib/libm/common"
         for name in NEWLIB:

@@ -234,7 +234,8 @@ def compare_code_size(options, work):
     """Print a row for each level; nothing is required of them."""
     library = [source for part in ("builtins", "math", "stdio", "stdlib", "string")
                for source in sorted((ROOT / "runtime" / part).glob("*.c"))]
-    library_flags = ["-std=c17", "-D_DEFAULT_SOURCE", "-ffreestanding", "-fno-builtin", f"-I{ROOT / 'isa/include'}"]
+    library_flags = ["-std=c17", "-D_DEFAULT_SOURCE", "-ffreestanding", "-fno-builtin", f"-I{ROOT / 'isa/include'}",
+                     f"-I{options.build / 'runtime/math'}"]
     trax, riscv = Trax(options.build, work), Riscv(options.build, work, library=False)
     print(f"{'bytes of code':18} {'ray tracer':>10} {'rv32':>8} {'library':>10} {'rv32':>8}")
     for name, flags in SIZE_LEVELS.items():
