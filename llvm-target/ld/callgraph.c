@@ -35,7 +35,7 @@ static bool is_code(const ld_section *section) {
   return section->live && (section->flags & SHF_EXECINSTR) && section->data && section->size >= 4;
 }
 
-/* Labels within functions, which assembly need not hide, start no function of their own. */
+/* A label within a function starts no function: assembly need not hide such labels. */
 static void add_start(ld_context *ctx, start_list *starts, const ld_symbol *symbol) {
   if (symbol->kind != LD_DEFINED || !is_code(symbol->section) || symbol->value >= symbol->section->size)
     return;
@@ -236,16 +236,12 @@ static void scan_indirect(scanner *scanner, ld_function *function, uint32_t offs
   }
 }
 
-static uint32_t load32(const uint8_t *bytes) {
-  return bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
-}
-
 static void scan_function(scanner *scanner, ld_function *function) {
   const ld_section *section = function->section;
   trax_inst inst = {0};
   for (uint32_t offset = (function->start + 3) & ~3u; offset < function->end && section->size - offset >= 4;
        offset += 4) {
-    inst = trax_decode(load32(section->data + offset));
+    inst = trax_decode(ld_load32(section->data + offset));
     if (inst.op == TRAX_OP_JALR)
       scan_indirect(scanner, function, offset, inst);
     else if (trax_op_table[inst.op].flags & TRAX_IS_BRANCH)

@@ -94,6 +94,9 @@ bool ld_write_file(ld_context *ctx, const char *path, const void *bytes, size_t 
 static inline uint64_t ld_align(uint64_t value, uint32_t alignment) {
   return (value + alignment - 1) & ~(uint64_t)(alignment - 1);
 }
+static inline uint32_t ld_load32(const uint8_t *bytes) {
+  return bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
+}
 bool ld_starts_with(const char *text, const char *prefix);
 bool ld_parse_number(const char *text, uint32_t *value); /* decimal, 0x or octal, all of text */
 
@@ -116,6 +119,8 @@ typedef struct ld_section_start {
   uint32_t address;
 } ld_section_start;
 
+typedef LD_VECTOR(const char *) ld_words;
+
 typedef enum ld_stack_check { LD_STACK_ERROR, LD_STACK_WARN, LD_STACK_NONE } ld_stack_check;
 
 typedef struct ld_options {
@@ -123,16 +128,17 @@ typedef struct ld_options {
   const char *entry;
   const char *map_path; /* NULL: none; "-": standard output */
   LD_VECTOR(ld_input) inputs;
-  LD_VECTOR(const char *) library_paths;
-  LD_VECTOR(const char *) undefined; /* -u */
-  LD_VECTOR(const char *) wrapped;
+  ld_words library_paths;
+  ld_words undefined; /* -u */
+  ld_words wrapped;
   LD_VECTOR(ld_defsym) defsyms;
   LD_VECTOR(ld_section_start) section_starts;
   const char *ordering_path; /* --symbol-ordering-file, or NULL */
   uint32_t text_start;
   unsigned error_limit;    /* 0: none */
   unsigned response_files; /* read so far */
-  LD_VECTOR(const char *) response_paths;
+  ld_words response_paths;
+  bool whole_archive; /* of the inputs that follow */
   bool allow_multiple_definition;
   uint32_t stack_size; /* bytes that the stack may take; 0: what local memory has */
   ld_stack_check stack_check;

@@ -5,7 +5,7 @@
 
 #include <stdlib.h>
 
-/* Objects and archives are compared with the outputs when it is known where they are. */
+/* Objects and archives are compared with the outputs later, when their paths are known. */
 static bool check_files(ld_context *ctx) {
   const ld_options *options = &ctx->options;
   trax_error error;

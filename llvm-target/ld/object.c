@@ -370,7 +370,7 @@ static void read_relocations(ld_context *ctx, ld_object *object, size_t index) {
     return;
   }
   ld_section *target = object->sections[header.sh_info];
-  if (target->discarded) /* also what is left out anyway: call-graph profiles have SHT_REL on every machine */
+  if (target->discarded) /* before the error below: call-graph profiles have SHT_REL on every machine */
     return;
   if (header.sh_type == SHT_REL) {
     ld_error(ctx, "%s: section %zu: relocations without addends (SHT_REL) are not supported", object->name, index);

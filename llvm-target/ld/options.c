@@ -85,7 +85,7 @@ static void set_stack_check(ld_context *ctx, const char *value) {
   ld_error(ctx, "--stack-check=%s: must be error, warn or none", value);
 }
 
-/* -z: other linkers' keywords are about what this machine does not have. */
+/* -z: other linkers' keywords concern features that this machine lacks. */
 static void set_keyword(ld_context *ctx, const char *value) {
   static const char stack_size[] = "stack-size=";
   if (!ld_starts_with(value, stack_size))
@@ -94,9 +94,9 @@ static void set_keyword(ld_context *ctx, const char *value) {
     ld_error(ctx, "-z %s: not a number of bytes", value);
 }
 
-static void apply(ld_context *ctx, const ld_option *option, const char *spelled, const char *value,
-                  bool *whole_archive) {
+static void apply(ld_context *ctx, const ld_option *option, const char *spelled, const char *value) {
   ld_options *options = &ctx->options;
+  void *member = (char *)options + option->member;
   switch (option->id) {
   case OPT_ACCEPTED:
   case OPT_HEADING:
@@ -104,71 +104,31 @@ static void apply(ld_context *ctx, const ld_option *option, const char *spelled,
   case OPT_DEFSYM:
     add_defsym(ctx, value);
     break;
-  case OPT_ENTRY:
-    options->entry = value;
-    break;
-  case OPT_DEMANGLE:
-  case OPT_NO_DEMANGLE:
-    options->no_demangle = option->id == OPT_NO_DEMANGLE;
-    break;
   case OPT_ERROR_LIMIT:
     set_error_limit(ctx, value);
     break;
-  case OPT_FATAL_WARNINGS:
-  case OPT_NO_FATAL_WARNINGS:
-    options->fatal_warnings = option->id == OPT_FATAL_WARNINGS;
-    break;
-  case OPT_GC:
-  case OPT_NO_GC:
-    options->gc_sections = option->id == OPT_GC;
-    break;
-  case OPT_HELP:
-    options->help = true;
+  case OPT_FLAG:
+    *(bool *)member = option->value;
     break;
   case OPT_KEYWORD:
     set_keyword(ctx, value);
     break;
   case OPT_LIBRARY: {
-    ld_input input = {.name = value, .is_library = true, .whole_archive = *whole_archive};
+    ld_input input = {.name = value, .is_library = true, .whole_archive = options->whole_archive};
     ld_push(ctx, &options->inputs, input);
     break;
   }
-  case OPT_LIBRARY_PATH:
-    ld_push(ctx, &options->library_paths, value);
-    break;
-  case OPT_MAP:
-    options->map_path = value;
+  case OPT_LIST:
+    ld_push(ctx, (ld_words *)member, value);
     break;
   case OPT_MAP_STDOUT:
     options->map_path = "-";
     break;
-  case OPT_NO_WARNINGS:
-    options->no_warnings = true;
-    break;
-  case OPT_ORDERING:
-    options->ordering_path = value;
-    break;
-  case OPT_OUTPUT:
-    options->output = value;
-    break;
-  case OPT_PRINT_GC:
-  case OPT_NO_PRINT_GC:
-    options->print_gc_sections = option->id == OPT_PRINT_GC;
-    break;
-  case OPT_ALLOW_MULTIPLE:
-    options->allow_multiple_definition = true;
-    break;
-  case OPT_PRINT_MEMORY:
-    options->print_memory_usage = true;
-    break;
-  case OPT_PRINT_STACK:
-    options->print_stack = true;
-    break;
   case OPT_NO_STACK_CHECK:
     options->stack_check = LD_STACK_NONE;
     break;
-  case OPT_STACK_CHECK:
-    set_stack_check(ctx, value);
+  case OPT_REJECTED:
+    ld_error(ctx, "%s: %s", spelled, option->help);
     break;
   case OPT_SECTION_ADDRESS:
     add_section_start(ctx, ld_format(ctx, ".%s", option->name + 1), ld_format(ctx, "-%s", option->name), value);
@@ -176,33 +136,11 @@ static void apply(ld_context *ctx, const ld_option *option, const char *spelled,
   case OPT_SECTION_START:
     set_section_start(ctx, value);
     break;
-  case OPT_REJECTED:
-    ld_error(ctx, "%s: %s", spelled, option->help);
+  case OPT_STACK_CHECK:
+    set_stack_check(ctx, value);
     break;
-  case OPT_STRIP_ALL:
-    options->strip_all = options->strip_debug = true;
-    break;
-  case OPT_STRIP_DEBUG:
-    options->strip_debug = true;
-    break;
-  case OPT_TRACE:
-    options->trace = true;
-    break;
-  case OPT_UNDEFINED:
-    ld_push(ctx, &options->undefined, value);
-    break;
-  case OPT_V:
-    options->version = true;
-    break;
-  case OPT_VERSION:
-    options->version = options->version_only = true;
-    break;
-  case OPT_WHOLE_ARCHIVE:
-  case OPT_NO_WHOLE_ARCHIVE:
-    *whole_archive = option->id == OPT_WHOLE_ARCHIVE;
-    break;
-  case OPT_WRAP:
-    ld_push(ctx, &options->wrapped, value);
+  case OPT_TEXT:
+    *(const char **)member = value;
     break;
   }
 }
@@ -218,7 +156,7 @@ bool ld_parse_options(ld_context *ctx, int argc, char **argv) {
   for (int i = 0; i < argc; i++)
     ld_expand(ctx, &arguments, argv[i]);
 
-  bool whole_archive = false, only_files = false;
+  bool only_files = false;
   for (size_t i = 0; i < arguments.count; i++) {
     const char *argument = arguments.items[i];
     if (argument[0] == '\0') {
@@ -226,7 +164,7 @@ bool ld_parse_options(ld_context *ctx, int argc, char **argv) {
       continue;
     }
     if (only_files || argument[0] != '-' || argument[1] == '\0') {
-      ld_input input = {.name = argument, .whole_archive = whole_archive};
+      ld_input input = {.name = argument, .whole_archive = options->whole_archive};
       ld_push(ctx, &options->inputs, input);
       continue;
     }
@@ -255,8 +193,10 @@ bool ld_parse_options(ld_context *ctx, int argc, char **argv) {
       ld_error(ctx, "'%s' has an empty argument", argument);
       continue;
     }
-    apply(ctx, option, argument, value, &whole_archive);
+    apply(ctx, option, argument, value);
   }
+  options->strip_debug |= options->strip_all;
+  options->version |= options->version_only;
   if (options->inputs.count == 0 && !options->help && !options->version && ctx->error_count == 0)
     ld_error(ctx, "no input files");
   return ctx->error_count == 0;

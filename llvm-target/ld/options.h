@@ -6,44 +6,20 @@
 
 typedef enum ld_option_id {
   OPT_ACCEPTED, /* without effect */
-  OPT_ALLOW_MULTIPLE,
   OPT_DEFSYM,
-  OPT_ENTRY,
   OPT_ERROR_LIMIT,
-  OPT_DEMANGLE,
-  OPT_NO_DEMANGLE,
-  OPT_FATAL_WARNINGS,
-  OPT_GC,
+  OPT_FLAG,    /* sets a bool of ld_options to .value */
   OPT_HEADING, /* no option: its help stands above those that follow */
-  OPT_HELP,
   OPT_KEYWORD,
   OPT_LIBRARY,
-  OPT_LIBRARY_PATH,
-  OPT_MAP,
+  OPT_LIST, /* appends to an ld_words of ld_options */
   OPT_MAP_STDOUT,
-  OPT_NO_FATAL_WARNINGS,
-  OPT_NO_GC,
-  OPT_NO_PRINT_GC,
-  OPT_NO_WARNINGS,
-  OPT_NO_WHOLE_ARCHIVE,
-  OPT_ORDERING,
-  OPT_OUTPUT,
-  OPT_PRINT_GC,
-  OPT_PRINT_MEMORY,
-  OPT_PRINT_STACK,
+  OPT_NO_STACK_CHECK,
   OPT_REJECTED,
   OPT_SECTION_ADDRESS,
   OPT_SECTION_START,
-  OPT_NO_STACK_CHECK,
   OPT_STACK_CHECK,
-  OPT_STRIP_ALL,
-  OPT_STRIP_DEBUG,
-  OPT_TRACE,
-  OPT_UNDEFINED,
-  OPT_V,
-  OPT_VERSION,
-  OPT_WHOLE_ARCHIVE,
-  OPT_WRAP
+  OPT_TEXT /* sets a const char * of ld_options */
 } ld_option_id;
 
 typedef enum ld_argument {
@@ -56,6 +32,8 @@ typedef struct ld_option {
   const char *name; /* without dashes */
   ld_argument argument;
   ld_option_id id;
+  size_t member; /* its offset in ld_options */
+  bool value;
   const char *metavar;
   const char *help; /* NULL: an alias of the option before it, or one that is only accepted */
 } ld_option;
@@ -65,8 +43,6 @@ const ld_option *ld_find_option(const char *argument, const char **value);
 
 /* The spelling of the option that a mistyped one probably means; NULL if none is similar. */
 const char *ld_nearest_option(ld_context *ctx, const char *argument);
-
-typedef LD_VECTOR(const char *) ld_words;
 
 /* Adds argument, or, if it is @FILE, the words of that response file. */
 void ld_expand(ld_context *ctx, ld_words *words, const char *argument);

@@ -58,10 +58,6 @@ typedef struct place {
   uint8_t *bytes;
 } place;
 
-static uint32_t load32(const uint8_t *bytes) {
-  return bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
-}
-
 static void store(uint8_t *bytes, uint32_t value, uint32_t width) {
   for (uint32_t i = 0; i < width; i++)
     bytes[i] = (uint8_t)(value >> (8 * i));
@@ -70,7 +66,7 @@ static void store(uint8_t *bytes, uint32_t value, uint32_t width) {
 /* Replaces the low bits of an instruction. */
 static void store_field(uint8_t *bytes, uint32_t value, unsigned bits) {
   uint32_t mask = (1u << bits) - 1;
-  store(bytes, (load32(bytes) & ~mask) | (value & mask), 4);
+  store(bytes, (ld_load32(bytes) & ~mask) | (value & mask), 4);
 }
 
 static const char *target_place(ld_context *ctx, const ld_symbol *symbol) {

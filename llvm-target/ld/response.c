@@ -19,7 +19,6 @@ static void split_words(ld_context *ctx, ld_words *words, char *text, const char
     if (*from == '\0')
       return;
     char *word = from, *to = from, quote = '\0';
-    bool closed = true;
     for (; *from != '\0' && (quote || !isspace((unsigned char)*from)); from++) {
       if (quote && *from == quote) {
         quote = '\0';
@@ -31,10 +30,9 @@ static void split_words(ld_context *ctx, ld_words *words, char *text, const char
         *to++ = *from;
       }
     }
-    closed = quote == '\0';
     bool last = *from == '\0';
     *to = '\0';
-    if (!closed) {
+    if (quote) {
       ld_error(ctx, "%s: a %c quote is not closed", path, quote);
       return;
     }

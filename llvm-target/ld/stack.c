@@ -331,8 +331,8 @@ static void report_depth(const walk *walk, uint32_t root, uint64_t limit, const 
                                 path_text(walk, root, "  "), is_bounded ? "" : "  not counted:\n", unbounded);
 }
 
-/* The depth if every indirect call can reach every function whose address is taken: a bound that holds unless recursion
-   or a frame of unknown size is in the way, and often far from what can happen. Adds these calls to the graph. */
+/* The depth if every indirect call can reach every function whose address is taken. It is a bound unless there is
+   recursion or a frame of unknown size, and often far above the real depth. Adds these calls to the graph. */
 static void add_estimate(ld_context *ctx, uint32_t root) {
   uint32_t any = (uint32_t)ctx->functions.count;
   ld_function callees = {.has_record = true};
