@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* How many of so many random cases: a quarter, and all with TRAX_WHOLE in the environment. */
+/* The number of random cases to run: a quarter of them, or all with TRAX_WHOLE in the environment. */
 static inline int some_of(int cases) {
   return getenv("TRAX_WHOLE") ? cases : cases / 4;
 }

@@ -1,4 +1,4 @@
-/* The accuracy of the runtime's binary32 functions: what the parts of trax-accuracy share. */
+/* The common parts of trax-accuracy, which measures the runtime's binary32 functions. */
 #ifndef TRAX_TEST_ACCURACY_H
 #define TRAX_TEST_ACCURACY_H
 

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""The accuracy of the binary32 functions and what they cost, as docs/results/functions.md has it.
+"""The accuracy of the binary32 functions and their cost, for docs/results/functions.md.
 
-    accuracy.py --measure   measures what measured.csv does not have or what has changed (trax-accuracy, half an hour on
-                            two cores from
-                            nothing), then does what --update does
-    accuracy.py --update    writes the table of docs/results/functions.md from measured.csv, with cycles and bytes
-                            measured now (seconds)
-    accuracy.py --check     exit status 1 if the table's errors are not those of measured.csv
+    accuracy.py --measure        measures the functions that measured.csv lacks or that have changed, then does --update
+                                 (trax-accuracy, half an hour on two cores from nothing)
+    accuracy.py --update         writes the table of docs/results/functions.md from measured.csv, with cycles and bytes
+                                 measured now (seconds)
+    accuracy.py --check-page     exit status 1 if the table's errors are not those of measured.csv
+    accuracy.py --check-sample   exit status 1 if a sample, the results or an error of a function contradict
+                                 measured.csv
 
 Cycles are those of cost.c on one TP with the latencies of the paper, and with caches that hold all. Bytes are those of
 code and constants that a program gets by calling the function, compiled with -O2.
@@ -31,8 +32,11 @@ PAGE = ROOT / "docs/results/functions.md"
 BEGIN, END = "<!-- accuracy.py: begin -->\n", "<!-- accuracy.py: end -->\n"
 
 
-def run(command):
-    done = subprocess.run([str(c) for c in command], stdout=subprocess.PIPE, stdin=subprocess.DEVNULL, check=False)
+SAMPLE = 1 << 20  # operands of each function
+
+
+def run(command, text=""):
+    done = subprocess.run([str(c) for c in command], stdout=subprocess.PIPE, input=text.encode(), check=False)
     if done.returncode != 0:
         sys.exit(f"accuracy.py: {' '.join(map(str, command))} ended with status {done.returncode}")
     return done.stdout.decode()
@@ -82,7 +86,7 @@ def share(part, whole):
 
 
 def measured_columns(row):
-    """What a line of the table says before cycles and bytes."""
+    """Returns a line of the table up to cycles and bytes."""
     count = int(row["operands"])
     at = ", ".join(f"{int(word, 16):08X}" for word in row["at"].split())
     tried = "all" if count == 2**32 else f"2^{count.bit_length() - 1}"
@@ -118,7 +122,49 @@ def update(options):
     new.rename(PAGE)
 
 
-def check():
+def accuracy(options, *arguments, text=""):
+    return run([options.bin / "../tests/bin/trax-accuracy", *arguments], text)
+
+
+def measure(options):
+    """Measures the functions whose rows are missing or do not hold. Writes each row when it is there."""
+    rows = {row["function"]: row for row in measured_rows()} if MEASURED.exists() else {}
+    current = [line.split(",") for line in accuracy(options, "--results").splitlines()]
+    for name, count, results in current:
+        if name not in rows or (rows[name]["operands"], rows[name]["results"]) != (count, results):
+            row, = csv.DictReader(accuracy(options, "--whole", name).splitlines())
+            rows[name] = row
+            new = MEASURED.with_name(MEASURED.name + ".new")
+            with open(new, "w", encoding="ascii") as file:
+                writer = csv.DictWriter(file, row, lineterminator="\n")
+                writer.writeheader()
+                writer.writerows(rows[name] for name, _, _ in current if name in rows)
+            new.rename(MEASURED)
+
+
+def check_sample(options):
+    rows = measured_rows()
+    samples = {row["function"]: row
+               for row in csv.DictReader(accuracy(options, "--sample", SAMPLE).splitlines())}
+    places = [row for row in rows if row["at"]]
+    errors = accuracy(options, "--errors", text="".join(f"{row['function']} {row['at']}\n" for row in places))
+    there = dict(zip((row["function"] for row in places), errors.split()))
+    wrong = [f"{name}: has no row" for name in samples if name not in {row["function"] for row in rows}]
+    for row in rows:
+        name = row["function"]
+        sample = samples[name]
+        greater = float(sample["max_ulp"]) > float(row["max_ulp"])
+        wrong += [f"{name}: {what}" for what, is_wrong in (
+            (f"an error of {sample['max_ulp']} at {sample['at']}", greater),
+            ("more wrong special values", int(sample["wrong_special_values"]) > int(row["wrong_special_values"])),
+            ("more neighbours in wrong order", int(sample["wrong_order"]) > int(row["wrong_order"])),
+            ("another error at the recorded operand", there.get(name, row["max_ulp"]) != row["max_ulp"]),
+            ("other results: run accuracy.py --measure", sample["results"] != row["results"])) if is_wrong]
+    print("\n".join(wrong) or f"{len(rows)} functions agree with measured.csv")
+    sys.exit(bool(wrong))
+
+
+def check_page():
     page = PAGE.read_text(encoding="utf-8")
     table = page[page.index(BEGIN) : page.index(END)]
     missing = [row["function"] for row in measured_rows() if measured_columns(row) not in table]
@@ -132,17 +178,21 @@ def check():
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     what = parser.add_mutually_exclusive_group(required=True)
-    what.add_argument("--measure", action="store_true", help="measure what is missing, then --update")
-    what.add_argument("--update", action="store_true", help="write the table of docs/results/functions.md")
-    what.add_argument("--check", action="store_true", help="compare the table with measured.csv")
+    for name, text in (("--measure", "measure what is missing, then --update"),
+                       ("--update", "write the table of docs/results/functions.md"),
+                       ("--check-page", "compare the table with measured.csv"),
+                       ("--check-sample", "compare the functions with measured.csv")):
+        what.add_argument(name, action="store_true", help=text)
     parser.add_argument("--bin", type=pathlib.Path, default=ROOT / "build/bin")
     options = parser.parse_args()
     interrupts.end_by_signals()
-    if options.check:
-        check()
+    if options.check_sample:
+        check_sample(options)
+    if options.check_page:
+        check_page()
         return
     if options.measure:
-        subprocess.run([options.bin / "../tests/bin/trax-accuracy", "--output", MEASURED], check=True)
+        measure(options)
     update(options)
 
 

@@ -1,11 +1,11 @@
-/* trax-accuracy: how accurate the runtime's binary32 functions are; docs/results/functions.md has the results.
+/* trax-accuracy: the accuracy of the runtime's binary32 functions. accuracy.py keeps the results.
 
-     trax-accuracy --output FILE [FUNCTION...]   all 2^32 operands, or 2^28 sets of several; rows that FILE already has
-   and that still hold are kept, so a run that was stopped goes on where it was trax-accuracy --sample N [FUNCTION...]
-   the first N operands of a sequence that begins with special values; prints rows trax-accuracy --check FILE [--sample
-   N]     compares a sample with FILE, and the greatest errors where FILE has them
+     trax-accuracy --sample N [FUNCTION...]  a row for the first N operands of a sequence that begins with special
+   values trax-accuracy --whole [FUNCTION...]     a row for all 2^32 operands, or 2^28 sets of several trax-accuracy
+   --results                 for each function the operands of --whole, and a hash of its results trax-accuracy --errors
+   the error for each line of standard input, "FUNCTION OPERAND..."
 
-   Exit status: 0, or 1 if the arguments are wrong, a check fails or the host's functions are worse than assumed. */
+   Exit status: 0, or 1 if the arguments are wrong or the host's functions are worse than assumed. */
 #include <errno.h>
 #include <inttypes.h>
 #include <math.h>
@@ -37,14 +37,12 @@ static void fail(const char *format, ...) {
   "results\n"
 #define WHOLE ((uint64_t)1 << 32)
 #define PAIRS ((uint64_t)1 << 28)
-enum { ROW = 256 };
 
-struct row {
-  char text[ROW]; /* the line of the file */
-  bool present;
-};
+static uint64_t whole_count(const struct function *function) {
+  return function->operands == 1 ? WHOLE : PAIRS;
+}
 
-/* The part of a row that a short run can tell: the results over the first operands of the sample. */
+/* A hash of the results over the first operands of the sample: it tells whether a function has changed. */
 static uint64_t fingerprint(const struct function *function) {
   static struct chunk chunk;
   uint64_t hash = 0xCBF29CE484222325u; /* FNV-1a */
@@ -161,121 +159,37 @@ static void operand_text(char *text, size_t size, const struct function *functio
     length += (size_t)snprintf(text + length, size - length, "%s%08" PRIx32, n ? " " : "", operand[n]);
 }
 
-static void make_row(struct row *row, const struct function *function, const struct measured *m) {
+static void print_row(const struct function *function, const struct measured *m) {
   char at[32] = "";
   if (m->worst > 0)
     operand_text(at, sizeof at, function, m->worst_operand);
-  snprintf(row->text, sizeof row->text,
-           "%s,%" PRIu64 ",%.6f,%s,%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%.2f,%016" PRIx64, function->name,
-           m->count, m->worst, at, m->wrong, m->beyond_one, m->special, m->disorder, m->host, fingerprint(function));
-  row->present = true;
-}
-
-/* The number of the field, from 0, of a row; false if the row has not so many. */
-static bool field(const struct row *row, int number, char *text, size_t size) {
-  const char *p = row->text;
-  while (number-- > 0) {
-    p = strchr(p, ',');
-    if (!p)
-      return false;
-    p++;
-  }
-  size_t length = strcspn(p, ",");
-  if (length >= size)
-    return false;
-  memcpy(text, p, length);
-  text[length] = 0;
-  return true;
-}
-
-static void read_rows(struct row *rows, const char *path, bool must_exist) {
-  FILE *file = fopen(path, "r");
-  if (!file) {
-    if (must_exist || errno != ENOENT)
-      fail("%s: %s", path, strerror(errno));
-    return;
-  }
-  char line[ROW];
-  for (int number = 1; fgets(line, sizeof line, file); number++) {
-    if (number == 1) {
-      if (strcmp(line, HEADER) != 0)
-        fail("%s:1: not a table of this program", path);
-      continue;
-    }
-    size_t length = strcspn(line, "\n"), i = 0;
-    if (line[length] != '\n')
-      fail("%s:%d: the line is too long or not complete", path, number);
-    line[length] = 0;
-    while (i < function_count &&
-           (strncmp(line, functions[i].name, strlen(functions[i].name)) != 0 || line[strlen(functions[i].name)] != ','))
-      i++;
-    if (i == function_count)
-      fail("%s:%d: no such function: %.*s", path, number, (int)strcspn(line, ","), line);
-    memcpy(rows[i].text, line, length + 1);
-    rows[i].present = true;
-    char last[ROW];
-    if (!field(&rows[i], 9, last, sizeof last))
-      fail("%s:%d: not ten fields", path, number);
-  }
-  fclose(file);
-}
-
-static void write_rows(const struct row *rows, const char *path) {
-  char temporary[4096];
-  if (snprintf(temporary, sizeof temporary, "%s.new", path) >= (int)sizeof temporary)
-    fail("%s: the name is too long", path);
-  FILE *file = fopen(temporary, "w");
-  if (!file)
-    fail("%s: %s", temporary, strerror(errno));
-  fputs(HEADER, file);
-  for (size_t i = 0; i < function_count; i++)
-    if (rows[i].present)
-      fprintf(file, "%s\n", rows[i].text);
-  if (fclose(file) || rename(temporary, path))
-    fail("%s: %s", path, strerror(errno));
-}
-
-/* Whether the row is of a run over so many operands, of functions that still give the same results. */
-static bool holds(const struct row *row, const struct function *function, uint64_t count) {
-  char operands[32], results[32], hash[32];
-  if (!row->present || !field(row, 1, operands, sizeof operands) || !field(row, 9, results, sizeof results))
-    return false;
-  snprintf(hash, sizeof hash, "%016" PRIx64, fingerprint(function));
-  return strtoull(operands, NULL, 10) == count && !strcmp(results, hash);
-}
-
-/*--- a sample against the rows ---*/
-
-static bool check(const struct row *row, const struct function *function, const struct measured *m) {
-  char text[5][64], hash[32];
-  static const int numbers[] = {2, 3, 6, 7, 9};
-  if (!row->present) {
-    printf("%-12s has no row  FAILED\n", function->name);
-    return false;
-  }
-  for (int i = 0; i < 5; i++)
-    if (!field(row, numbers[i], text[i], sizeof text[i]))
-      fail("the row of %s is damaged", function->name);
-  snprintf(hash, sizeof hash, "%016" PRIx64, fingerprint(function));
-  uint32_t operand[3] = {0};
-  sscanf(text[1], "%" SCNx32 " %" SCNx32 " %" SCNx32, &operand[0], &operand[1], &operand[2]);
-  double bound = strtod(text[0], NULL);
-  char there[32];
-  snprintf(there, sizeof there, "%.6f", text[1][0] ? error_at(function, operand) : 0);
-  const char *bad = m->worst > bound + 0.5e-6                   ? "a greater error"
-                    : m->special > strtoull(text[2], NULL, 10)  ? "more wrong special values"
-                    : m->disorder > strtoull(text[3], NULL, 10) ? "more neighbours in wrong order"
-                    : strcmp(there, text[0]) != 0               ? "another error at the recorded operand"
-                    : strcmp(hash, text[4]) != 0                ? "other results: measure it again"
-                                                                : NULL;
-  printf("%-12s %.6f of %.6f ulp, %" PRIu64 " wrong special values%s%s\n", function->name, m->worst, bound, m->special,
-         bad ? "  FAILED: " : "", bad ? bad : "");
+  printf("%s,%" PRIu64 ",%.6f,%s,%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%.2f,%016" PRIx64 "\n", function->name,
+         m->count, m->worst, at, m->wrong, m->beyond_one, m->special, m->disorder, m->host, fingerprint(function));
+  fflush(stdout);
   if (m->special) {
-    char at[32];
     operand_text(at, sizeof at, function, m->special_operand);
-    printf("%-12s first wrong special value at %s\n", "", at);
+    fprintf(stderr, "%s: the first wrong special value is at %s\n", function->name, at);
   }
-  return !bad;
+}
+
+static const struct function *find_function(const char *name, size_t length) {
+  for (size_t f = 0; f < function_count; f++)
+    if (strlen(functions[f].name) == length && !memcmp(functions[f].name, name, length))
+      return &functions[f];
+  return NULL;
+}
+
+static void print_errors(void) {
+  char line[256];
+  for (int number = 1; fgets(line, sizeof line, stdin); number++) {
+    uint32_t operand[3] = {0};
+    const size_t length = strcspn(line, " \n");
+    const struct function *function = find_function(line, length);
+    if (!function)
+      fail("standard input:%d: no such function: %.*s", number, (int)length, line);
+    sscanf(line + length, "%" SCNx32 " %" SCNx32 " %" SCNx32, &operand[0], &operand[1], &operand[2]);
+    printf("%.6f\n", error_at(function, operand));
+  }
 }
 
 static uint64_t number_argument(const char *option, const char *text, uint64_t least, uint64_t most) {
@@ -288,21 +202,28 @@ static uint64_t number_argument(const char *option, const char *text, uint64_t l
 }
 
 int main(int argc, char **argv) {
-  const char *output = NULL, *against = NULL;
   uint64_t sample = 0;
+  bool whole = false, any = false;
   long jobs = sysconf(_SC_NPROCESSORS_ONLN);
   jobs = jobs < 1 ? 1 : jobs > 64 ? 64 : jobs;
-  bool *chosen = calloc(function_count, sizeof *chosen), any = false, ok = true;
-  struct row *rows = calloc(function_count, sizeof *rows);
-  if (!chosen || !rows)
+  bool *chosen = calloc(function_count, sizeof *chosen);
+  if (!chosen)
     fail("out of memory");
   for (int i = 1; i < argc; i++) {
-    if (!strcmp(argv[i], "--output") && i + 1 < argc) {
-      output = argv[++i];
-    } else if (!strcmp(argv[i], "--check") && i + 1 < argc) {
-      against = argv[++i];
+    const struct function *function = find_function(argv[i], strlen(argv[i]));
+    if (!strcmp(argv[i], "--whole")) {
+      whole = true;
     } else if (!strcmp(argv[i], "--version")) {
       puts("trax-accuracy " TRAX_VERSION);
+      return 0;
+    } else if (!strcmp(argv[i], "--results")) {
+      for (size_t f = 0; f < function_count; f++)
+        printf("%s,%" PRIu64 ",%016" PRIx64 "\n", functions[f].name, whole_count(&functions[f]),
+               fingerprint(&functions[f]));
+      return 0;
+    } else if (!strcmp(argv[i], "--errors")) {
+      print_errors();
+      judge_finish();
       return 0;
     } else if (!strcmp(argv[i], "--sample")) {
       sample = number_argument(argv[i], argv[i + 1], CHUNK, WHOLE - 1);
@@ -310,54 +231,29 @@ int main(int argc, char **argv) {
     } else if (!strcmp(argv[i], "--jobs")) {
       jobs = (long)number_argument(argv[i], argv[i + 1], 1, 64);
       i++;
+    } else if (function) {
+      chosen[function - functions] = any = true;
     } else {
-      size_t f = 0;
-      while (f < function_count && strcmp(argv[i], functions[f].name) != 0)
-        f++;
-      if (f == function_count)
-        fail("%s: no such %s", argv[i], argv[i][0] == '-' ? "option, or its argument is missing" : "function");
-      chosen[f] = any = true;
+      fail("%s: no such %s", argv[i], argv[i][0] == '-' ? "option" : "function");
     }
   }
-  if (!output && !against && !sample)
-    fail("give --output FILE, --check FILE or --sample N (see the head of main.c)");
-  if (output && (against || sample))
-    fail("--output goes with neither --check nor --sample");
-  if (against && !sample)
-    sample = 1 << 20;
-  if (output || against)
-    read_rows(rows, output ? output : against, against != NULL);
+  if (whole == (sample != 0))
+    fail("give either --whole or --sample N (see the head of main.c)");
   progress.start = now();
-  if (output)
-    write_rows(rows, output); /* rather now than after hours */
   for (size_t f = 0; f < function_count; f++) {
     chosen[f] |= !any;
-    uint64_t count = sample ? sample : functions[f].operands == 1 ? WHOLE : PAIRS;
-    if (output && chosen[f] && holds(&rows[f], &functions[f], count))
-      chosen[f] = false;
-    progress.all += chosen[f] ? count : 0;
+    progress.all += chosen[f] ? whole ? whole_count(&functions[f]) : sample : 0;
   }
-  if (!against)
-    fputs(HEADER, stdout);
+  fputs(HEADER, stdout);
   for (size_t f = 0; f < function_count; f++) {
     if (!chosen[f])
       continue;
-    uint64_t count = sample ? sample : functions[f].operands == 1 ? WHOLE : PAIRS;
-    struct measured m = measure(&functions[f], count, jobs);
+    struct measured m = measure(&functions[f], whole ? whole_count(&functions[f]) : sample, jobs);
     if (isatty(2))
       fprintf(stderr, "\r%70s\r", "");
-    if (against) {
-      ok &= check(&rows[f], &functions[f], &m);
-    } else {
-      make_row(&rows[f], &functions[f], &m);
-      printf("%s\n", rows[f].text);
-    }
-    fflush(stdout);
-    if (output)
-      write_rows(rows, output);
+    print_row(&functions[f], &m);
   }
   free(chosen);
-  free(rows);
   judge_finish();
-  return !ok;
+  return 0;
 }

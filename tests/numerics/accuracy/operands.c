@@ -5,7 +5,7 @@
 #include "../operands.h"
 #include "accuracy.h"
 
-/* Where functions change their formulas, poles, thresholds of overflow; with either sign, and their neighbours. */
+/* Limits of formulas, poles and thresholds of overflow, with either sign, and their neighbours. */
 static const uint32_t specials[] = {0x00000000, 0x00000001, 0x007FFFFF, 0x00800000, 0x34000000, 0x39800000, 0x3E800000,
                                     0x3ED413CC, 0x3F000000, 0x3F3504F3, 0x3F490FDB, 0x3F800000, 0x3FC00000, 0x3FC90FDB,
                                     0x40000000, 0x40400000, 0x40490FDB, 0x41A00000, 0x420E1490, 0x42AEAC50, 0x42B17218,
