@@ -1,6 +1,6 @@
 //===- TraxAliases.td - shorthands of the assembler ----------------------===//
 //
-// Other names for instructions, and constants and addresses that take two.
+// Other names for instructions, and pseudo-instructions that put a constant or an address in a register.
 
 // Pseudo-instructions without an encoding: the assembler chooses instructions. The manual shows Expansion.
 class TraxAsmPseudo<dag ins, string asm, string expansion> : Instruction {

@@ -150,7 +150,7 @@ class InstGroups<bits<6> op, bits<6> func, string mnemonic, TraxUnit unit, int a
   let GroupA = a;
   let GroupB = b;
 }
-// The same as the compiler sees it: ra and rb are groups (TraxRegisters.td), of which the encoding has the first registers.
+// The same for the compiler: ra and rb are groups (TraxRegisters.td). The encoding has the first register of each.
 class InstOfGroups<bits<6> op, bits<6> func, string mnemonic, TraxUnit unit, int a, int b> : Instruction {
   field bits<32> Inst;
   bits<5> rd; bits<5> ra; bits<5> rb;

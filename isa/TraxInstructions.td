@@ -63,7 +63,8 @@ def FRSQRT : InstR1<6, 1, "frsqrt", UnitSpecial, [{ RD = ISQRT(RA); }],
                     "Reciprocal square root, correctly rounded (IEEE 754-2019 rSqrt, the paper's iSQRT): +-0 gives +-infinity, +infinity gives +0, a negative number gives NaN.">;
 
 //--- ray unit: opcode 7 --------------------------------------------------------
-// A ray is its direction's reciprocals by axis, and what they are of the origin; planes are taken times the one, minus the other.
+// A ray has a factor and an offset for each axis: the reciprocal of its direction, and the origin times that. The distance
+// of a plane is the plane times the factor, minus the offset.
 defm FBOX : TraxGroups<7, 0, "fbox", UnitRayBox, 6, 6, [{
   uint32_t x0 = trax_fsub(trax_fmul(GROUP_B(0), GROUP_A(0)), GROUP_A(3));
   uint32_t y0 = trax_fsub(trax_fmul(GROUP_B(1), GROUP_A(1)), GROUP_A(4));

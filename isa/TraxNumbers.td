@@ -1,10 +1,10 @@
-//===- TraxNumbers.td - what is written by name and encoded as a number --===//
+//===- TraxNumbers.td - names that are encoded as numbers ----------------===//
 //
-// Special registers, traps, fences: the only place where they are listed. A new one is a word at the end
-// of its list and a row of isa.md.in that says what it does. Assembler, disassembler, C constants (trax/numbers.h, which
-// <trax.h> and trax/abi.h include), the builtins' functions and the conformance suite follow.
+// The only lists of special registers, traps and fences. To add one, append a word to its list and add a row to
+// isa.md.in that explains it. The assembler, the disassembler, the C constants (trax/numbers.h, which <trax.h> and
+// trax/abi.h include), the builtins' functions and the conformance suite follow.
 
-// Names stand in the order of their numbers. PREFIX_NAME is the constant in C; Limit is the first number that is illegal.
+// Names are in the order of their numbers. PREFIX_NAME is the constant in C. Numbers from Limit on are illegal.
 class TraxNumbers<string macro, string prefix, list<string> names, int first = 0> {
   string List = macro;
   string Prefix = prefix;

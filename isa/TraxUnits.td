@@ -1,7 +1,7 @@
 //===- TraxUnits.td - where an instruction executes, and how long --------===//
 //
-// A unit is what the timing model arbitrates for (docs/timing.md); its latency here is the machine's default, which the
-// compiler schedules for. The emulator's configuration can change latencies; it cannot change which unit executes what.
+// The timing model arbitrates for units (docs/timing.md). A latency here is the machine's default, which the compiler
+// schedules for. The emulator's configuration can change latencies, but not the unit of an instruction.
 
 class TraxUnit<string name, string what, int latency> : SchedWrite {
   string UnitName = name;        // becomes TRAX_UNIT_<name>

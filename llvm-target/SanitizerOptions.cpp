@@ -1,8 +1,8 @@
 //===- SanitizerOptions.cpp - AddressSanitizer beside Debian's libLLVM ---===//
 //
-// Part of every program over LLVM in sanitizer builds. LLVM's headers are instrumented and poison memory that an
-// allocator has not given out; the same functions in Debian's library are not, and give it out still poisoned. Leaks
-// are not reported, because a compiler frees nothing before it exits.
+// Part of every program over LLVM in sanitizer builds. LLVM's headers are instrumented: their allocators poison memory
+// that they have not handed out. The same functions in Debian's library are not instrumented and hand it out poisoned.
+// Leaks are not reported, because a compiler frees nothing before it exits.
 //
 //===----------------------------------------------------------------------===//
 extern "C" const char *__asan_default_options();

@@ -19,9 +19,9 @@ class TraxTargetMachine;
 FunctionPass *createTraxISelDag(TraxTargetMachine &TM, CodeGenOptLevel OptLevel);
 /// Replaces strict and canonical floats by plain ones.
 FunctionPass *createTraxLowerFloatsPass();
-/// Writes va_arg instructions out as loads, for every type.
+/// Replaces va_arg by loads, for every type.
 FunctionPass *createTraxLowerVAArgPass();
-/// Writes integer divisions out, by the units that the machine has.
+/// Expands integer divisions by the machine's units.
 FunctionPass *createTraxDivisionPass();
 /// Lets pointers step in loops around others.
 FunctionPass *createTraxLoopsPass();

@@ -1,8 +1,8 @@
 //===- TraxDivision.cpp - Integer division by the machine's units ---------===//
 //
 // Before instruction selection: a division of words becomes an estimate of the quotient, the remainder n - q * d, and a
-// branch. Only the right quotient has a remainder from 0 to d - 1, so what the branch lets pass is right, whatever the
-// unit's precision. A wrong estimate is refined.
+// branch. Only the right quotient has a remainder from 0 to d - 1, so a quotient that passes the branch is right, for
+// any precision of the unit. A wrong estimate is refined.
 //
 // - In general the estimate is float(n) / float(d). Three roundings to 24 bits change it by less than 2^-22 of itself:
 //   it is nearly always right below 2^20. If n and d have 24 bits it always is: only the quotient is rounded, and from
@@ -72,10 +72,10 @@ public:
 
 } // namespace
 
-// --- what there is ------------------------------------------------------------
+// --- the divisions of a function ----------------------------------------------
 
-/// Where the reciprocal of a divisor is computed: before the outermost loop in which it is invariant, as far as each
-/// iteration divides. Nowhere if that saves nothing.
+/// Returns the place for the reciprocal of the divisor: before the outermost loop in which the divisor is invariant and
+/// each iteration divides. Returns null if there is none.
 static Instruction *placeOfReciprocal(const BinaryOperator &I, const LoopInfo &LI, const DominatorTree &DT) {
   Instruction *Place = nullptr;
   const BasicBlock *Block = I.getParent();
@@ -188,7 +188,7 @@ static Reciprocal createReciprocal(const Division &Div) {
     Sign = signOf(Builder, D);
     D = Builder.CreateBinaryIntrinsic(Intrinsic::abs, D, Builder.getFalse());
   }
-  D = Builder.CreateBinaryIntrinsic(Intrinsic::umax, D, Builder.getInt32(1)); // 0 would never be done
+  D = Builder.CreateBinaryIntrinsic(Intrinsic::umax, D, Builder.getInt32(1)); // the refinement for 0 would not end
   Value *Dividend = ConstantFP::get(Builder.getFloatTy(), 0x1p32 - 0x1p10);
   Value *Start = toWord(Builder, Builder.CreateFDiv(Dividend, toFloat(Builder, D, false)), false);
   Value *IsTooMuch = Builder.CreateICmpNE(highWord(Builder, Start, D), Builder.getInt32(0));
@@ -254,9 +254,9 @@ Result Writer::refine(IRBuilder<> &Builder, Result Wrong) {
     More = toWord(Builder, Builder.CreateFDiv(toFloat(Builder, Wrong.Remainder, true), FloatDivisor), true);
   const Result Next = {Builder.CreateAdd(Wrong.Quotient, More),
                        Builder.CreateSub(Wrong.Remainder, Builder.CreateMul(More, D))};
-  if (Inverse) // whose factor is never too much
+  if (Inverse) // its factor is never too large
     return Next;
-  // One back if the remainder's sign is not the dividend's.
+  // Goes back by one if the remainder's sign is not the dividend's.
   Value *IsBelow = signOf(Builder, withSign(Builder, Next.Remainder, DividendSign));
   Value *One = Div.IsSigned ? Builder.CreateOr(signOf(Builder, Builder.CreateXor(N, D)), 1) : Builder.getInt32(1);
   Value *Back = withSign(Builder, Amount, DividendSign);
@@ -287,7 +287,7 @@ void Writer::write() {
   const Result First = estimate(Builder);
   Ways.push_back({Builder.GetInsertBlock(), First});
   BasicBlock *Entry = Builder.GetInsertBlock(), *Refines;
-  if (!Inverse && Div.IsDivisorZero) { // then nothing is right
+  if (!Inverse && Div.IsDivisorZero) { // no quotient by 0 is right: it must not be refined
     BasicBlock *Checks = AddBlock();
     Builder.CreateCondBr(isRight(Builder, First.Remainder), Tail, Checks, Weights.createLikelyBranchWeights());
     Builder.SetInsertPoint(Entry = Checks);

@@ -203,7 +203,7 @@ bool TraxFrameLowering::spillCalleeSavedRegisters(MachineBasicBlock &MBB, Machin
   const TargetInstrInfo &TII = *MBB.getParent()->getSubtarget().getInstrInfo();
   for (const CalleeSavedInfo &Saved : CSI) {
     MCRegister Reg = Saved.getReg();
-    // ra is still wanted where the function reads its return address.
+    // A function that reads its return address still needs ra.
     bool IsKill = !MBB.isLiveIn(Reg);
     TII.storeRegToStackSlot(MBB, MI, Reg, IsKill, Saved.getFrameIdx(), TRI->getMinimalPhysRegClass(Reg), TRI,
                             Register());

@@ -26,7 +26,7 @@ static unsigned registersOf(const TargetRegisterClass &Class, const TargetRegist
   return TRI.getRegSizeInBits(Class) / 32;
 }
 
-/// Groups may overlap: a register that is written is read no more.
+/// Copies a group to one that may overlap it, in the order that reads each register before it is written.
 static void copyGroup(MachineBasicBlock &MBB, MachineBasicBlock::iterator I, const DebugLoc &DL, MCRegister Dest,
                       MCRegister Source, const TraxInstrInfo &TII) {
   const TargetRegisterInfo &TRI = TII.getRegisterInfo();

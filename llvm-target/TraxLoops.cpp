@@ -67,7 +67,8 @@ public:
 
 // --- addresses ---------------------------------------------------------------
 
-/// The address as a start and a constant step of the loop, or of any, if it is that.
+/// Returns the address as a start and a constant step of loop L, or of any loop if L is null; null if it is no such
+/// sum.
 const SCEVAddRecExpr *TraxLoops::steppingAddress(const SCEV *Address, const Loop *L) {
   const auto *Recurrence = dyn_cast<SCEVAddRecExpr>(Address);
   return Recurrence && Recurrence->getType()->isPointerTy() && (!L || Recurrence->getLoop() == L) &&
@@ -76,7 +77,7 @@ const SCEVAddRecExpr *TraxLoops::steppingAddress(const SCEV *Address, const Loop
              : nullptr;
 }
 
-/// In each iteration of this loop, not of one within it. A counter's own step does not count.
+/// Whether each iteration of this loop, but not of one within it, computes I. A counter's own step does not count.
 bool TraxLoops::isComputedFromCounter(Instruction &I, const Loop &L) {
   if (!isa<GetElementPtrInst, BinaryOperator, CastInst>(I) || LI->getLoopFor(I.getParent()) != &L ||
       !SE->isSCEVable(I.getType()) || SE->isLoopInvariant(SE->getSCEV(&I), &L))
@@ -190,8 +191,8 @@ bool TraxLoops::compareIncremented(Loop &L) {
 
 // --- loads -------------------------------------------------------------------
 
-/// Whether a store of each iteration is behind the load's word, or before it, and moves away. It cannot come round:
-/// it would leave their object before.
+/// Whether the store of each iteration is after the load's word, or before it, and moves away from it. The store cannot
+/// wrap around the address space: it would leave the object first.
 bool TraxLoops::isBeyond(const StoreInst &Store, const LoadInst &Load, const Loop &L) {
   if (!DT->dominates(Store.getParent(), L.getLoopLatch()))
     return false;

@@ -60,7 +60,7 @@ static Value *createExtreme(IRBuilder<> &Builder, Value *X, Value *Y, bool IsLea
   Value *First = IsLeast ? Builder.CreateFCmpOLT(X, Y) : Builder.CreateFCmpOGT(X, Y);
   Value *XBits = Builder.CreateBitCast(X, Bits), *YBits = Builder.CreateBitCast(Y, Bits);
   Value *Both =
-      IsLeast ? Builder.CreateOr(XBits, YBits) : Builder.CreateAnd(XBits, YBits); // of equal numbers, or of zeros
+      IsLeast ? Builder.CreateOr(XBits, YBits) : Builder.CreateAnd(XBits, YBits); // for equal numbers and for zeros
   Value *Number = Builder.CreateSelect(Builder.CreateFCmpOEQ(X, Y), Builder.CreateBitCast(Both, Ty),
                                        Builder.CreateSelect(First, X, Y));
   return Builder.CreateSelect(Builder.CreateFCmpUNO(X, Y), ConstantFP::getQNaN(Ty), Number);

@@ -10,7 +10,7 @@ using namespace llvm;
 
 static constexpr const char *const Mark = "trax.temporal";
 
-/// A store of what a nontemporal load gives, and not itself nontemporal.
+/// Whether I is a temporal store of the value of a nontemporal load.
 static bool isCopy(const Instruction &I) {
   const auto *Store = dyn_cast<StoreInst>(&I);
   const auto *Load = Store ? dyn_cast<LoadInst>(Store->getValueOperand()) : nullptr;
@@ -33,7 +33,8 @@ PreservedAnalyses TraxNontemporalPass::run(Function &F, FunctionAnalysisManager 
 }
 
 void TraxNontemporalPass::registerWith(PassBuilder &PB) {
-  // Before the loop passes, and again where nothing needs it.
+  // Marks before the loop passes. Removes the marks after them, and at the end from functions that skipped those
+  // passes.
   PB.registerPeepholeEPCallback(
       [](FunctionPassManager &FPM, OptimizationLevel) { FPM.addPass(TraxNontemporalPass(true)); });
   PB.registerScalarOptimizerLateEPCallback(

@@ -9,8 +9,8 @@ namespace llvm {
 class PassBuilder;
 
 /// Keeps loops that copy by nontemporal loads. LLVM's loop idioms replace such a loop by memcpy, which loads through
-/// the cache, unless the stores are nontemporal, too. So these stores are marked as such before that pass, and no
-/// longer behind it.
+/// the cache, unless the stores are nontemporal, too. So these stores are marked nontemporal before that pass, and the
+/// mark is removed after it.
 class TraxNontemporalPass : public PassInfoMixin<TraxNontemporalPass> {
   bool Marks;
 

@@ -1,4 +1,4 @@
-//===- TraxSchedule.td - What the scheduler knows of the machine ---------===//
+//===- TraxSchedule.td - The scheduler's model of the machine ------------===//
 //
 // One instruction a cycle, in order; an instruction waits for its operands (docs/timing.md). Units and latencies are those
 // of isa/TraxUnits.td.

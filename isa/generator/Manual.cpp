@@ -81,7 +81,7 @@ static void emitAliases(raw_ostream &OS, const Isa &Isa) {
     OS << "| `" << A.Syntax << "` | " << A.Expansion << " | " << (A.IsPrinted ? "yes" : "no") << " |\n";
 }
 
-// The template explains by hand what the description only names: nothing of it may be missing there.
+// The template explains the description's names by hand. Each name must have its row there.
 static void checkTemplate(StringRef Text, const std::string &Path, const Isa &Isa) {
   auto Require = [&](const Twine &Row) {
     if (!Text.contains(("\n| " + Row).str()))

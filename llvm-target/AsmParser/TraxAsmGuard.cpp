@@ -146,7 +146,7 @@ void trax::stopAssembly(const SourceMgr *Sources, SMLoc Loc, const Twine &Messag
   report_fatal_error((At.Line ? At.File + ":" + Twine(At.Line) + ": " : Twine("")) + Message, /*gen_crash_diag=*/false);
 }
 
-/// Prints a problem without its line if that is too long to be read: it may have thousands of problems.
+/// Prints a problem, without its line if that is too long to read: such a line may have thousands of problems.
 static void print(const SMDiagnostic &Problem) {
   constexpr size_t LongestLine = 1000;
   if (Problem.getLineContents().size() <= LongestLine || !Problem.getSourceMgr())
@@ -237,7 +237,7 @@ std::optional<int64_t> valueAhead(MCAsmParser &Parser) {
   return Known ? std::optional(Number) : std::nullopt;
 }
 
-/// A cycle of aliases would be followed when the object is written, without a place.
+/// Refuses a cycle of aliases, with its place. The object writer would follow the cycle without end.
 void checkAlias(MCAsmParser &Parser, SMLoc Loc) {
   AsmToken Next[2];
   if (Parser.getTok().isNot(AsmToken::Identifier) || Parser.getLexer().peekTokens(Next) != 2 ||

@@ -58,7 +58,7 @@ static DecodeStatus decodeJalTarget(MCInst &Inst, uint64_t Field, uint64_t, cons
   return MCDisassembler::Success;
 }
 
-/// Numbers that nothing is assigned to make an illegal instruction.
+/// An instruction with an unassigned number is illegal.
 static DecodeStatus decodeAssigned(MCInst &Inst, uint64_t Field, StringRef Name) {
   if (Name.empty())
     return MCDisassembler::Fail;

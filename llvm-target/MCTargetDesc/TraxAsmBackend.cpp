@@ -41,7 +41,7 @@ public:
 
 } // namespace
 
-/// Limits the bytes that .skip, .org and alignment fill. Before this they are only a number; next they are written.
+/// Limits the bytes that .skip, .org and alignment fill. Their number is known now, and they are written next.
 void TraxAsmBackend::finishLayout(const MCAssembler &Asm) const {
   constexpr uint64_t Most = 256 << 20;
   MCContext &Context = Asm.getContext();
@@ -49,7 +49,7 @@ void TraxAsmBackend::finishLayout(const MCAssembler &Asm) const {
   uint64_t Filled = 0;
   for (const MCSection &Section : Asm) {
     const bool Written = !Section.isVirtualSection();
-    uint64_t Rest = Asm.getSectionFileSize(Section); // what pads bundles of instructions
+    uint64_t Rest = Asm.getSectionFileSize(Section); // the padding of bundles of instructions
     for (const MCFragment &Fragment : Section) {
       SMLoc Place;
       const uint64_t Size = Asm.computeFragmentSize(Fragment);

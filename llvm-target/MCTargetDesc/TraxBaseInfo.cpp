@@ -1,4 +1,4 @@
-//===- TraxBaseInfo.cpp - What code generation and MC share --------------===//
+//===- TraxBaseInfo.cpp - Names for code generation and MC ---------------===//
 #include "TraxBaseInfo.h"
 #include "trax/abi.h"
 #include "llvm/ADT/ArrayRef.h"

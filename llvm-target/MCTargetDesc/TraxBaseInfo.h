@@ -1,4 +1,4 @@
-//===- TraxBaseInfo.h - What code generation and MC share ----------------===//
+//===- TraxBaseInfo.h - Names for code generation and MC -----------------===//
 #ifndef TRAX_MCTARGETDESC_TRAXBASEINFO_H
 #define TRAX_MCTARGETDESC_TRAXBASEINFO_H
 

@@ -1,5 +1,5 @@
-/* A plugin of qemu's user emulation: how many instructions a program executed, to standard error at its end. Only the
-   part of the plugin interface (version 1) that is used is declared here, since no package has its header. */
+/* A plugin of qemu's user emulation. It prints the number of executed instructions to standard error when the program
+   ends. No package has the header of the plugin interface (version 1), so the used part is declared here. */
 #include <inttypes.h>
 #include <stdint.h>
 #include <stdio.h>

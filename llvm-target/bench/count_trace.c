@@ -1,6 +1,6 @@
-/* Counts the instructions of a program, from the log of qemu's user emulation of it on standard input (-d
-   in_asm,exec,nochain): a translated block is listed before it is executed for the first time, and each execution is a
-   line with its address. */
+/* Counts the instructions of a program. It reads the log of qemu's user emulation (-d in_asm,exec,nochain) from
+   standard input: a translated block is listed before its first execution, and each execution is a line with its
+   address. */
 #include <inttypes.h>
 #include <stdint.h>
 #include <stdio.h>

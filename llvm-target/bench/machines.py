@@ -23,7 +23,7 @@ PACKAGES = {"clang-19": "clang-19", "nm": "binutils", "llvm-size-19": "llvm-19",
 
 
 class Failure(Exception):
-    """What ends the program with a message."""
+    """An error that ends the program with a message."""
 
 
 def run(command):
@@ -60,7 +60,7 @@ def run_logged(command, counter):
 
 @functools.lru_cache(maxsize=None)
 def takes_plugins():
-    """Debian 13's qemu-user is linked statically, and so takes none."""
+    """Whether qemu takes plugins. Debian 13's is linked statically and takes none."""
     return "-plugin" in run(["qemu-riscv32", "-help"])[0]
 
 
@@ -98,11 +98,11 @@ class Riscv:
         self.library, self.places, self.growing = self.make_library(), self.find_sources(), threading.Lock()
 
     def make_library(self):
-        """Objects and archives, which grow with what kernels need."""
+        """Return the initial objects and archives. add_sources adds the parts that kernels need."""
         return []
 
     def find_sources(self):
-        """The source of each symbol of the runtime that a kernel may need: our library has the same."""
+        """Return the source of each symbol of the runtime, from the symbols of our library."""
         sources = {f"{source.name}.o": source for part in ("builtins", "math", "string")
                    for source in (ROOT / "runtime" / part).glob("*.c")}
         listed, _ = run(["nm", "-A", "--defined-only", self.build / "lib/trax/libc.a"])
@@ -110,7 +110,7 @@ class Riscv:
         return {symbol: sources[member] for member, symbol in found if member in sources}
 
     def add_sources(self, sources):
-        """Compiles them with the flags that the runtime is compiled with."""
+        """Compile sources of the runtime with its flags, and add them to the library."""
         command = [*self.compiler, "-std=c17", "-D_DEFAULT_SOURCE", "-O2", "-ffreestanding", "-fno-builtin",
                    "-fno-math-errno", "-ffunction-sections", LIBRARY_SQRT, f"-I{ROOT / 'isa/include'}",
                    f"-I{self.build / 'runtime/math'}"]
@@ -122,7 +122,7 @@ class Riscv:
                     self.library.append(made)
 
     def link(self, objects, output):
-        """Links with what the objects need of the runtime: a linker's errors name it."""
+        """Link, with the parts of the runtime that the linker's errors name."""
         while True:
             added = list(self.library)
             try:
@@ -150,7 +150,7 @@ class Riscv:
 
 
 class Host:
-    """The host's own results, which the others must have."""
+    """The host, whose results are the reference."""
 
     def __init__(self, work, name):
         self.work, self.name = work, name
@@ -205,7 +205,7 @@ def measure_kernel(machine, source, level="-O3"):
 
 
 def check_counter(machine):
-    """A counter must count a loop of three instructions, and nothing else, right."""
+    """Check that the counter counts a loop of three instructions correctly."""
     counts = [build_and_run(machine, BENCH / "counted_loop.c", "1", flags=(f"-DITERATIONS={n}",))[2]
               for n in (100000, 200000)]
     if counts[1] - counts[0] != 300000:

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""How good is the code of programs that the compiler was not tuned for? Libraries from the sources of Debian's
-packages, unchanged, by our clang and by Debian's clang-19 for 32-bit RISC-V.
+"""Measures the code of programs that the compiler was not tuned for: libraries from the sources of Debian's packages,
+unchanged, compiled by our clang and by Debian's clang-19 for 32-bit RISC-V.
 
     llvm-target/bench/outside.py --build build --work DIR [PROGRAM...]
 
-Run on request: it fetches some 20 MB with apt-get. DIR keeps the sources. outside/PROGRAM.c describes each program.
-Counted are executed instructions, as quality.py does. Both sides link the runtime, each compiled by its own compiler,
-and must compute the same checksum; packing is checked by unpacking.
+It is run on request: it fetches some 20 MB with apt-get. DIR keeps the sources. outside/PROGRAM.c drives each program.
+It counts executed instructions as quality.py does. Both sides link the runtime, each compiled by its own compiler, and
+must compute the same checksum. A packer's output is checked by unpacking.
 
 Exit status: 0 if what is required holds (geometric means: -O3 against -O3 at most 0.95, -O2 against -O2 at most 1.00),
 2 if not, 1 if something failed.

@@ -1,23 +1,22 @@
 #!/usr/bin/env python3
-"""How good is the code? Our clang against Debian's clang-19 for 32-bit RISC-V.
+"""Measures the compiler's code: our clang against Debian's clang-19 for 32-bit RISC-V.
 
     llvm-target/bench/quality.py --build build [KERNEL...]       executed instructions, kernel by kernel
     llvm-target/bench/quality.py --build build --short           the same, against the column without contraction alone
     llvm-target/bench/quality.py --build build --compile-time    seconds for the ray tracer's program
     llvm-target/bench/quality.py --build build --code-size       bytes of the ray tracer's program and of the library
 
-Both compilers have -O3 and the same flags; RISC-V is rv32im_zfinx, which has 32 registers for integers and floats
-alike, as ours, besides a divide, a square root and a fused multiply-add, which ours has not. It contracts to the latter
-by default; the columns behind say what it does with -ffp-contract=off, what rv32im_zbb_zfinx does, which has min and
-max as ours, but rotations and counts of bits, too, and what both do at -O2. The limit for each kernel is that of the
-column without contraction: a fused multiply-add computes another result. A kernel's instructions are those of two
-repetitions less those of one, so that start-up does not count. Ours are counted by trax-sim, RISC-V's by qemu-riscv32
-with a plugin, or, where it takes none, from its log; both are tried on a loop that was counted by hand. Both link the
-same library, compiled by the compiler that is measured. Every result is compared with the same source's on the host:
-equal to the bit without contraction, within 0.1 % with it.
+Both compilers get -O3 and the same flags. RISC-V is rv32im_zfinx. Like the TP it has 32 registers for integers and
+floats. It also has a divide, a square root and a fused multiply-add, which the TP lacks, and contracts to the latter by
+default. Further columns are for -ffp-contract=off, for rv32im_zbb_zfinx (which has min and max like the TP, and
+rotations and counts of bits) and for both compilers at -O2. The limit for each kernel is for the column without
+contraction, because a fused multiply-add computes another result. A kernel's instructions are those of two repetitions
+less those of one, so start-up does not count. trax-sim counts ours. qemu-riscv32 counts RISC-V's by a plugin, or by its
+log if it takes no plugin. Both counters are checked on a loop that was counted by hand. Both sides link the same
+library, compiled by the measured compiler. Every result is compared with the host's of the same source: equal in every
+bit without contraction, within 0.1 % with it.
 
-The kernels in missing/ are about instructions that the TP has not got. They are measured, but no compiler can make up
-for those.
+The kernels in missing/ need instructions that the TP lacks. They are measured, but have no limit.
 
 Exit status: 0 if what is required holds (the constants below), 2 if not, 1 if something failed.
 """
@@ -38,7 +37,7 @@ from machines import (BENCH, COMMON, ROOT, Failure, Host, Riscv, Trax, build_and
 
 GEOMETRIC_MEAN_LIMIT = 0.87
 ZBB_LIMIT = 0.93
-STRICT_LIMIT = 0.83  # without contraction: what --short requires of the mean
+STRICT_LIMIT = 0.83  # without contraction: the limit of the mean for --short
 SECOND_LIMIT = 1.00  # -O2 against -O2
 KERNEL_LIMIT = 1.05  # without contraction
 COMPILE_TIME_LIMIT = 1.30
@@ -115,7 +114,7 @@ def check_equal(source, machine, found, expected):
 
 
 def check_contracted(source, machine, found, expected):
-    """Contraction may change results of floats only, and those hardly."""
+    """Contraction may change only floats, and only within the tolerance."""
     if expected[1] == 0:
         check_equal(source, machine, found, expected)
     elif not abs(found[1] - expected[1]) <= CONTRACTION_TOLERANCE * abs(expected[1]):
@@ -193,7 +192,7 @@ def compare_instructions(options, work):
 # --- compile time --------------------------------------------------------------
 
 def processor_seconds(command):
-    """Run a compiler; return how long processors worked for it, which other programs hardly change."""
+    """Run a compiler; return its processor time, which other programs hardly change."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     run(command)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -201,7 +200,7 @@ def processor_seconds(command):
 
 
 def compare_compile_time(options, work):
-    """Both compilers in turn, so that what else the computer does meets both."""
+    """Run both compilers in turn, so that other load on the computer affects both."""
     seconds = [[], []]
     for _ in range(options.runs):
         for times, machine in zip(seconds, (Trax(options.build, work), Riscv(options.build, work, library=False))):

@@ -1,8 +1,9 @@
-//===- TraxDeclarations.cpp - what clang leaves to do with declarations --===//
+//===- TraxDeclarations.cpp - corrections of clang's declarations --------===//
 //
 // A plugin that is linked in. It sees declarations before the code generator does.
 //
-// - Clang drops `__builtin_` from the name of a builtin that becomes a library call. `trax_rsqrt` and the like are names
+// - Clang drops `__builtin_` from the name of a builtin that becomes a library call. `trax_rsqrt` and the like are
+// names
 //   that a program may use. So each builtin that a file mentions gets its full name back as an assembler label.
 // - Clang accepts ifunc, and builtins that take _Float16, for every ELF target. Here they are errors.
 //
@@ -32,7 +33,7 @@ class Declarations final : public ASTConsumer {
 public:
   void Initialize(ASTContext &C) override { Context = &C; }
 
-  // Bodies are complete here, and their callees declared.
+  // Called when bodies are complete and their callees are declared.
   bool HandleTopLevelDecl(DeclGroupRef Group) override {
     label();
     for (const Decl *Declared : Group)

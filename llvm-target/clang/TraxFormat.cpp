@@ -1,8 +1,8 @@
 //===- TraxFormat.cpp - -Wformat for conversions that our printf lacks ----===//
 //
-// Clang's -Wformat takes positional arguments and %m, which other libraries have, and cannot know that iprintf and its
-// relatives format no doubles. All of them stop a program (docs/runtime.md). They get the warning of any other invalid
-// conversion, from a plugin that is linked in.
+// Clang's -Wformat accepts positional arguments and %m, which other libraries have, and cannot know that iprintf and
+// its relatives format no doubles. Each of these stops a program (docs/runtime.md). A plugin that is linked in gives
+// them the warning of any other invalid conversion.
 //
 //===----------------------------------------------------------------------===//
 

@@ -1,4 +1,4 @@
-//===- TraxTargetInfo.cpp - what clang's front end knows of the machine --===//
+//===- TraxTargetInfo.cpp - the machine for clang's front end ------------===//
 
 #include "TraxTargetInfo.h"
 #include "PrivateMember.h"

@@ -1,4 +1,4 @@
-//===- TraxTargetInfo.h - what clang's front end knows of the machine ----===//
+//===- TraxTargetInfo.h - the machine for clang's front end --------------===//
 //
 // Sizes, alignments, registers, inline-assembly constraints, predefined macros and builtins (docs/abi.md).
 //

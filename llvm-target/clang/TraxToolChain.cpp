@@ -63,7 +63,7 @@ class Compiler final : public Tool {
       if (Option == "-ffp-contract=on" && !HasContraction) // there is no fused multiply-add
         Given = "-ffp-contract=off";
       Adjusted.push_back(Given);
-      // No library prints what a check found: it ends in a fault report.
+      // No library prints the finding of a check. The check ends in a fault report.
       if (Option.starts_with("-fsanitize="))
         Adjusted.push_back(Args.MakeArgString("-fsanitize-trap=" + Option.split('=').second));
       if (Option == "-fopenmp") // no loop becomes vectors, whatever the clause simd asks for
@@ -192,14 +192,14 @@ void trax::ToolChain::AddClangSystemIncludeArgs(const ArgList &Args, ArgStringLi
     return;
   if (!Args.hasArg(OPT_nobuiltininc))
     addSystemInclude(Args, CC1Args, getDriver().ResourceDir + "/include");
-  if (!Args.hasArg(OPT_nostdlibinc)) // after clang's own, which include_next it; C even when C++ includes it
+  if (!Args.hasArg(OPT_nostdlibinc)) // after clang's headers, which include_next it; extern "C" for C++
     addExternCSystemInclude(Args, CC1Args, computeSysRoot() + "/include");
 }
 
 void trax::ToolChain::AddClangCXXStdlibIncludeArgs(const ArgList &Args, ArgStringList &CC1Args) const {
   if (Args.hasArg(OPT_nostdinc, OPT_nostdlibinc, OPT_nostdincxx))
     return;
-  // Our description of what libc++ can rely on goes before Debian's libc++.
+  // Our configuration of libc++ goes before Debian's libc++.
   addSystemInclude(Args, CC1Args, computeSysRoot() + "/include/c++");
   const std::string Own = computeSysRoot() + "/include/c++/v1";
   addSystemInclude(Args, CC1Args, llvm::sys::fs::exists(Own + "/vector") ? Own : TRAX_LIBCXX_DIR);

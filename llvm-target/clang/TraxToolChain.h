@@ -42,7 +42,7 @@ public:
 
 protected:
   clang::driver::Tool *buildLinker() const override;
-  /// --emit-static-lib is refused, but only after the driver has asked for its tool: any does.
+  /// --emit-static-lib is refused, but only after the driver has asked for its tool: any tool will do.
   clang::driver::Tool *buildStaticLibTool() const override { return buildLinker(); }
 
 private:

@@ -1,7 +1,7 @@
-//===- FileCalls.cpp - What LLVM reads and writes ------------------------===//
+//===- FileCalls.cpp - LLVM's inputs and outputs -------------------------===//
 //
 // Static constructors of LLVM may call these functions before those of this file have run, and its signal handler calls
-// unlink: nothing here needs construction, and the list that unlink reads is never changed but at its head.
+// unlink. So nothing here needs construction, and the list that unlink reads changes only at its head.
 //
 //===----------------------------------------------------------------------===//
 #undef _FORTIFY_SOURCE // which defines open itself
@@ -171,7 +171,7 @@ bool isKept(const char *Path) {
   return true;
 }
 
-/// /dev/zero and its like, which LLVM would read until memory is full.
+/// Whether the file is endless, like /dev/zero: LLVM would read it until memory is full.
 bool isEndless(int Descriptor, const struct stat &Status) {
   struct stat Null;
   return S_ISCHR(Status.st_mode) && !isatty(Descriptor) &&

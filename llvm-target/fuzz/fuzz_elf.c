@@ -76,7 +76,7 @@ static bool has_contents(const elf_file *file, Elf32_Shdr *section) {
   return true;
 }
 
-/* A value that is often at the edge of something in this file. */
+/* A value that is often a limit of something in this file. */
 static uint32_t telling_value(elf_file *file, uint32_t old) {
   static const uint32_t values[] = {0,        1,          2,          3,          4,          8,          0xC,
                                     0x10,     0x3F,       0x40,       0xFF,       0x800,      0x900,      0x1000,
@@ -99,7 +99,7 @@ static uint32_t telling_value(elf_file *file, uint32_t old) {
   case 5: /* an index or something small */
     return fuzz_below(file->random, count ? count : 16);
   default:
-    if (count) { /* what another section has there, or might be meant for this one */
+    if (count) { /* a field of another section */
       Elf32_Shdr other = get_section(file, fuzz_below(file->random, count));
       const field field = CHOOSE(file, section_fields);
       uint32_t value;

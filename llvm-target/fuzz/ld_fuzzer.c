@@ -1,5 +1,6 @@
-/* The linker under libFuzzer: a case is a command line and the files that it names. Files are read from the case and
-   written to nowhere: ld_read_file and ld_write_file, the linker's only doors, are replaced (--wrap). */
+/* The linker under libFuzzer: a case is a command line and the files that it names. ld_read_file and ld_write_file, the
+   only functions of the linker that access files, are replaced (--wrap): files come from the case and are written
+   nowhere. */
 #include "fuzz_case.h"
 #include "ld.h"
 

@@ -1,4 +1,4 @@
-/* Runs the cases in files without libFuzzer: usage PROGRAM FILE... Ends by a crash if one fails. */
+/* Runs the cases in files without libFuzzer. Usage: PROGRAM FILE... It crashes if a case fails. */
 #include "fuzz_case.h"
 
 #include <stdio.h>

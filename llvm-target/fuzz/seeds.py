@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes cases to begin with: usage seeds.py BUILD DIRECTORY
+"""Writes the initial cases of the fuzzers. Usage: seeds.py BUILD DIRECTORY
 
 BUILD is a finished build (its clang compiles) whose lit suite ld has run (its objects are taken). DIRECTORY gets
 trax-ld/ and trax-objdump/, one file a case, in the form that fuzz_case.h describes.
@@ -16,7 +16,7 @@ if len(sys.argv) != 3:
     sys.exit(__doc__)
 build, directory = sys.argv[1:]
 bindir = os.path.join(build, "bin")
-LARGEST = 6000  # bytes; what is larger is mutated slower and finds no more
+LARGEST = 6000  # bytes; larger files are mutated more slowly and find no more
 
 PROGRAMS = {
     "a.c": """extern int g(int, const char *); extern long long table[4]; __attribute__((weak)) extern void hook(void);

@@ -11,7 +11,7 @@ namespace trax {
 bool isArchive(llvm::StringRef Bytes);
 
 /// Calls Use for each member, except the index and the table of names, until it fails. GNU and BSD format. (LLVM's
-/// reader takes a member to be there before it looks where the file ends.)
+/// reader reads a member's header before it checks the end of the file.)
 llvm::Error forEachMember(llvm::StringRef Bytes,
                           llvm::function_ref<llvm::Error(llvm::StringRef Name, llvm::StringRef Contents)> Use);
 

@@ -1,4 +1,4 @@
-//===- Disassembly.cpp - Instructions, with what is known about them -----===//
+//===- Disassembly.cpp - Instructions with symbols, lines and units ------===//
 #include "Decoder.h"
 #include "Listing.h"
 #include "SourceLines.h"

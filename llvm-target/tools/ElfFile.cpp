@@ -40,7 +40,7 @@ Error ElfFile::readSections(const File &Elf) {
       return damaged("section names: " + toString(Found.takeError()));
     Names = *Found;
   }
-  uint32_t NextBase = 4096; // what belongs to no section is at 0
+  uint32_t NextBase = 4096; // 0 is the base of symbols without a section
   for (const auto &[Index, Raw] : enumerate(*Headers)) {
     Section S{unsigned(Index),
               "",

@@ -1,4 +1,4 @@
-//===- Listing.h - What trax-objdump prints ------------------------------===//
+//===- Listing.h - The output of trax-objdump ----------------------------===//
 #ifndef TRAX_TOOLS_LISTING_H
 #define TRAX_TOOLS_LISTING_H
 

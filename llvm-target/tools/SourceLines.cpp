@@ -1,4 +1,4 @@
-//===- SourceLines.cpp - Which line of the source an instruction is from -===//
+//===- SourceLines.cpp - The source line of an instruction ---------------===//
 #include "SourceLines.h"
 #include "llvm/ADT/STLExtras.h"
 #include "llvm/DebugInfo/DWARF/DWARFCompileUnit.h"

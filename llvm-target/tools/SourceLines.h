@@ -1,4 +1,4 @@
-//===- SourceLines.h - Which line of the source an instruction is from ---===//
+//===- SourceLines.h - The source line of an instruction -----------------===//
 #ifndef TRAX_TOOLS_SOURCELINES_H
 #define TRAX_TOOLS_SOURCELINES_H
 

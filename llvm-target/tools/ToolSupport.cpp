@@ -1,4 +1,4 @@
-//===- ToolSupport.cpp - What the command-line tools share ---------------===//
+//===- ToolSupport.cpp - Common parts of the command-line tools ----------===//
 #include "ToolSupport.h"
 #include "FileCalls.h"
 #include "LLVMTrax.h"

@@ -1,4 +1,4 @@
-//===- ToolSupport.h - What the command-line tools share -----------------===//
+//===- ToolSupport.h - Common parts of the command-line tools ------------===//
 //
 // These tools take the options of LLVM's tools of the same kind, so options (cl::opt), messages and files are LLVM's
 // and not those of emulator/base; outputs are base's.

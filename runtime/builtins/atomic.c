@@ -1,5 +1,5 @@
-/* Atomic operations without an instruction, under a lock made from the one that the machine has. The functions are
-   those of GCC's and LLVM's libatomic. An object's address selects one of a few locks.
+/* Atomic operations for which the machine has no instruction, under a lock made from its atomic increment. The
+   functions are those of GCC's and LLVM's libatomic. An object's address selects one of a few locks.
 
    Objects of 1 to 8 bytes are read past the cache, so that only an order of acquire or more empties it. A
    read-modify-write that does not change the value stores nothing, and so waits for no store. */
@@ -29,7 +29,7 @@ static inline void end(int order) {
     acquire_fence();
 }
 
-/* The object as it is in memory. */
+/* Reads the object past the cache. */
 static inline uint8_t read_1(const volatile uint8_t *p) {
   return __atomic_load_n(p, __ATOMIC_RELAXED);
 }
@@ -131,7 +131,7 @@ bool trax_atomic_is_lock_free(size_t size, const volatile void *p) {
       enter(l);                                                                                                        \
     const type value = read_##bytes(p);                                                                                \
     if (bytes > 4)                                                                                                     \
-      unlock(l); /* what was read is there before the next one changes it */                                           \
+      unlock(l); /* the value has arrived before the next owner changes it */                                          \
     end(order);                                                                                                        \
     return value;                                                                                                      \
   }                                                                                                                    \

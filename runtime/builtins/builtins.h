@@ -1,5 +1,5 @@
-/* The routines that the compiler calls for what the machine has no instruction for. Names and meaning are those of
-   libgcc and of LLVM's runtime library interface. */
+/* The routines that the compiler calls for operations that the machine lacks. Names and meaning are those of libgcc and
+   of LLVM's runtime library interface. */
 #ifndef TRAX_RUNTIME_BUILTINS_H
 #define TRAX_RUNTIME_BUILTINS_H
 
@@ -26,7 +26,7 @@ uint64_t __ashldi3(uint64_t a, int n);
 uint64_t __lshrdi3(uint64_t a, int n);
 int64_t __ashrdi3(int64_t a, int n);
 uint64_t __muldi3(uint64_t a, uint64_t b);
-int64_t __mulodi4(int64_t a, int64_t b, int *overflow); /* wraps, and says so */
+int64_t __mulodi4(int64_t a, int64_t b, int *overflow); /* wraps, and sets *overflow */
 int __cmpdi2(int64_t a, int64_t b);
 int __ucmpdi2(uint64_t a, uint64_t b);
 uint64_t __negdi2(uint64_t a);
@@ -52,7 +52,7 @@ double __muldf3(double a, double b);
 double __divdf3(double a, double b);
 double __negdf2(double a);
 
-/* Comparisons: the sign of the result answers the question of the name. With a NaN the answer is no. */
+/* Comparisons: the sign of the result compares with 0 as the name says. With a NaN only `ne` is true. */
 int __eqdf2(double a, double b);
 int __nedf2(double a, double b);
 int __ltdf2(double a, double b);

@@ -15,7 +15,7 @@ struct divided64 trax_divide64(uint64_t n, uint64_t d) {
   if (high_word(n) == 0)
     return (struct divided64){low_word(n) / low_word(d), low_word(n) % low_word(d)};
   unsigned shift;
-  uint32_t over; /* what shifting n by as much as d moves into a third word */
+  uint32_t over; /* the bits of n that the shift moves to a third word */
   if (high_word(d) == 0) {
     shift = (unsigned)leading_zeros(low_word(d));
     uint32_t divisor = low_word(d) << shift;

@@ -1,4 +1,4 @@
-/* binary16, which is a format to store: conversions from and to binary32 and binary64. */
+/* Conversions between binary16, a storage format, and binary32 and binary64. */
 #include "double.h"
 
 float __extendhfsf2(uint16_t x) {

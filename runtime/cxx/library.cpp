@@ -16,7 +16,7 @@ _LIBCPP_BEGIN_NAMESPACE_STD
 
 // The functions that replace libc++'s exceptions, and those for its failed checks.
 void __libcpp_verbose_abort(const char *format, ...) {
-  static char text[256]; // global, where the host reads it; of two threads that write at once, one is heard
+  static char text[256]; // global, so that the host can read it; of two threads that write at once, one prints
   va_list arguments;
   va_start(arguments, format);
   vsnprintf(text, sizeof text, format, arguments);

@@ -1,5 +1,5 @@
-// operator new and delete: malloc and free. There are no exceptions: without memory, the program ends, unless it asked
-// for a null pointer.
+// operator new and delete: malloc and free. There are no exceptions: without memory the program ends; the nothrow forms
+// return a null pointer.
 #include "../internal/machine.h"
 
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-// The members of std::string that libc++'s headers expect to find compiled.
+// The compiled members of std::string that libc++'s headers expect.
 #include <string>
 
 template class std::basic_string<char>;

@@ -8,7 +8,7 @@
 #include <stddef.h>
 #include <string.h>
 
-enum { PAGE = 4096, WORDS = 8 /* of bits that say which blocks are free */ };
+enum { PAGE = 4096, WORDS = 8 /* of bits, one for each free block */ };
 
 /* A line of the data cache on the TP. */
 struct page {
@@ -27,7 +27,7 @@ struct page {
 
 /* A thread's part that other threads use. */
 struct heap {
-  struct ticket_lock lock; /* of what others have freed: a list through the blocks' first words */
+  struct ticket_lock lock; /* protects `returned`: blocks freed by others, linked through their first words */
   void *returned;
   struct page *spare; /* empty pages, for this thread alone */
   unsigned spares;

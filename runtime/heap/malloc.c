@@ -15,8 +15,8 @@ enum {
   SPARES = 32   /* empty pages that a thread keeps at most */
 };
 
-/* In local memory, since at 128 TPs the data cache has 8 lines for each: pages with free blocks, of which only the
-   first may have none, and what the thread knows of the heap. */
+/* Lists of the pages with free blocks, in which only the first page may have none, and the thread's copy of the layout.
+   They are in local memory, since at 128 TPs the data cache has 8 lines for each. */
 static _Thread_local struct page *pages[CLASSES];
 static _Thread_local struct layout layout;
 
@@ -125,7 +125,7 @@ __attribute__((noinline)) static void freed(struct page *page, unsigned word) {
   make_spare(heap, page);
 }
 
-/* The page of an address. NULL: it is not in the part of the heap that the thread knows. */
+/* The page of an address. NULL: it is not in the heap, or the thread has no copy of the layout yet. */
 static inline struct page *page_of(const void *memory) {
   const uintptr_t index = ((uintptr_t)memory - (uintptr_t)layout.start) / PAGE;
   return index < layout.pages ? layout.table + index : NULL;

@@ -13,7 +13,7 @@ uintptr_t __trax_heap, __trax_heap_end;
 
 static struct layout layout;
 
-static struct ticket_lock runs_lock; /* of what follows but `drawn`, and of free_pages in the table */
+static struct ticket_lock runs_lock; /* protects `lists`, `top` and free_pages in the table */
 static struct page *lists[LISTS];
 static unsigned top;   /* the first page above the runs */
 static unsigned drawn; /* pages from the end down */

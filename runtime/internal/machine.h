@@ -37,8 +37,8 @@ INLINE int machine_is_local(const void *p) {
   return (uintptr_t)p >= 0xFFFFFE00u;
 }
 
-/* The machine orders nothing by itself (docs/isa.md, "Order"). What this thread has stored is in memory before what it
-   stores from here on; what it loads from here on is no older than what it has loaded. */
+/* The machine orders nothing by itself (docs/isa.md, "Order"). Release: this thread's earlier stores are in memory
+   before its later ones. Acquire: its later loads give no older values than its earlier ones. */
 INLINE void release_fence(void) {
   __atomic_thread_fence(__ATOMIC_RELEASE);
 }

@@ -31,7 +31,7 @@ extern "C" {
 
 typedef struct trax_stream FILE;
 #ifndef TRAX_RUNTIME_STREAM_H
-struct trax_stream { /* what it has is the library's (stdio/stream.h) */
+struct trax_stream { /* its members are private (stdio/stream.h) */
   int __words[13];
 };
 #endif

@@ -111,7 +111,7 @@ void qsort_r(void *base, size_t count, size_t size, int (*compare)(const void *,
 int posix_memalign(void **memory, size_t alignment, size_t size);
 void *reallocarray(void *memory, size_t count, size_t size);
 
-const char *getprogname(void); /* "program" in those whose main has no parameters */
+const char *getprogname(void); /* "program" if main has no parameters */
 
 int setenv(const char *name, const char *value, int overwrite);
 int unsetenv(const char *name);

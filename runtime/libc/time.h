@@ -1,5 +1,5 @@
 /* C's time, as far as the machine knows it: clock() gives the nanoseconds that its cycles so far take at the chip's
-   clock, or -1 if the loader did not say what that is. The time of day is the same: the machine starts at the beginning
+   clock, or -1 if the loader has not set the clock. The time of day is the same: the machine starts at the beginning
    of 1970, in UTC, so that a run gives the same every time. */
 #ifndef TRAX_TIME_H
 #define TRAX_TIME_H

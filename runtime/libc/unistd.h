@@ -67,7 +67,7 @@ int gethostname(char *name, size_t size); /* "trax" */
 long sysconf(int name);
 int getpagesize(void);
 int getdtablesize(void);
-int pipe(int descriptors[2]); /* fails: nobody would be at the other end */
+int pipe(int descriptors[2]);                                                    /* fails: there is no other process */
 ssize_t readlink(const char *__restrict path, char *__restrict to, size_t size); /* fails: EINVAL, of a link ENOSYS */
 extern char **environ;
 /* They wait for so much simulated time. */

@@ -24,7 +24,7 @@ struct region {
   struct region *outer; /* of __kmpc_serialized_parallel */
 };
 extern _Thread_local struct region __kmp_region;
-extern unsigned __kmp_threads; /* by omp_set_num_threads; 0: all */
+extern unsigned __kmp_threads; /* set by omp_set_num_threads; 0: all */
 
 enum { COUNTERS = 4 };
 extern struct counter {

@@ -1,4 +1,4 @@
-/* Regions and what synchronises their threads. */
+/* Parallel regions, and the synchronisation of their threads. */
 #include "kmp.h"
 
 #ifdef __trax__
@@ -13,7 +13,7 @@ typedef void fixed_microtask(int *, int *, void *, void *, void *, void *, void 
 
 _Thread_local struct region __kmp_region;
 unsigned __kmp_threads;
-static _Thread_local unsigned wanted; /* by num_threads, for the next region */
+static _Thread_local unsigned wanted; /* num_threads of the next region */
 
 /* In global memory: other threads cannot read the local memory of the one that sets it. */
 static struct {

@@ -38,7 +38,7 @@ static unsigned long long trips_of(unsigned long long distance, long long step) 
       const UNSIGNED before_last = (UNSIGNED)(trips - 1) / length; /* chunks */                                        \
       first = rank <= before_last ? length * rank : (UNSIGNED)trips;                                                   \
       length = before_last ? length : (UNSIGNED)trips;                                                                 \
-      /* Without a second chunk for a thread, the stride leads behind the loop: more could overflow. */                \
+      /* If a thread has no second chunk, the stride is the rest of the loop: a longer one could overflow. */          \
       *stride = (SIGNED)((before_last < size ? (UNSIGNED)trips - first : length * size) * (UNSIGNED)step);             \
       *last = before_last % size == rank;                                                                              \
     } else {                                                                                                           \

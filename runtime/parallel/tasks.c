@@ -30,7 +30,7 @@ void trax_add_task(trax_task *task, void *context) {
   store_shared(&place->turn, number + 1);
 }
 
-/* Whether all tasks have ended. One that runs has not ended, and it alone adds others. */
+/* Whether all tasks have ended. Only a running task, which has not ended, adds others. */
 static int all_ended(void) {
   const unsigned number = load_shared(&ended);
   if (number != load_shared(&added))

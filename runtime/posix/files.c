@@ -107,7 +107,7 @@ int mkstemp(char *pattern) {
   return -1;
 }
 
-/* --- what is known of them --- */
+/* --- their state --- */
 
 static int take_stat(int result, const unsigned words[TRAX_STAT_WORDS], struct stat *status) {
   if (host_result(result) < 0)
@@ -148,9 +148,9 @@ int access(const char *path, int mode) {
   return 0;
 }
 
-/* --- what files do not have --- */
+/* --- owners and permissions, without effect --- */
 
-/* 0 if there is such a file. */
+/* 0 if the file exists. */
 static int known(const char *path) {
   struct stat status;
   return stat(path, &status);

@@ -20,7 +20,7 @@ struct trax_folder {
   char path[]; /* with a slash, and room for a name */
 };
 
-/* The names may become more between the two calls. */
+/* Names may be added between the two calls. */
 static int read_names(DIR *folder, const char *path) {
   size_t capacity = 0;
   for (;;) {

@@ -6,7 +6,7 @@
 
 #include "../internal/host.h"
 
-__attribute__((weak)) char *__trax_find_variable(const char *name); /* of programs that have some */
+__attribute__((weak)) char *__trax_find_variable(const char *name); /* in programs that set variables */
 
 char *getenv(const char *name) {
   return __trax_find_variable ? __trax_find_variable(name) : NULL;

@@ -32,7 +32,7 @@ static const char *name_of(const char *const *names, int number, int count) {
   return number >= 0 && number < count ? names[number] : "?";
 }
 
-/* Expands one conversion into text. If it is short for another format, *other receives that. */
+/* Expands one conversion into text. If it abbreviates another format, *other receives that format. */
 static void convert(char *text, size_t size, char letter, const struct tm *parts, const char **other) {
   int year = parts->tm_year + 1900, hour = parts->tm_hour % 12 ? parts->tm_hour % 12 : 12, iso;
 #define NUMBER(FORMAT, VALUE) sniprintf(text, size, FORMAT, VALUE)

@@ -29,7 +29,7 @@ __attribute__((constructor)) static void register_release(void) {
   __cxa_thread_atexit(release, NULL, NULL);
 }
 
-/* Polls seldom, so that main has the memory's bandwidth. */
+/* Polls seldom, to leave the memory's bandwidth to main. */
 void __trax_wait(void) {
   enum { PAUSE = 500 /* turns of an empty loop */ };
   unsigned now;

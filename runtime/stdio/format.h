@@ -18,7 +18,7 @@ enum {
   FLAG_ALT = 8,    /* # */
   FLAG_ZERO = 16,  /* 0 */
   FLAG_GROUP = 32, /* ': does nothing in this locale */
-  FLAG_BARE = 64,  /* no 0x before a hexadecimal double; no format can say so */
+  FLAG_BARE = 64,  /* no 0x before a hexadecimal double; for std::to_chars alone */
 };
 
 enum length { LENGTH_CHAR, LENGTH_SHORT, LENGTH_INT, LENGTH_LONG, LENGTH_LONG_LONG };

@@ -1,11 +1,11 @@
-/* Ends of the formatting engine: standard output and memory. */
+/* Formatted output to standard output and to memory. */
 #include "format.h"
 
 #include "../internal/machine.h"
 
 static struct ticket_lock output_lock;
 
-/* It keeps the output of threads apart and protects no memory. */
+/* The lock separates the output of threads. It protects no memory, so it needs no fence. */
 void trax_lock_output(void) {
   enter(&output_lock);
 }
@@ -27,7 +27,7 @@ int trax_print_to(char *to, size_t size, const char *format, va_list arguments, 
   if (size == 0)
     to = &nowhere;
   struct sink out = {to, size ? to + size - 1 : to, 0};
-  if (out.end < to) /* sprintf's size is "all there is" */
+  if (out.end < to) /* sprintf's size reaches past the end of memory */
     out.end = (char *)UINTPTR_MAX;
   int count = trax_format(&out, format, arguments, format_double);
   if (size)

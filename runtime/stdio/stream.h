@@ -43,7 +43,7 @@ static inline int is_stdout(const FILE *stream) {
   return stream == stdout;
 }
 
-/* A thread alone needs no lock, which costs an access to memory. */
+/* A single thread needs no lock: the lock costs an access to memory. */
 static inline void lock_stream(FILE *stream) {
 #ifdef __trax__
   if (trax_threads() != 1)

@@ -4,7 +4,7 @@
 #include <assert.h>
 #include <stdlib.h>
 
-/* Each is there if the program has something for it to do. */
+/* Each is linked only into programs that need it. */
 __attribute__((weak)) void __trax_end_construction(void);
 __attribute__((weak)) void __trax_end_thread(void);
 __attribute__((weak)) void __trax_end_program(void);

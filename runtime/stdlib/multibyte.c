@@ -1,4 +1,4 @@
-/* UTF-8. The state of a character that is not complete has the number of bytes to come in its upper 4 bits, that of all
+/* UTF-8. The state of an incomplete character has the number of missing bytes in its upper 4 bits, the number of all
    its bytes in the next 4, and the bits so far in the others. */
 #include <errno.h>
 #include <stdlib.h>

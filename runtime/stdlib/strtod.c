@@ -1,5 +1,5 @@
-/* Floating-point numbers from text, correctly rounded: the decimal digits are turned into binary ones by exact
-   arithmetic, as many as a significand takes, with a bit that says whether more follow. Integers only. */
+/* Floating-point numbers from text, correctly rounded. Exact arithmetic in integers turns the decimal digits into as
+   many binary ones as a significand takes, and a sticky bit. */
 #include "../internal/divide.h"
 #include "../internal/machine.h"
 

@@ -9,7 +9,7 @@ unsigned __trax_clock_mhz;
 clock_t clock(void) {
   _Static_assert(CLOCKS_PER_SEC == 1000000000, "nanoseconds");
   unsigned mhz = __trax_clock_mhz;
-  if (mhz == 0) /* a loader that does not know, or found no symbol table */
+  if (mhz == 0) /* the loader has no clock, or found no symbol table */
     return -1;
   unsigned long long cycles = machine_cycles(), microseconds = cycles / mhz;
   unsigned rest = (unsigned)(cycles - microseconds * mhz);

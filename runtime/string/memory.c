@@ -124,7 +124,8 @@ void *memset(void *to, int byte, size_t size) {
 
 int memcmp(const void *a, const void *b, size_t size) {
   const unsigned char *p = a, *q = b;
-  if (aligned(p) && aligned(q)) /* equal words first; the bytes of the first that differs decide below */
+  if (aligned(p) &&
+      aligned(q)) /* skips equal words; the loop below compares the bytes of the first word that differs */
     for (; size >= 4 && *(const word *)p == *(const word *)q; size -= 4) {
       p += 4;
       q += 4;

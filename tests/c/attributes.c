@@ -1,5 +1,5 @@
 // RUN: %run_c %s %t
-// Attributes that change what is called, kept, placed or run. (Expected output by hand.)
+// Attributes that change calls, kept code, places and start-up. (Expected output by hand.)
 #include <stdio.h>
 #include <stdlib.h>
 

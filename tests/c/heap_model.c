@@ -79,7 +79,7 @@ static void step(struct block **slot, unsigned *x) {
     drop(b);
     *slot = NULL;
     return;
-  } else { /* into a box, and what was in there is this thread's now */
+  } else { /* into a box; this thread takes the block that was there */
     *slot = atomic_exchange(&box[next(x) % BOXES], b);
     atomic_fetch_add(&passed, 1);
     return;

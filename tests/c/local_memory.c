@@ -20,7 +20,7 @@ __attribute__((noinline)) static void wait_for(unsigned n) {
     ;
 }
 
-/* Fills what lies between the thread-local objects and its own frame, and reads
+/* Fills the memory between the thread-local objects and its own frame, and reads
  * it back after all have. */
 __attribute__((noinline)) static unsigned fill(unsigned thread, volatile unsigned *from) {
   volatile unsigned last = 0;

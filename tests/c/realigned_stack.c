@@ -33,7 +33,7 @@ __attribute__((noinline)) static void compare(const void *object, unsigned size,
 #define ARGUMENTS int a, int b, int c, int d, int e, int f, int g, int h, int i, int j
 #define SUM (a + b + c + d + e + f + g + h + i + j)
 
-/* The base pointer addresses what is fixed, sp the array, fp the arguments. */
+/* The base pointer addresses fixed objects, sp the array, fp the arguments. */
 #define FIXED_AND_VARIABLE(NAME, ALIGNMENT, SIZE)                                                                      \
   __attribute__((noinline)) static int NAME(int n, ARGUMENTS) {                                                        \
     _Alignas(ALIGNMENT) char fixed[SIZE];                                                                              \
@@ -49,7 +49,7 @@ __attribute__((noinline)) static void compare(const void *object, unsigned size,
     compare(&plain, sizeof plain, 5);                                                                                  \
     return n + SUM;                                                                                                    \
   }
-/* Without an array of variable length, sp addresses what is fixed. */
+/* Without an array of variable length, sp addresses fixed objects. */
 #define FIXED(NAME, ALIGNMENT, SIZE)                                                                                   \
   __attribute__((noinline)) static int NAME(int n, ARGUMENTS) {                                                        \
     _Alignas(ALIGNMENT) char fixed[SIZE];                                                                              \

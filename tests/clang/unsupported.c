@@ -7,7 +7,7 @@
 // RUN: not %clang -DTAIL -c %s -o %t.o 2>&1 | FileCheck %s --check-prefix=TAIL
 // RUN: %clang -DATTRIBUTES -fsyntax-only %s 2>&1 | FileCheck %s --check-prefix=ATTRIBUTES
 // RUN: not %clang -DATTRIBUTES -Werror -fsyntax-only %s
-// Other targets keep what they have.
+// Other targets are unchanged.
 // RUN: clang --target=x86_64-linux-gnu -DIFUNC -fsyntax-only %s
 
 #ifdef IFUNC

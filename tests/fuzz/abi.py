@@ -111,7 +111,7 @@ class BitField(Scalar):
 
 
 class Aggregate:
-    """A struct, or a union, of which the first member counts."""
+    """A struct, or a union whose first member counts."""
 
     def __init__(self, kind, name, fields, attribute):
         self.name, self.promoted = f"{kind} {name}", f"{kind} {name}"

@@ -1,4 +1,4 @@
-"""What a sample of Csmith's programs is checked for beside its output at each level.
+"""Further checks of a sample of Csmith's programs, beside the output at each level.
 
 Each check gets the target, the program, a directory and a limit of cycles; it raises Failure, and may return a run
 whose output must be the program's.
@@ -29,7 +29,7 @@ def sanitized(target, program, directory, max_cycles):
 
 
 def few_sections(target, program, directory, max_cycles):
-    """All code in one section and nothing dropped, instead of a section each and what is not called dropped."""
+    """All code is in one section and nothing is dropped, instead of one section a function and dropped unused ones."""
     flags = ["-O2", "-fno-function-sections", "-fno-data-sections"]
     compiled, image = directory / "few.o", directory / "few"
     target.compile([*flags, *program.flags, "-c", program.source, "-o", compiled], program.language)
@@ -52,7 +52,7 @@ def same_object(target, program, directory, name, one, other):
 
 
 def debug_information(target, program, directory, max_cycles):
-    """What -g adds is well-formed, and the program runs alike."""
+    """The debug information is well-formed, and the program with it runs alike."""
     result = build_and_run(target, program, directory, "debug", ["-O2", "-g"], max_cycles)
     verified = run(["llvm-dwarfdump-19", "--verify", "--quiet", directory / "debug"])
     if verified.status != 0:

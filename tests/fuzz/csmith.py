@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Csmith's programs on the TP against the host: what they print must be equal at every optimisation level.
+"""Csmith's programs on the TP against the host: their output must be equal at every optimisation level.
 
     tests/fuzz/csmith.py --seeds 1-500                          as many programs as there are seeds, in
     BUILD/fuzz/csmith

@@ -1,4 +1,4 @@
-"""What an object file puts into memory, for comparing two objects that should be the same."""
+"""The parts of an object file that are loaded, to compare two objects that should be the same."""
 
 import struct
 

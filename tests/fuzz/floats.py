@@ -6,7 +6,7 @@
 Every expression of a program is there twice: of constants, which the compiler may fold, and of volatile objects of the
 same values, which it may not. Operands are binary32, binary64 and integers of 32 and 64 bits, special values among
 them; operations are the arithmetic ones, square root, comparisons, conversions and those of C's functions that are
-exact. The program prints the bits of both, and all of what it prints must be what the host prints at -O0. Any NaN
+exact. The program prints the bits of both. Its whole output must equal the host's at -O0. Any NaN
 prints as "nan". Exit status: 0 if all agree, 1 otherwise.
 """
 
@@ -42,7 +42,7 @@ static void show_i(int n, char how, int value) { printf("%d%c %d\\n", n, how, va
 static void show_u(int n, char how, unsigned value) { printf("%d%c %u\\n", n, how, value); }
 static void show_l(int n, char how, long long value) { printf("%d%c %lld\\n", n, how, value); }
 static void show_m(int n, char how, unsigned long long value) { printf("%d%c %llu\\n", n, how, value); }
-/* Conversions to integers, of what is in range. */
+/* Conversions to integers, of numbers in range. */
 #define TO_I(x) ((x) > -2147483649.0 && (x) < 2147483648.0 ? (int)(x) : 77)
 #define TO_U(x) ((x) > -1.0 && (x) < 4294967296.0 ? (unsigned)(x) : 78u)
 #define TO_L(x) ((x) >= -9223372036854775808.0 && (x) < 9223372036854775808.0 ? (long long)(x) : 79ll)

@@ -6,7 +6,7 @@
 Loops count up and down, from and to constants, arguments and the counters around them. Subscripts are sums of counters.
 Arrays are reached by name and by pointers that may point to the same one, whole and by bytes. Some loads stay the same
 while their loop stores close by, and some loops end at what they store. The program prints a checksum of all arrays
-after each function, and all of what it prints must be what the host prints at -O0. Exit status: 0 if all agree, 1
+after each function. Its whole output must equal the host's at -O0. Exit status: 0 if all agree, 1
 otherwise.
 """
 
@@ -126,7 +126,7 @@ class Generator:
         return f"  int i = 0, end;\n  do {{\n    end = later({self.place()} & 7, i);\n{body}  }} while (i++ != end);\n"
 
     def across(self):
-        """A loop whose stores come to a word that it loads, pass it, or leave it."""
+        """A loop whose stores reach, pass or leave a word that it loads."""
         rng, more, away = self.rng, self.rng.randint(0, 3), self.rng.randint(-1, 6)
         head, word = rng.choice([("int i = 0; i < n; i++", more + away),
                                  ("int i = 9; i > 9 - n; i--", 9 + more - away)])

@@ -1,4 +1,4 @@
-"""Csmith's programs: what options a seed has, and what the host says that its program prints.
+"""Csmith's programs: the options of a seed, and the host's output of its program.
 
 Csmith: X. Yang, Y. Chen, E. Eide, J. Regehr, Finding and Understanding Bugs in C Compilers, PLDI 2011. Its programs
 print a checksum of their global variables and have, with few exceptions, no undefined behaviour.
@@ -76,7 +76,7 @@ def host_compile(program, binary, flags=("-O0",), compiler=HOST_COMPILER[0]):
 
 
 def expected(program, directory):
-    """(what the program prints on the host, processor time in seconds)."""
+    """Returns (the program's output on the host, processor time in seconds)."""
     result = host_compile(program, directory / "host")
     if result.status is None:
         raise Skip("the host's compiler takes too long")

@@ -1,4 +1,4 @@
-"""What the programs of this directory share: the command line, the seeds, the failures kept."""
+"""Common parts of the programs of this folder: the command line, the seeds, the kept failures."""
 
 import argparse
 import concurrent.futures
@@ -65,7 +65,7 @@ def prepare(options, name, packages=None):
 
 
 def host(sources, directory, flags):
-    """What a program of C sources in a directory prints on the host."""
+    """Returns the host's output of a program of C sources in a directory."""
     command = [*HOST_COMPILER, *flags, "-std=gnu17", *(directory / source for source in sources), "-o",
                directory / "host", "-lm"]
     for step in (command, [directory / "host"]):
@@ -85,7 +85,7 @@ def expect(target, image, output, what):
 
 
 def keep(options, seed, directory, failure):
-    """Moves what failed to where it stays, and says so."""
+    """Moves the failed program to the work folder. Returns the failure and the command with the new paths."""
     kept = options.work / "failures" / f"seed-{seed}"
     shutil.rmtree(kept, ignore_errors=True)
     kept.parent.mkdir(exist_ok=True)

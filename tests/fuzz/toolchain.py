@@ -1,6 +1,6 @@
 """The programs that the fuzz tests run: the compiler and emulator of a build, and the host's compiler.
 
-Every command has a time limit and is kept as text, so that a failure can name what reproduces it.
+Every command has a time limit and is kept as text, so that a failure can name the command that reproduces it.
 """
 
 import dataclasses
@@ -35,7 +35,7 @@ class Failure(Exception):
 
 @dataclasses.dataclass
 class Result:
-    """What a command did. Its status is None if it did not end in time, and -N if signal N ended it."""
+    """The result of a command. Its status is None if it did not end in time, and -N if signal N ended it."""
 
     command: str
     status: int
@@ -140,7 +140,7 @@ class Target:
 
 
 class Progress:
-    """A line on a terminal: how far, what was found, time left. Elsewhere nothing."""
+    """A line of progress, with the time left, if standard error is a terminal."""
 
     def __init__(self, total, clock):
         self.total, self.clock, self.started = total, clock, clock()

@@ -13,7 +13,7 @@
 
 static uint64_t step = 61;
 
-/* The table's entries for each major opcode: what the decoder is checked against. */
+/* The table's entries for each major opcode, against which the decoder is checked. */
 static trax_op by_opcode[64][TRAX_OP_COUNT];
 static unsigned count_by_opcode[64];
 

@@ -57,7 +57,7 @@ class Oracle:
 
 
 class Entry:
-    """An entry of a table of special cases: what the answers over its two classes were."""
+    """An entry of a table of special cases: the answers over its two classes."""
 
     def __init__(self, operation, a, b, text):
         self.name, self.text, self.cases = f"{operation} {a} {b}".rstrip(), text, []

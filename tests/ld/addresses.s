@@ -73,7 +73,7 @@
 // RUN: not %trax_ld a.o -o no -e f1 --symbol-ordering-file=absent 2>&1 | FileCheck %s --check-prefix=ABSENT
 // ABSENT: trax-ld: error: absent: cannot be read
 
-// Code is not moved: what other linkers' users pass is accepted.
+// Code is not moved. The options of other linkers' users are accepted.
 // RUN: %trax_ld a.o -o one -e f1 && %trax_ld a.o -o two -e f1 --relax && cmp one two && %trax_ld a.o -o two -e f1 --no-relax && cmp one two
 
   .macro function name, section

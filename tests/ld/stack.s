@@ -1,4 +1,4 @@
-// The worst stack depth: what counts as a call, what a tail call does, and what has no bound. Every function states its frame
+// The worst stack depth: calls, tail calls, and programs without a bound. Every function states its frame
 // in .stack_sizes; the code moves no sp, since only the statements count.
 //
 // RUN: split-file %s %t && cd %t

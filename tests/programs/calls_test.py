@@ -97,7 +97,7 @@ def same(place):
 
 
 def printed(place):
-    """What all threads print goes where standard output does, also in epochs on several threads of the host."""
+    """The output of all threads goes to standard output, also in epochs on several threads of the host."""
     subprocess.run([BIN / "clang", "--target=trax", "-mstack=global", "-O2", "-x", "c", "-", "-o", place.root / "many"],
                    input=b"""#include <stdatomic.h>
 #include <stdio.h>
@@ -136,7 +136,7 @@ def arguments(place):
 
 
 def folders(place):
-    """What is allowed, and that nothing leads out of it."""
+    """Allowed folders are reachable, and no path leads out of them."""
     place.fresh()
     (place.root / "secret.txt").write_text("secret\n")
     os.symlink("../secret.txt", place.data / "out")

@@ -80,7 +80,7 @@ def find(suite, only, flows):
 
 
 def run(options, support, case, kind):
-    """What the check prints of a variant, or None if it does not compile."""
+    """Returns (status, the check's output) of a variant; the status is None if it does not compile."""
     program = options.work / f"{case.name} {kind}".replace(" ", "-")
     least = next((least for pattern, least in EXHAUSTED.items() if re.match(pattern, case.name)), None)
     sources = [*case.files, *support, *([options.work / "exhaust.c", f"-DLEAST={least}"] if least else [])]

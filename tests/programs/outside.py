@@ -379,7 +379,7 @@ class Workshop:
         return elf if elf.exists() else binary
 
     def cases(self, program, kind):
-        """What each case prints, its status and the files that it leaves."""
+        """Returns the output of each case, its status, its files and its errors."""
         binary, results = self.make(program, kind), []
         place = self.work / "run" / kind / program.name
         shutil.rmtree(place, ignore_errors=True)
@@ -419,7 +419,7 @@ def speed(shop, program):
 
 
 def compare(shop, program):
-    """What differs, one line each; nothing if all is equal."""
+    """Returns the differences, a line each, and the seconds that the program took."""
     begun, differences = time.monotonic(), []
     try:
         host, trax = shop.cases(program, "host"), shop.cases(program, "trax")

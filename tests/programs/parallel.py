@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What work for all threads costs, in cycles: the tables of docs/parallel.md.
+"""Measures parallel work in cycles, for the tables of docs/parallel.md.
 
   parallel.py --build build [--chips 1x32,4x32]
 """

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Which programs keep every byte since an earlier library? Both are compiled by today's compiler.
+"""Finds the programs that keep every byte since an earlier library. Today's compiler compiles both.
 
     same_bytes.py --build build --against COMMIT --work DIR
 
@@ -27,7 +27,7 @@ SHT_SYMTAB, SHT_RELA, SHT_NOBITS, SHF_ALLOC = 2, 4, 8, 2
 
 
 def parts(body):
-    """What is loaded of an object: for each section its contents with relocations; and the symbols that it defines."""
+    """Yields each loaded section of an object: name, contents with relocations, and the symbols that it defines."""
     offset, = struct.unpack_from("<I", body, 32)
     count, names = struct.unpack_from("<HH", body, 48)
     sections = [struct.unpack_from("<10I", body, offset + 40 * i) for i in range(count)]

@@ -66,7 +66,7 @@ class Program:
 
 @dataclasses.dataclass
 class Result:
-    """What came of a program: passed, failed or not applicable, with the reason; global_stack if it needed one."""
+    """A program's verdict (passed, failed or not applicable) and its reason; global_stack: it needed one."""
 
     verdict: str
     reason: str = ""
@@ -188,7 +188,7 @@ def compile_(command, options, folder):
 
 
 def first_error(output):
-    """The line that says most about a failure."""
+    """Returns the most informative line about a failure."""
     lines = [line.strip() for line in output.splitlines() if line.strip()]
     for pattern in (r"fatal error: error in backend", r"\*\*\* Bad machine code", r"Assertion .* failed",
                     r"PLEASE submit a bug report",

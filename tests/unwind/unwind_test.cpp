@@ -29,7 +29,7 @@ namespace {
 using Registers = std::array<uint32_t, 32>;
 constexpr unsigned RA = 1, SP = 2, FP = 3, FirstSaved = 20;
 
-/// What a function must give back to its caller.
+/// The registers that a function must preserve.
 struct Frame {
   uint32_t Entry; ///< of the function
   uint32_t ReturnAddress;

@@ -68,7 +68,7 @@
 #define TRAX_MODE_LINK 0120000
 #define TRAX_MODE_OTHER 0020000 /* a terminal, a pipe */
 
-/* Error numbers are those of Linux; this one answers calls that there are not. */
+/* Error numbers are those of Linux. This one is the result of an unknown call. */
 #define TRAX_HOST_NO_CALL 38
 
 #endif

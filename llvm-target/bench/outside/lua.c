@@ -19,7 +19,7 @@ void kernel_setup(void) {
   outside_begin();
 }
 
-/* The library's allocator is first fit; this one makes the interpreter the larger part. */
+/* An allocator that takes little time, so that the interpreter is measured and not the library's heap. */
 static char memory[1 << 20];
 static uint32_t used;
 static void *allocate(void *unused, void *old, size_t old_size, size_t size) {

@@ -21,7 +21,7 @@ static inline void outside_begin(void) {
 static inline void outside_begin(void) {}
 #endif
 
-/* Words of a small vocabulary, in lines: what compressors and hashes read. */
+/* Lines of words from a small vocabulary, for compressors and hashes. */
 static inline void outside_text(char *text, uint32_t size) {
   uint32_t random = 7;
   for (uint32_t i = 0; i < size;) {
@@ -40,8 +40,7 @@ static inline uint32_t outside_sum(const void *bytes, uint32_t size) {
   return sum;
 }
 
-/* Data that were packed and unpacked must equal the original. Otherwise the checksum is one that no other result has.
- */
+/* The checksum of packed data; 0 if the unpacked data differ from the original. */
 static inline struct result outside_round_trip(const void *before, const void *after, uint32_t size, const void *packed,
                                                uint32_t packed_size) {
   return (struct result){memcmp(before, after, size) == 0 ? outside_sum(packed, packed_size) : 0, 0};

@@ -1,16 +1,16 @@
-/* Which names the headers declare, and how they declare what is not here. */
+/* Macros that select the names which headers declare, and that declare missing functions. */
 #ifndef TRAX_NAMES_H
 #define TRAX_NAMES_H
 
-/* C's own headers have the names of POSIX, of GNU and of this library, too, but not for a program that asks for plain C
+/* C's headers also declare the names of POSIX, of GNU and of this library, unless the program asks for plain C
    (-std=c17) and for none of them. */
 #if !defined __STRICT_ANSI__ || defined __cplusplus || defined _GNU_SOURCE || defined _DEFAULT_SOURCE ||               \
     defined _BSD_SOURCE || defined _POSIX_SOURCE || defined _POSIX_C_SOURCE || defined _XOPEN_SOURCE
 #define __TRAX_ALL_NAMES 1
 #endif
 
-/* A function that is there so that programs compile, and fails with ENOSYS. It is not in the library, so that scripts
-   that look for it find none. Calls of those of the second kind get a warning. */
+/* Declares a function that fails with ENOSYS, so that programs compile. It is not in the library, so configure scripts
+   do not find it. __TRAX_REFUSES also warns of calls. */
 #ifdef __trax__
 #define __TRAX_FAILS(type, name, parameters, result)                                                                   \
   __attribute__((__unused__)) static __inline type name parameters {                                                   \

@@ -10,10 +10,10 @@
 extern "C" {
 #endif
 
-/* Calls the function once on each thread, with what was written before visible; returns when all have returned, with
-   what they have written visible. Gives the number of threads. */
+/* Calls the function once on each thread, and returns their number when all have returned. Earlier writes are visible
+   to the threads, and the threads' writes are visible afterwards. */
 unsigned trax_parallel(void (*function)(void *context), void *context);
-/* Within that, the number of threads, and this one's from 0; elsewhere 1 and 0. */
+/* Within such work the number of threads and this thread's rank, from 0. Elsewhere 1 and 0. */
 unsigned trax_team_size(void);
 unsigned trax_team_rank(void);
 
@@ -24,8 +24,8 @@ void trax_parallel_for(unsigned begin, unsigned end, unsigned grain, trax_range 
 /* The parts go to the threads in turn. A grain of 0 makes one part for each thread. */
 void trax_parallel_for_static(unsigned begin, unsigned end, unsigned grain, trax_range *function, void *context);
 
-/* *result has the neutral element, and in the end the range's result: each thread adds one part of the range to a copy
-   of its own, and the copies are combined in the order of the range. Gives -1 without memory, else 0. */
+/* Reduces a range. *result is the neutral element before, and the result after the call. Each thread adds one part of
+   the range to its own copy; the copies are combined in the order of the range. Returns 0, or -1 without memory. */
 typedef void trax_reduce_range(unsigned begin, unsigned end, void *context, void *result);
 int trax_parallel_reduce(unsigned begin, unsigned end, trax_reduce_range *function, void *context, void *result,
                          size_t size, void (*combine)(void *result, const void *part));

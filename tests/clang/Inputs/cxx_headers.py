@@ -11,7 +11,7 @@ import sys
 
 
 def is_missing(name, directories):
-    """Is what is found under this name only a message?"""
+    """Whether the file of this name only reports an error."""
     found = next(path for path in (os.path.join(directory, name) for directory in directories) if os.path.exists(path))
     with open(found, encoding="utf-8") as file:
         return f"<{name}> is not available" in file.read()

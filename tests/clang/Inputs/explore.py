@@ -1,4 +1,4 @@
-"""What Compiler Explorer does with its properties: explore.py PROPERTIES SOURCE. It cannot be installed by itself;
+"""Does with its properties what Compiler Explorer does: explore.py PROPERTIES SOURCE. It cannot be installed by itself;
 these are its commands."""
 
 import subprocess

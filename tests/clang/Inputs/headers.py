@@ -147,7 +147,7 @@ def declared(clang, header, names):
 
 
 def missing_functions(clang, folder):
-    """What the linker says of a program with the address of each function of C."""
+    """Returns the linker's output for a program with the address of each function of C."""
     path = os.path.join(folder, "functions.c")
     with open(path, "w", encoding="utf-8") as file:
         for number, (header, names) in enumerate(HEADERS.items()):

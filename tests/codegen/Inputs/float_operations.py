@@ -22,7 +22,7 @@ def define(result, name, parameters, body):
 
 
 def call(result, name, parameters, more="", tail=""):
-    """Of an intrinsic, with the same parameters as the function around it."""
+    """A call of an intrinsic with the parameters of the function around it."""
     declaration = f"declare {result} @llvm.{name}({', '.join(parameters)}{', metadata' * more.count('metadata')})"
     if declaration not in declared:
         declared.add(declaration)

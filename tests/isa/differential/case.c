@@ -138,7 +138,7 @@ void differential_compare(const struct model_isa *isa, const struct differential
 
 /* --- smaller cases --- */
 
-/* The result of every ainc is waited for, or what follows depends on time. */
+/* Waits for the result of every ainc: otherwise later results depend on time. */
 static bool waits(const struct differential_case *c) {
   for (size_t i = 0; i < c->count; i++) {
     const trax_inst inst = trax_decode(c->words[i]);

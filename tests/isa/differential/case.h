@@ -1,4 +1,4 @@
-/* A random program in the emulator's engines and in the model of the manual, and what differs. */
+/* A random program in the emulator's engines and in the model of the manual, and the difference of their results. */
 #ifndef TRAX_ISA_DIFFERENTIAL_CASE_H
 #define TRAX_ISA_DIFFERENTIAL_CASE_H
 

@@ -35,7 +35,7 @@ struct tally {
   uint64_t instructions, executed[TRAX_OP_COUNT];
 };
 
-static volatile sig_atomic_t interrupted; /* Ctrl-C: what was done so far is reported */
+static volatile sig_atomic_t interrupted; /* Ctrl-C: the finished part is reported */
 
 static void interrupt(int signal) {
   (void)signal;

@@ -67,7 +67,7 @@ def changes_of(statement):
             yield name, statement[:match.start(1)] + new + statement[match.end(1):]
 
 
-# Changes that change nothing, by instruction and what is changed.
+# Changes without an effect, by instruction and changed part.
 EQUIVALENT = {
     ("lui", "its sign"): "the bits that differ are shifted out",
     ("rdsr", "its sign"): "negative numbers are beyond the limit",
@@ -79,7 +79,7 @@ EQUIVALENT = {
 
 
 def changes_of_immediate(text):
-    """Of what follows "IMM is bits "."""
+    """Changes of the text after "IMM is bits "."""
     yield "its sign", re.sub("sign|zero", lambda match: {"sign": "zero", "zero": "sign"}[match[0]], text)
     for pattern, new in ((", times 4", ""), (", times 4", ", times 2"), ("Values of 6", "Values of 3"),
                          ("Values of 4", "Values of 3"), ("below 1", "below 2")):

@@ -524,7 +524,7 @@ static void choose_roles(struct program *program) {
 
 static void emit_prologue(struct program *program) {
   const unsigned own = program->role[OWN], constants = program->role[CONSTANTS], scratch = program->role[INNER_LOOP];
-  for (unsigned i = 0; i < 4; i++) /* what reset left in registers */
+  for (unsigned i = 0; i < 4; i++) /* the registers after reset */
     emit(program, S(SW, any_register(), 0, -4 - 4 * (int32_t)any(0, 127)));
   emit(program, U(RDSR, own, TRAX_SR_THREAD));
   emit(program, I(SLLI, own, own, 10));
@@ -545,7 +545,7 @@ static void emit_end(struct program *program) {
   if (may_fault && one_in(2))
     emit_fault(program);
   if (may_fault && one_in(8))
-    return; /* what follows the program is no text */
+    return; /* the memory after the program is no text */
   emit(program, one_in(2) ? HALT : T(any_register(), TRAX_TRAP_EXIT));
 }
 
@@ -555,7 +555,7 @@ static size_t any_words_alone(uint32_t *words) {
   for (size_t i = 0; i < WORDS; i++) {
     const trax_inst inst = trax_decode(words[i]);
     const bool is_time = inst.op == TRAX_OP_RDSR && (inst.imm == TRAX_SR_CYCLE || inst.imm == TRAX_SR_CYCLEH);
-    if (is_time || inst.op == TRAX_OP_AINC) /* what they give depends on time */
+    if (is_time || inst.op == TRAX_OP_AINC) /* their results depend on time */
       words[i] = NOP;
   }
   return WORDS;

@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 enum { MOST_THREADS = 64 };
-#define FEW 257u /* one word in so many, in every state of the low bits */
+#define FEW 257u /* one word of 257, so that all low bits vary */
 
 struct part {
   const struct model_isa *isa;

@@ -48,7 +48,7 @@ struct model_isa *model_isa_read(const char *path, struct model_error *error);
 void model_isa_free(struct model_isa *isa);
 /* NULL: the word is illegal. */
 const struct model_instruction *model_decode(const struct model_isa *isa, uint32_t word);
-/* Register numbers, and IMM's value; 0 for what the instruction lacks. */
+/* Register numbers, and IMM's value; 0 for fields that the instruction lacks. */
 void model_operands(const struct model_instruction *instruction, uint32_t word, uint32_t operand[MODEL_FIELDS]);
 
 /* --- the machine: machine.c, memory.c --- */
@@ -126,7 +126,7 @@ void model_set_entry(struct model_machine *machine, uint32_t pc);
 enum model_end {
   MODEL_ENDED,   /* every thread */
   MODEL_FAULTED, /* machine->fault tells */
-  MODEL_LIMIT,   /* so many instructions were executed */
+  MODEL_LIMIT,   /* the limit of instructions was reached */
   MODEL_ERROR    /* the manual's semantics have no defined result here; *error tells */
 };
 /* limit: instructions of all threads; 0: none. */

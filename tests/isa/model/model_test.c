@@ -172,7 +172,7 @@ static void segments(void **state) {
   assert_int_equal(model_check(machine, 0x203C, 4, MODEL_STORE), MODEL_FAULT_NONE);
   assert_int_equal(model_check(machine, 0x1FFC, 4, MODEL_STORE), MODEL_FAULT_READ_ONLY);
   assert_int_equal(model_check(machine, 0x1FFC, 4, MODEL_LOAD), MODEL_FAULT_NONE);
-  /* Where several things are wrong, the first of docs/isa.md's list. */
+  /* Of several faults, the first of docs/isa.md's list is reported. */
   assert_int_equal(model_check(machine, 0xFFF, 4, MODEL_INCREMENT), MODEL_FAULT_NULL);
   assert_int_equal(model_check(machine, 0x100001, 4, MODEL_INCREMENT), MODEL_FAULT_UNMAPPED);
   assert_int_equal(model_check(machine, 0xFFFEFDFF, 4, MODEL_INCREMENT), MODEL_FAULT_UNMAPPED);

@@ -54,7 +54,7 @@ void trax_arithmetic_mutant(unsigned index, struct trax_mutant_text *text) {
   snprintf(text->what, sizeof text->what, "%s", texts[index].what);
 }
 
-/* --- what arithmetic.inc uses --- */
+/* --- functions of arithmetic.inc --- */
 
 static bool is_nan(uint32_t a) {
   return trax_is_nan(a);

@@ -351,7 +351,7 @@ static void add_to_word(uint32_t address, uint32_t amount) {
   memcpy(machine->space.bytes + address, &word, sizeof word);
 }
 
-/* An increment that is requested is performed later; what is wrong with the sum is put right in advance. */
+/* A requested increment is performed later. The word is changed now by the difference of the wrong sum. */
 void __wrap_trax_ref_result(struct trax_ref_tp *tp, uint64_t cycle, trax_cause cause) {
   __real_trax_ref_result(tp, cycle, cause);
   const wrong *mutant = current();

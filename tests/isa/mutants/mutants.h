@@ -19,7 +19,7 @@ struct trax_mutant_text {
   char image[48]; /* the name of one that is likely to notice; "" if none in particular */
 };
 
-/* How many there are of each sort, and the texts of one: `index` counts from 0 within the sort. */
+/* The number of mutants of each sort, and the texts of one. `index` counts from 0 within the sort. */
 unsigned trax_statement_mutants(void);
 void trax_statement_mutant(unsigned index, struct trax_mutant_text *text);
 unsigned trax_arithmetic_mutants(void);

@@ -33,7 +33,7 @@ OPERATORS = {
     " != ": [" == "],
 }
 
-# Regular expression, replacement, what is wrong.
+# Regular expression, replacement, description of the fault.
 REWRITES = [
     (r"\bRA\b", "RB", "rb is read for ra"),
     (r"\bRB\b", "RA", "ra is read for rb"),
@@ -187,7 +187,7 @@ def conditions(statement):
 
 
 def results(statement, flags):
-    """What may happen to the result, whatever it is."""
+    """Yields changes of any result."""
     if "TRAX_WRITES_RD" not in flags or "ATOMIC_INC" in statement:
         return
     yield f"const uint32_t kept = RD; {statement} RD = kept;", "rd is not written"

@@ -21,7 +21,7 @@ enum { MOST_OPERATIONS = 32 };
 
 static struct options {
   bool chosen[MOST_OPERATIONS], any_chosen;
-  uint64_t first, count; /* count 0: as many as there are by default */
+  uint64_t first, count; /* count 0: the default */
   unsigned jobs;
   bool round_to_zero;
 } options;
@@ -72,7 +72,7 @@ struct run {
   struct task tasks[MOST_OPERATIONS];
   unsigned task_count;
   bool round_to_zero;
-  pthread_mutex_t lock; /* of what follows, and of the tasks' differences */
+  pthread_mutex_t lock; /* protects the following members and the tasks' differences */
   pthread_cond_t piece_done;
   unsigned task; /* the next piece */
   uint64_t offset;
@@ -116,7 +116,7 @@ static void *work(void *argument) {
   return NULL;
 }
 
-/* Until all is done, a line on a terminal: what is done, and the time left. */
+/* Prints a line of progress on a terminal until all tasks are done. */
 static void show_progress(struct run *run) {
   time_t start = time(NULL), last = start;
   bool terminal = isatty(STDERR_FILENO);

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The compiler's constant folding must give what the TP would compute.
+"""The compiler's constant folding must give the TP's results.
 
     tests/isa/oracle/folding.py                  corner values, and 60 numbered pairs
     tests/isa/oracle/folding.py --pairs 5000
@@ -227,7 +227,7 @@ class Compiler:
 
 
 def compare(folder, cases, fold):
-    """Returns how many differ. `fold` takes cases and gives their values, None for what is not folded."""
+    """Returns the number of differences. `fold` takes cases and returns their values, None for those not folded."""
     values = {}
     for first in range(0, len(cases), PIECE):
         values.update(fold(cases[first:first + PIECE]))

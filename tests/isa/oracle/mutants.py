@@ -20,7 +20,7 @@ from mutation import Mutant, failure, main, relinked  # noqa: E402
 COUNT = 1000000
 SECONDS = 600
 
-MUTANTS = [  # (what is wrong, text, replacement)
+MUTANTS = [  # (description, text, replacement)
     ("ties to odd", "kept % 2 == 1)", "kept % 2 == 0)"), ("ties away", "(sticky || kept % 2 == 1)", "true"),
     ("ties towards zero", "(sticky || kept % 2 == 1)", "sticky"),
     ("sticky forgotten at a tie", "(sticky || kept % 2 == 1)", "kept % 2 == 1"),
@@ -94,7 +94,7 @@ REQUIRED = list(TESTS)[:2]
 
 
 def noticed(folder, build, mutant):
-    """What notices it; nothing if not all that must do so notice it."""
+    """Returns the tests that notice the mutant; an empty list unless all of REQUIRED do."""
     relinked(folder, build, "tests/isa/oracle/CMakeFiles/isa_oracle.dir", HERE / mutant.file, mutant.changed(HERE),
              ("isa-exhaustive", "isa-oracle-test"))
     found = [by for by, (program, *words) in TESTS.items() if failure(SECONDS, folder / program, *words)]

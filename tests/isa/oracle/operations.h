@@ -24,7 +24,7 @@ void add_difference(struct differences *differences, struct difference one);
 struct operation {
   const char *name;     /* the instruction's, or the library function's */
   unsigned arity;       /* 1 or 2 */
-  const char *operands; /* what the numbers below `all` go through */
+  const char *operands; /* the operands of the numbers below `all` */
   uint64_t all;         /* where the numbers end, if they do; else 0 */
   void (*compare)(uint64_t first, uint64_t count, struct differences *found);
 };

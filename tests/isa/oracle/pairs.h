@@ -15,7 +15,7 @@ struct pair {
 #define FRACTION_BITS 0x7FFFFFu
 #define EXPONENT_BITS 0x7F800000u
 
-/* Where a rule begins or ends; both signs of each are used. */
+/* The limits of rules, used with both signs. */
 static const uint32_t corner_values[] = {
     0x00000000, 0x00000001, 0x00000002, 0x00000003, 0x00000007, 0x000000FF,
     0x00001000, 0x003FFFFF, 0x00400000, 0x00400001, 0x007FFFFE, 0x007FFFFF, /* subnormal */

@@ -8,7 +8,7 @@ from program import Program
 
 NEAR = (8, 12, 16, 32, 64, 128, 256, 512)  # bytes, within the text
 LINK = ["-Ttext=0x1000", "-Tdata=0xb00000", "--section-start=.rodata=0xc00000"]
-FILLER = 0  # an illegal word: what a wrong distance meets
+FILLER = 0  # an illegal word, which a wrong distance reaches
 
 
 def outcome(program, condition):

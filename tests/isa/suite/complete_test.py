@@ -32,7 +32,7 @@ failures = 0
 
 
 def build(change):
-    """What build.py --check says of a changed description."""
+    """Returns the output of build.py --check for a changed description."""
     with tempfile.TemporaryDirectory() as folder:
         for name in os.listdir(ISA):
             if name.endswith(".td"):

@@ -77,7 +77,7 @@ def values(program, inst, row):
 
 
 def groups(program, inst, row):
-    """A list of what is in rd and in the groups of ra and rb."""
+    """Returns the contents of rd and of the groups of ra and rb."""
     words = len(row.groups[0])
     program.table("groups", [word for group in row.groups for word in group])
     program.address("r28", "groups")

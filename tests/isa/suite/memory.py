@@ -200,7 +200,7 @@ def loading(inst):
 
 
 def store_values(program, inst):
-    """Each value to each place in a word, whose other bytes keep what they hold."""
+    """Stores each value at each place of a word, whose other bytes keep their values."""
     words = INTEGERS + random_words("stores", 16)
     for at in offsets(inst):
         target = Target(program, len(words))

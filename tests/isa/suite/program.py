@@ -7,7 +7,7 @@ bne, bltu, jal and the exit trap."""
 
 from collections import Counter
 
-UNWRITTEN = 0xDEADBEEF  # what the signature holds before
+UNWRITTEN = 0xDEADBEEF  # the initial words of the signature
 WINDOW = 32000  # bytes within which results are stored by offset
 
 
@@ -106,7 +106,7 @@ class Program:
         return 4 * (result - self.base)
 
     def reach(self, words):
-        """So many results can be stored without another rebase, which takes r31 and r30 from a test."""
+        """Rebases unless so many more words can be stored without it. A rebase takes r31 and r30 from a test."""
         if self.offset(self.results + words) > WINDOW:
             self.rebase()
 

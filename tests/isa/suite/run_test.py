@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""tests/isa/run notices what an implementation does wrong: run_test.py RUN TRAX_SIM BUILD
+"""tests/isa/run notices the faults of an implementation: run_test.py RUN TRAX_SIM BUILD
 
 Implementations that break what trax-sim writes; programs that expect something else; the suite as it is installed."""
 

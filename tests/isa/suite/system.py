@@ -126,7 +126,7 @@ def trapping(inst, constants):
 
 
 def exits(inst, code):
-    """Statuses of one thread each in an image of its own; what follows the trap has no effect."""
+    """Exit statuses, each in an image of its own. Instructions after the trap have no effect."""
     program = Program(f"{inst.mnemonic}-exit", inst.mnemonic)
     program.checked = False
     program.results = 2
@@ -143,7 +143,7 @@ def exits(inst, code):
 
 
 def fencing(inst, constants):
-    """What a fence does to one thread: nothing. What it does to the order of accesses is litmus.py's."""
+    """A fence has no effect within one thread. litmus.py tests its effect on the order of accesses."""
     program = Program(inst.mnemonic, inst.mnemonic)
     program.begin()
     for name in ("R", "W", "RW"):

@@ -36,7 +36,7 @@ enum { THREADS = 256, QUEUE = 16, PENDING = 8, LINES = 64, LINE = 64, LONGEST_DE
   X(W_INCREMENTS, "fence-w-increments") /* fence w does not wait for increments without a result */                    \
   X(RW_R, "fence-rw-r")                 /* fence rw is fence w */                                                      \
   X(RW_W, "fence-rw-w")                 /* fence rw is fence r */                                                      \
-  X(END, "end")                         /* what still waits at the end is lost */
+  X(END, "end")                         /* accesses that still wait at the end are lost */
 
 enum rule {
 #define RULE(ID, NAME) ID,
@@ -174,7 +174,7 @@ static void perform_stores(struct model_machine *machine, const struct model_thr
     perform_and_remove(machine, thread, 0);
 }
 
-/* Over what memory or a cache has lie the thread's own stores that wait. */
+/* The thread's own waiting stores hide the contents of memory or of a cache. */
 static uint32_t with_own(const uint8_t *bytes, const struct queue *queue, uint32_t address, uint32_t count) {
   uint32_t result = 0;
   for (uint32_t b = 0; b < count; b++) {
@@ -272,7 +272,7 @@ static bool is_increment(const struct model_instruction *instruction) {
   return instruction->mnemonic[0] == 'a' && strcmp(instruction->mnemonic, "ainc") == 0;
 }
 
-/* Executes what waits, with its base register as it was. */
+/* Executes a waiting access, with its base register as it was. */
 static void complete(struct model_machine *machine, struct model_thread *thread, unsigned index) {
   struct queue *queue = &queues[thread->number];
   struct pending load = queue->load[index];
@@ -385,7 +385,7 @@ void __wrap_model_fence(struct model_machine *machine, struct model_thread *thre
 
 /* --- the run --- */
 
-/* Performs a thread's loads and stores whose time has come. */
+/* Performs a thread's loads and stores that are due. */
 static void pass_time(struct model_machine *machine, struct model_thread *thread) {
   const struct queue *queue = &queues[thread->number];
   const unsigned kept = broken() == FINITE_TIME;

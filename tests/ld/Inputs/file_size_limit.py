@@ -1,4 +1,4 @@
-"""Runs a command that can write no file longer than so many bytes: file_size_limit.py BYTES COMMAND..."""
+"""Runs a command with a limit for the size of files: file_size_limit.py BYTES COMMAND..."""
 
 import os
 import resource

@@ -80,7 +80,7 @@ with tempfile.TemporaryDirectory() as folder:
             pathlib.Path(folder, f"{name}.c").write_text('void f(void) { __asm__ volatile("' +
                                                          text.replace("\n", "\\n") + '"); }\n')
             check(name, [*clang, f"{name}.c"], folder)
-    # What is not too much is assembled.
+    # A source within the limits is assembled.
     pathlib.Path(folder, "good.s").write_text(".rept 100000\n.word 1\n.endr\n.set n, 100000\n.set s0, x\n" +
                                               "".join(f".set s{i}, s{i - 1}+1\n" for i in range(1, 500)) +
                                               ".rept n\nnop\n.endr\n.fill n*10, 4, 7\n.skip 1<<20\n.word " + "(" * 100 +
