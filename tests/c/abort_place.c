@@ -1,7 +1,7 @@
 // RUN: %run_c %s %t --levels -O0,-O2 --status 134
 // RUN: not %trax_sim %t-O0 2>&1 | FileCheck %s
 // RUN: not %trax_sim %t-O2 2>&1 | FileCheck %s
-// abort() stops the machine: what was printed before is there, and the report names the call.
+// abort() stops the machine: earlier output is there, and the report names the call.
 // (Expected output by hand.)
 #include <stdio.h>
 #include <stdlib.h>

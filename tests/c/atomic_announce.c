@@ -1,6 +1,6 @@
 // RUN: %run_c %s %t --turns -O0,-O2,-Os \
 // RUN:   --simflags "--config 2x32 --set memory.bandwidth_gbps=0.5 --max-cycles 3000000"
-// A store that announces an increment comes behind it, also while the memory is busy with other threads' requests.
+// A store that announces an increment comes after it, also while the memory is busy with other threads' requests.
 // (Expected output by hand.)
 #include <stdatomic.h>
 #include <stdio.h>

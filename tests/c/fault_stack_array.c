@@ -1,5 +1,5 @@
 // RUN: %run_c %s %t --turns -O0,-O2 --fault "stack overflow" --fault fault_stack_array.c:9 --fault "sum+"
-// An array on the stack, larger than what is left of it.
+// An array on the stack, larger than the rest of the stack.
 static volatile int size = 130;
 
 __attribute__((noinline)) static int sum(int n) {

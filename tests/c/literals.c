@@ -1,5 +1,5 @@
 // RUN: %run_c %s %t
-// Designated initialisers, compound literals, flexible array members, strings with escapes, and what they leave zero.
+// Designated initialisers, compound literals, flexible array members, strings with escapes, and members left zero.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

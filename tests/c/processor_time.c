@@ -12,11 +12,11 @@
 // RUN: %{c} && %{run}
 // REDEFINE: %{mhz} = 333
 // RUN: %{cxx} && %{run}
-// Without a symbol table the loader cannot say what the clock is: clock fails as C says, and steady_clock stops.
+// Without a symbol table the loader cannot set the clock: clock fails as C says, and steady_clock stops.
 // RUN: %clang -O2 -DMHZ=500 %s -o %t.stripped && llvm-strip %t.stripped && %trax_sim %t.stripped | FileCheck --check-prefix=STRIPPED %s
 // RUN: %clangxx -x c++ -std=c++20 -O2 -DMHZ=500 %s -o %t.stripped && llvm-strip %t.stripped
 // RUN: not %trax_sim %t.stripped 2>&1 | FileCheck --check-prefix=STOPPED %s
-// clock, and what C++ makes of it, go by the clock of the chip.
+// clock, and C++'s clocks, go by the clock of the chip.
 #include <stdio.h>
 #include <time.h>
 #include <trax.h>

@@ -1,5 +1,5 @@
 // RUN: %run_c %s %t --turns -O0,-O2 --cflags "-mstack=global"
-// sscanf: every conversion, widths, sets, what does not match, and the end of the text.
+// sscanf: every conversion, widths, sets, mismatches, and the end of the text.
 #include <stdio.h>
 #include <string.h>
 

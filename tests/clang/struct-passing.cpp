@@ -1,4 +1,4 @@
-// C++: what may be copied bit by bit goes in registers, everything else by address.
+// C++: trivially copyable classes go in registers, all others by address.
 // RUN: %clangxx -std=c++17 -O1 -S -emit-llvm %s -o - | FileCheck %s
 
 struct base {

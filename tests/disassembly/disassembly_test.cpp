@@ -1,7 +1,7 @@
 //===- disassembly_test.cpp - LLVM's tables against the C tables ---------===//
 //
 // Both are generated from isa/TraxInstructions.td by different generators. For random words, and for random operands of
-// every instruction: the same words are legal, they read the same, and encoding what was decoded gives the word back.
+// every instruction: the same words are legal, they read the same, and decoded words are encoded to themselves.
 //
 //===----------------------------------------------------------------------===//
 #include "LLVMTrax.h"

@@ -8,7 +8,7 @@ SHF_ALLOC = 2
 
 def read(path):
     """{section name: (flags, alignment, bytes or size of zeros, relocations)} of the allocated sections of a 32-bit
-    little-endian object. Relocations are (offset, type, what it refers to, addend); a section symbol refers to its
+    little-endian object. Relocations are (offset, type, target, addend); a section symbol refers to its
     section. Sections of one name, as COMDAT groups have them, are told apart by their order."""
     with open(path, "rb") as file:
         data = file.read()

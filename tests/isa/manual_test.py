@@ -3,7 +3,7 @@
 
 The generator computes the tables of arithmetic with the emulator's functions, over a few operands of each class. Here
 the oracle answers, over many: every entry must hold for all of them, and none may say less than it could. Shorthands
-must assemble to what they stand for, and be printed or not as the table says."""
+must assemble to their expansions, and be printed or not as the table says."""
 
 import random
 import re

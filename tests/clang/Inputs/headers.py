@@ -97,7 +97,7 @@ MORE = {
 FREE = {header: "time clock difftime gmtime strftime" for header in
         "sys/time.h sys/times.h utime.h unistd.h sys/types.h sys/select.h sys/resource.h sys/wait.h".split()}
 FREE["pthread.h"] = "thrd_create mtx_lock wait kill ioctl"
-# Not here: their use is an error that says what to do.
+# Missing functions: their use is an error that names a replacement.
 WITHOUT = {"stdio.h": "fmemopen open_memstream"}
 NOT_IN_CXX = {"uchar.h", "wchar.h", "wctype.h", "threads.h", "stdatomic.h", "stdnoreturn.h", "tgmath.h", "complex.h",
               "stdalign.h", "stdbool.h", "iso646.h"}

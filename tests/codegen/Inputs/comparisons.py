@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """comparisons.py: every comparison of floats as a value, in a selection and in a branch, and every one of integers in a
-branch, as functions of LLVM's IR with what the code generator must make of them, to standard output."""
+branch, as functions of LLVM's IR with the required code, to standard output."""
 
 CALL = ["addi r2, r2, -4", "sw r1, 0(r2)", "call g", "lw r1, 0(r2)", "addi r2, r2, 4"]
 LABEL = ".LBB{{[0-9_]+}}"

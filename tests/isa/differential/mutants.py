@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Would the random programs notice a mistake? Each instruction's statement in the manual, and what it says of the
+"""Do the random programs notice a mistake? Each instruction's statement in the manual, and what it says of the
 immediate, is changed in turn, and the model made from that manual must differ from the emulator. Prints the changes
 that were not noticed and how many were; exit status 1 if one was not.
 

@@ -4,7 +4,7 @@
     tests/isa/mutants/check.py [--build FOLDER] [--only EXPRESSION] [--every N] [--jobs N] [--verbose]
 
 Every mutant is the machine with one thing wrong: an instruction's statement, a special case of an operation, a bit of
-the decoder, a check, what a fault reports, the state at reset (mutants.h). A mutant is caught if an image of the suite
+the decoder, a check, the report of a fault, the state at reset (mutants.h). A mutant is caught if an image of the suite
 ends otherwise than its reference. Prints caught / total and names the survivors. Ends with status 1 if there is one
 that equivalent.py does not explain, or one that it explains and that is caught.
 """

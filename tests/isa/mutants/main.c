@@ -1,6 +1,6 @@
 /* Runs the conformance suite against mutants of the reference engine (mutants.h), a process for each:
 
-     trax-isa-mutants --list                        every mutant: number, mnemonic, what is wrong
+     trax-isa-mutants --list                        every mutant: number, mnemonic, fault
      trax-isa-mutants TESTS MEMORY_MIB JOBS         reads numbers from the standard input, one a line
 
    TESTS has a line for each image, its fields separated by tabs: path of the image, of its reference signature, what it

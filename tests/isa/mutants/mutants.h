@@ -1,7 +1,7 @@
 /* Mutants of the machine: ways to implement it wrong, all compiled into one program and chosen by number (mutant
    schemata). The conformance suite must catch every one (tests/isa/mutants/check.py).
 
-   A mutant belongs to an instruction, whose tests are tried first, and has a text that says what is wrong. Numbers run
+   A mutant belongs to an instruction, whose tests are tried first, and has a text that describes the fault. Numbers run
    from 1: statements of the semantics (statements.py), arithmetic (arithmetic.inc), decoding (decode.c), the rest of
    the machine (machine.c). Number 0 is the machine as it is. */
 #ifndef TRAX_TESTS_ISA_MUTANTS_H

@@ -45,7 +45,7 @@ COMPARE_ONE(fcvt_w_s)
 COMPARE_ONE(fcvt_wu_s)
 COMPARE_ONE(fcvt_s_w)
 COMPARE_ONE(fcvt_s_wu)
-/* A function may hand on the NaN it was given, whose bits nothing promises. */
+/* A function may return its operand's NaN, with unspecified bits. */
 COMPARE(sqrtf, ((struct pair){word_of(number), 0}), trax_canonical(rt_sqrtf(trax_to_float(p.a))),
         oracle_fsqrt_rounded(p.a))
 

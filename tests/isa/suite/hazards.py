@@ -1,5 +1,5 @@
-"""Results used at once, overwritten at once, and operands overwritten at once: what a pipeline, a slow unit or a
-scoreboard must not show. Every instruction that writes a register stands before each kind of reader, at several
+"""Hazards of a pipeline, a slow unit or a scoreboard: results used at once, results overwritten at once, and operands
+overwritten at once. Every instruction that writes a register stands before each kind of reader, at several
 distances."""
 
 import random

@@ -1,4 +1,4 @@
-"""A row for each instruction: what its tests compute with. The conditions follow from its format; an instruction
+"""A row for each instruction: the operands of its tests. The conditions follow from its format; an instruction
 without a row, or a row without an instruction, is an error that stops the build."""
 
 from dataclasses import dataclass, field

@@ -1,6 +1,5 @@
 """Litmus tests of the memory order (docs/isa.md, "Order"): a few accesses of two to four threads, many times with other
-delays. What is counted is how often an outcome came that no rule allows; the result is 0. Which of the allowed outcomes
-come is no part of it.
+delays. The result is the number of outcomes that no rule allows: 0. The allowed outcomes are not counted.
 
 In the names of the tests x and y are words of lines of their own, 0 at first; the threads 0 and 1 belong to one TM, 2
 and 3 to another."""

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """tests/isa/run notices the faults of an implementation: run_test.py RUN TRAX_SIM BUILD
 
-Implementations that break what trax-sim writes; programs that expect something else; the suite as it is installed."""
+Implementations that damage trax-sim's output; programs that expect something else; the installed suite."""
 
 import glob
 import os

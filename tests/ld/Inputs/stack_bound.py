@@ -1,5 +1,5 @@
 """stack_bound.py BIN STEM SOURCE...: each program, at two levels, runs on the stack that the linker says it takes at
-most: that of the path with indirect calls of any function whose address is taken, or of the only path."""
+most: that of the path with indirect calls of any function with a taken address, or of the only path."""
 
 import re
 import subprocess
