@@ -10,6 +10,9 @@ extern size_t host_output_size;
 extern jmp_buf host_abort_target; /* where an abort or an exit goes */
 extern const char *host_abort_message;
 
+/* Declares the runtime's function with the type of the host's. */
+#define RUNTIME_FUNCTION(name) __typeof__(name) rt_##name;
+
 void rt_host_put_char(int c);
 extern unsigned long long host_cycles; /* what the cycle counter shows */
 unsigned long long rt_host_cycles(void);

@@ -7,6 +7,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
+#include "host.h"
 #include "operands.h"
 
 /* Name, and bounds of double and float. */
@@ -33,18 +34,9 @@
   X(creal, 0, 0)                                                                                                       \
   X(cimag, 0, 0)
 
-double complex rt_cacos(double complex), rt_casin(double complex), rt_catan(double complex), rt_ccos(double complex),
-    rt_csin(double complex), rt_ctan(double complex), rt_cacosh(double complex), rt_casinh(double complex),
-    rt_catanh(double complex), rt_ccosh(double complex), rt_csinh(double complex), rt_ctanh(double complex),
-    rt_cexp(double complex), rt_clog(double complex), rt_csqrt(double complex), rt_conj(double complex),
-    rt_cproj(double complex), rt_cpow(double complex, double complex);
-float complex rt_cacosf(float complex), rt_casinf(float complex), rt_catanf(float complex), rt_ccosf(float complex),
-    rt_csinf(float complex), rt_ctanf(float complex), rt_cacoshf(float complex), rt_casinhf(float complex),
-    rt_catanhf(float complex), rt_ccoshf(float complex), rt_csinhf(float complex), rt_ctanhf(float complex),
-    rt_cexpf(float complex), rt_clogf(float complex), rt_csqrtf(float complex), rt_conjf(float complex),
-    rt_cprojf(float complex), rt_cpowf(float complex, float complex);
-double rt_cabs(double complex), rt_carg(double complex), rt_creal(double complex), rt_cimag(double complex);
-float rt_cabsf(float complex), rt_cargf(float complex), rt_crealf(float complex), rt_cimagf(float complex);
+#define DECLARE(name, of_float, of_double) RUNTIME_FUNCTION(name) RUNTIME_FUNCTION(name##f)
+FUNCTIONS(DECLARE)
+DECLARE(cpow, , )
 
 static bool failed;
 

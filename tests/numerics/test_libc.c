@@ -19,66 +19,28 @@
 #include "host.h"
 #include "operands.h"
 
-void *rt_memcpy(void *, const void *, size_t);
-void *rt_memmove(void *, const void *, size_t);
-void *rt_memset(void *, int, size_t);
-int rt_memcmp(const void *, const void *, size_t);
-void *rt_memchr(const void *, int, size_t);
-size_t rt_strlen(const char *);
-size_t rt_strnlen(const char *, size_t);
-int rt_strcmp(const char *, const char *);
-int rt_strncmp(const char *, const char *, size_t);
-char *rt_strcpy(char *, const char *);
-char *rt_strncpy(char *, const char *, size_t);
-char *rt_strcat(char *, const char *);
-char *rt_strncat(char *, const char *, size_t);
-char *rt_strchr(const char *, int);
-char *rt_strrchr(const char *, int);
-char *rt_strstr(const char *, const char *);
-size_t rt_strspn(const char *, const char *);
-size_t rt_strcspn(const char *, const char *);
-char *rt_strpbrk(const char *, const char *);
-char *rt_strtok_r(char *, const char *, char **);
-char *rt_strtok(char *, const char *);
-void *rt_memrchr(const void *, int, size_t);
-void *rt_memccpy(void *, const void *, int, size_t);
-void *rt_memmem(const void *, size_t, const void *, size_t);
-void *rt_mempcpy(void *, const void *, size_t);
-char *rt_stpcpy(char *, const char *);
-char *rt_stpncpy(char *, const char *, size_t);
-int rt_strcasecmp(const char *, const char *);
-int rt_strncasecmp(const char *, const char *, size_t);
-int rt_strcoll(const char *, const char *);
-size_t rt_strxfrm(char *, const char *, size_t);
-char *rt_strerror(int);
-char *rt_strndup(const char *, size_t);
-long long rt_clock(void);
-int rt_rand(void);
-int rt_rand_r(unsigned *);
-void rt_srand(unsigned);
-long rt_strtol(const char *, char **, int);
-unsigned long rt_strtoul(const char *, char **, int);
-long long rt_strtoll(const char *, char **, int);
-unsigned long long rt_strtoull(const char *, char **, int);
-int rt_atoi(const char *);
-double rt_strtod(const char *, char **);
-float rt_strtof(const char *, char **);
-extern _Thread_local int rt_errno;
-void rt_qsort(void *, size_t, size_t, int (*)(const void *, const void *));
-void *rt_bsearch(const void *, const void *, size_t, size_t, int (*)(const void *, const void *));
+/* clang-format off */
+#define LIKE_THE_HOST(X) \
+  X(memcpy) X(memmove) X(memset) X(memcmp) X(memchr) X(strlen) X(strnlen) X(strcmp) X(strncmp) X(strcpy) X(strncpy) \
+  X(strcat) X(strncat) X(strchr) X(strrchr) X(strstr) X(strspn) X(strcspn) X(strpbrk) X(strtok_r) X(strtok) \
+  X(memrchr) X(memccpy) X(memmem) X(mempcpy) X(stpcpy) X(stpncpy) X(strcasecmp) X(strncasecmp) X(strcoll) X(strxfrm) \
+  X(strerror) X(strndup) X(rand) X(rand_r) X(srand) X(strtol) X(strtoul) X(strtoll) X(strtoull) X(atoi) X(strtod) \
+  X(strtof) X(qsort) X(bsearch) X(free) X(strdup)
+/* clang-format on */
+LIKE_THE_HOST(RUNTIME_FUNCTION)
+/* The host's have attributes that this test contradicts. */
 void *rt_malloc(size_t);
 void *rt_calloc(size_t, size_t);
 void *rt_realloc(void *, size_t);
 void *rt_aligned_alloc(size_t, size_t);
-void rt_free(void *);
-char *rt_strdup(const char *);
+long long rt_clock(void);
+extern _Thread_local int rt_errno;
 extern uintptr_t rt___trax_heap, rt___trax_heap_end;
 int rt_printf(const char *, ...);
 int rt_iprintf(const char *, ...);
 int rt_snprintf(char *, size_t, const char *, ...);
 int rt_sniprintf(char *, size_t, const char *, ...);
 int rt_sprintf(char *, const char *, ...);
-long long rt_clock(void);
 extern unsigned rt___trax_clock_mhz;
 int rt_puts(const char *);
 int rt_fputs(const char *, void *);

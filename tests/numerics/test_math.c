@@ -7,47 +7,18 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "host.h"
 #include "operands.h"
 
-float rt_sinf(float);
-float rt_cosf(float);
-float rt_fmaf(float, float, float);
-float rt_modff(float, float *);
-float rt_frexpf(float, int *);
-float rt_ldexpf(float, int);
-int rt_ilogbf(float);
-float rt_nextafterf(float, float);
-long rt_lroundf(float);
-long rt_lrintf(float);
-long long rt_llroundf(float);
-long long rt_llrintf(float);
-float rt_nexttowardf(float, long double); /* the host's, since it is compiled for the host */
-float rt_remquof(float, float, int *);
+/* clang-format off */
+#define LIKE_THE_HOST(X) \
+  X(sinf) X(cosf) X(fmaf) X(modff) X(frexpf) X(ldexpf) X(ilogbf) X(nextafterf) X(lroundf) X(lrintf) X(llroundf) \
+  X(llrintf) X(nexttowardf) X(remquof) X(fabs) X(floor) X(ceil) X(trunc) X(round) X(rint) X(fmin) X(fmax) X(fmod) \
+  X(modf) X(frexp) X(ldexp) X(copysign) X(remainder) X(remquo) X(nextafter) X(fdim) X(logb) X(scalbln) X(ilogb) \
+  X(lround) X(lrint) X(llround) X(llrint)
+/* clang-format on */
+LIKE_THE_HOST(RUNTIME_FUNCTION)
 void rt_sincosf(float, float *, float *);
-double rt_fabs(double);
-double rt_floor(double);
-double rt_ceil(double);
-double rt_trunc(double);
-double rt_round(double);
-double rt_rint(double);
-double rt_fmin(double, double);
-double rt_fmax(double, double);
-double rt_fmod(double, double);
-double rt_modf(double, double *);
-double rt_frexp(double, int *);
-double rt_ldexp(double, int);
-double rt_copysign(double, double);
-double rt_remainder(double, double);
-double rt_remquo(double, double, int *);
-double rt_nextafter(double, double);
-double rt_fdim(double, double);
-double rt_logb(double);
-double rt_scalbln(double, long);
-int rt_ilogb(double);
-long rt_lround(double);
-long rt_lrint(double);
-long long rt_llround(double);
-long long rt_llrint(double);
 
 static double minimum(double x, double y) {
   return x != x ? y : y != y ? x : x < y || (x == y && signbit(x)) ? x : y;
