@@ -10,7 +10,7 @@
 #define MOST_OCCLUSION_POINTS (1u << 16)
 
 bool options_rendered(const struct options *options) {
-  return options->output || options->progress_png || options->prepare || options->keep || options->stats ||
+  return options->output || options->prepare || options->keep || options->stats ||
          options->ray_cycles || options->compare || options->cost_picture || options->cost_values ||
          trax_explain_wanted(&options->explain);
 }
@@ -25,8 +25,6 @@ static const char *against_rays(const struct options *options) {
   } others[] = {{options->output, "--output"},
                 {options->layers, "--layers"},
                 {options->frames > 1, "--frames"},
-                {options->id_picture, "--id-picture"},
-                {options->progress_png, "--progress-png"},
                 {options->view, "--view"},
                 {camera->eye.given || camera->look_at.given || camera->up.given || camera->light_count,
                  "--eye, --look-at, --up or --light"},
@@ -87,8 +85,7 @@ static trax_status check_sequence(const struct options *options, trax_error *err
                  "--program, --source, --no-specialise or --queues"},
                 {options->sampled, "--sampled"},
                 {options->layers || options->frame.floats, "--layers or --float"},
-                {options->id_picture || options->progress_png || options->write_view,
-                 "--id-picture, --progress-png or --write-view"},
+                {options->write_view, "--write-view"},
                 {options->ray_trace || options->compare, "--ray-trace or --compare"},
                 {options->keep || options->cache, "--keep, --prepare or --cache"}};
   if (options->frames == 1)
@@ -118,13 +115,11 @@ trax_status options_check(const struct options *options, trax_error *error) {
   if (options->no_refit)
     return trax_fail(error, "--no-refit is for --frames with --at X:Y");
   if (options->prepare && (options->output || options->stats || options->ray_cycles || options->compare ||
-                           options->hits || options->id_picture || options->ray_trace || options->cost_picture ||
-                           options->cost_values || trax_explain_wanted(&options->explain)))
+                           options->hits || options->ray_trace || options->cost_picture || options->cost_values ||
+                           trax_explain_wanted(&options->explain)))
     return trax_fail(error, "--prepare renders nothing, so there is nothing to write, explain or compare");
-  if (options->prepare && options->progress_png)
-    return trax_fail(error, "--prepare renders nothing, so there is nothing to show");
   if (!options_rendered(options) &&
-      !(options->rays || options->hits || options->ray_trace || options->id_picture || options->write_view)) {
+      !(options->rays || options->hits || options->ray_trace || options->write_view)) {
     for (size_t i = 0; i < options->mesh_count; i++) /* a missing mesh is reported first */
       if (trax_mesh_check(options->meshes[i], error) != TRAX_OK)
         return TRAX_ERROR;
@@ -143,7 +138,7 @@ trax_status options_check(const struct options *options, trax_error *error) {
     return trax_fail(error, "--layers needs -o FILE.exr");
   if (options->layers && options->engine <= ENGINE_REFERENCE &&
       (options->program || options->no_specialise || options->sampled || options->stats || options->ray_cycles ||
-       options->keep || options->compare || options->cost_picture || options->cost_values || options->progress_png ||
+       options->keep || options->compare || options->cost_picture || options->cost_values ||
        trax_explain_wanted(&options->explain)))
     return trax_fail(error,
                      "--layers needs a program that records and therefore has no run time to report: it excludes "
@@ -201,7 +196,7 @@ trax_status options_check(const struct options *options, trax_error *error) {
     return trax_fail(error, "--source-folder without --explore");
   if (options->frames > 1 &&
       (options->stats || options->ray_cycles || options->keep || options->cost_picture || options->cost_values ||
-       options->compare || options->id_picture || options->ray_trace || trax_explain_wanted(&options->explain)))
+       options->compare || options->ray_trace || trax_explain_wanted(&options->explain)))
     return trax_fail(error, "--frames makes pictures only: --stats, --keep, --compare and the like are for one");
   if (options->ray_trace && options->engine >= ENGINE_EMBREE)
     return trax_fail(error, "--ray-trace: the rays are the device program's, which Embree does not run");

@@ -181,17 +181,6 @@ static bool find_surface(struct surface *surface, const struct sample *sample, s
   }
 }
 
-bool embree_seen(const struct embree *embree, struct double3 eye, struct double3 direction, struct exact_hit *hit) {
-  uint64_t rays = 0;
-  const struct sample sample = {.embree = embree, .params = embree->frame->params, .rays = &rays};
-  struct surface surface;
-  double distance;
-  const bool seen = find_surface(&surface, &sample, eye, direction, &distance);
-  if (seen)
-    *hit = surface.hit;
-  return seen;
-}
-
 /* Behind each hole the ray is aimed at the target again, so that its result does not depend on where it starts. */
 static bool light_reaches(const struct sample *sample, struct double3 origin, struct double3 direction,
                           double distance) {

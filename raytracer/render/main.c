@@ -4,7 +4,6 @@
 #include "files.h"
 #include "inputs.h"
 #include "layers.h"
-#include "live.h"
 #include "options.h"
 #include "rays_run.h"
 #include "render.h"
@@ -59,8 +58,8 @@ static trax_status init_frame(struct trax_frame *frame, const struct options *op
 
 /* One picture. *scaled: the power of two by which the scene was scaled so far. */
 static trax_status render_view(const struct options *options, struct inputs *inputs, struct trax_view *view,
-                               const char *output, int *scaled, trax_progress_line *progress, struct live *live,
-                               bool *agrees, trax_error *error) {
+                               const char *output, int *scaled, trax_progress_line *progress, bool *agrees,
+                               trax_error *error) {
   struct trax_frame frame = {0};
   struct trax_picture picture = {0};
   int exponent;
@@ -70,7 +69,7 @@ static trax_status render_view(const struct options *options, struct inputs *inp
     *scaled += exponent;
     status = init_frame(&frame, options, inputs, view, error);
   }
-  const struct job job = {.options = options, .frame = &frame, .progress = progress, .live = live};
+  const struct job job = {.options = options, .frame = &frame, .progress = progress};
   if (status == TRAX_OK && options->hits)
     status = measure_hits(&job, error);
   if (status == TRAX_OK && options_rendered(options))
@@ -84,8 +83,6 @@ static trax_status render_view(const struct options *options, struct inputs *inp
     status = trax_picture_write(&picture, output, error);
   if (status == TRAX_OK && !options->quiet)
     print_outputs(options, inputs, output);
-  if (status == TRAX_OK && options->id_picture)
-    status = write_hits(&job, error);
   if (status == TRAX_OK && options->compare) {
     bool same = true;
     status = compare(&picture, &job, &same, error);
@@ -96,7 +93,7 @@ static trax_status render_view(const struct options *options, struct inputs *inp
   return status;
 }
 
-static trax_status render(const struct options *options, trax_progress_line *progress, struct live *live, bool *agrees,
+static trax_status render(const struct options *options, trax_progress_line *progress, bool *agrees,
                           trax_error *error) {
   struct inputs inputs = {0};
   struct trax_view view;
@@ -118,8 +115,7 @@ static trax_status render(const struct options *options, trax_progress_line *pro
       status = trax_fail(error, "out of memory");
     inputs_view(&view, &inputs, options, i);
     if (status == TRAX_OK)
-      status = render_view(options, &inputs, &view, output ? output : options->output, &scaled, progress, live, agrees,
-                           error);
+      status = render_view(options, &inputs, &view, output ? output : options->output, &scaled, progress, agrees, error);
     free(output);
   }
   inputs_release(&inputs);
@@ -156,12 +152,8 @@ int main(int argc, char **argv) {
     trax_files files = {0};
     options.import.files = &files;
     trax_status status = check_files(&files, &options, &error);
-    struct live *live = NULL;
     if (status == TRAX_OK)
-      status = live_create(&live, &options, &error);
-    if (status == TRAX_OK)
-      status = render(&options, &progress, live, &agrees, &error);
-    live_destroy(live);
+      status = render(&options, &progress, &agrees, &error);
     trax_files_release(&files);
     trax_progress_line_clear(&progress);
     if (status != TRAX_OK && trax_signal) {

@@ -50,12 +50,9 @@ static const trax_option rows[] = {
                 "is a folder, with picture and statistics of each frame, frames.csv, and report.html with curves of\n"
                 "new trees and of the first frame's, refitted; the same command continues what was interrupted"},
     {"no-refit", FIELD(no_refit), .meaning = "of a sequence: new trees alone"},
-    {"id-picture", .argument = "FILE.png", OUTPUT(id_picture, "png"),
-     .meaning = "which triangle each pixel shows: its number in the meshes, from 1, as\n"
-                "R + 256 G + 65536 B; found natively, or by --engine embree or exact"},
-    {"show", .instead = "--progress-png FILE.png, and a viewer that loads a changed file again"},
-    {"progress-png", .argument = "FILE.png", OUTPUT(progress_png, "png"),
-     .meaning = "writes the picture again and again as it arrives; missing pixels are squares"},
+    {"id-picture", .instead = "-o FILE.exr --layers, whose channel triangle has the same numbers"},
+    {"show", .instead = "--engine native, the same picture in a fraction of the time"},
+    {"progress-png", .instead = "--engine native, the same picture in a fraction of the time"},
     TRAX_OPTION_GROUP("View"),
     {"view", .argument = "FILE|NAME", FIELD(view), .words = put_view_names,
      .meaning = "eye, direction, field of view and light: a file, or one that comes with trax;\n"

@@ -188,12 +188,10 @@ struct trax_render_run {
   void (*progress)(void *context, uint64_t done, uint64_t total); /* about ten times a second; may be NULL */
   void *progress_context;
   const volatile int *interrupt; /* polled; may be NULL */
-  const void *image;             /* out, of the twin, while it runs: what the program has written of its picture */
   uint64_t rays;                 /* out: rays traced; 0 with accesses, which know of them slot by slot */
   uint64_t kinds[TRAX_RAY_KIND_COUNT]; /* out, of the twin: the same by kind */
   bool layers;                         /* the picture gets layers (layers.h) */
   bool exactly; /* of Embree: hits without error (exact.h), of the rays that the device program has */
-  bool holes;   /* of hits (hits.h): rays go on through holes and, if they are, missing back faces */
   struct trax_access_log *accesses; /* records the reads of the twin, which then has one thread; or NULL */
 };
 

@@ -82,7 +82,7 @@ refuse '--queues needs a program.*--no-specialise' "$render" "$box" -o x.png --q
 refuse '--queues needs the emulator' "$render" "$box" -o x.png --engine native --queues tms
 refuse '--fast-math has been removed; -ffast-math in a file flags.txt' "$render" "$box" -o x.png --fast-math
 refuse "--cost: 'time' is none of cycles" "$render" "$box" -o x.png --cost-picture c.png --cost time
-for option in '-o x.png' '--stats s.json' --compare '--explore p.html' '--cost-picture c.png' '--id-picture i.png'; do
+for option in '-o x.png' '--stats s.json' --compare '--explore p.html' '--cost-picture c.png'; do
   refuse '--prepare renders nothing' "$render" "$box" --prepare prepared $option
 done
 refuse 'need the emulator' "$render" "$box" --prepare prepared --engine native
@@ -97,7 +97,6 @@ refuse "--fov: '180' is not" "$render" "$box" -o x.png --fov 180
 refuse "--orbit: '1,2,3' is not" "$render" "$box" -o x.png --orbit 1,2,3
 refuse "--frames: '0' is not a whole number" "$render" "$box" -o x.png --frames 0
 refuse '--frames makes pictures only' "$render" "$box" -o x.png --frames 2 --stats s.json
-refuse '--frames makes pictures only' "$render" "$box" -o x.png --frames 2 --id-picture i.png
 for output in - /dev/stdout /dev/null .; do
   refuse "--frames: $output is no file" "$render" "$box" -o $output --frames 2
 done
@@ -273,13 +272,9 @@ refuse 'vast.pfm: a picture of 99999 x 99999' "$compare" vast.pfm pixels.png
 refuse 'nowhere' "$render" "$box" -o nowhere/x.exr $native
 refuse 'x.JPG: there is no writer for .JPG, only for .png, .pfm and .exr' "$render" "$box" -o x.JPG $native
 
-# Which triangle a pixel shows: the same by the twin and by Embree in nearly all of a small picture.
-accept "$render" "$box" -o h.png $native --size 32x24 --id-picture ids.png --compare
+accept "$render" "$box" -o h.png $native --size 32x24 --compare
 grep -q '^hits        7[0-9][0-9] of 768 pixels hit the nearest triangle, [0-9]* another .* 0 beyond it, of which 0 are holes$' "$out" ||
   fail "no line about hits: $(cat "$out")"
-accept "$render" "$box" -o h.png --engine embree --view "$source/box.view" --size 32x24 --id-picture ids-embree.png
-accept "$compare" ids.png ids-embree.png --at-least 98
-"$compare" -q ids.png a.png && fail "triangles look like the picture"
 
 # --- comparison
 refuse 'two pictures' "$compare" a.png
@@ -295,16 +290,10 @@ refuse 'unknown option' "$compare" --nonsense a.png a.png
 "$compare" a.png b.png --within 2 --at-least 99.9 >"$out" && fail "different pictures agree"
 grep -q 'differ, by up to' "$out" || fail "the difference is not told: $(cat "$out")"
 
-# --- frames of a picture that arrives: the last is the picture, also without -o
-refuse 'progress-png FILE.png, and a viewer' "$render" "$box" -o x.png --show
-for engine in fast native embree; do
-  accept "$render" "$box" --size 40x30 --engine $engine --progress-png frames.png -o whole.png -q
-  cmp -s frames.png whole.png || fail "--progress-png, $engine: the last frame is another picture"
-  rm frames.png
-done
-accept "$render" "$box" --size 40x30 --engine native --progress-png frames.png -q
-cmp -s frames.png whole.png || fail "--progress-png without -o: another picture"
-rm -f frames.png whole.png
+# --- options that went
+refuse 'show has been removed; --engine native' "$render" "$box" -o x.png --show
+refuse 'progress-png has been removed; --engine native' "$render" "$box" -o x.png --progress-png frames.png
+refuse 'id-picture has been removed; -o FILE.exr --layers' "$render" "$box" -o x.png --id-picture ids.png
 
 # --- interrupted: status 130 and no picture
 env --default-signal=INT "$render" "$box" -o interrupted.png $native --size 16384x16384 2>"$err" &

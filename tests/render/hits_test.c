@@ -125,11 +125,6 @@ static void test_wrong_hits(void **state) {
     assert_true(difference.x == 48 && difference.y == 30);
     trax_hits_release(&wrong);
   }
-  struct trax_picture picture;
-  trax_error error;
-  assert_int_equal(trax_hits_picture(&picture, &right, &frame, &error), TRAX_OK);
-  assert_int_equal(picture.pixels[middle], 0xFF000000u | (scene.source_ids[right.triangles[middle]] + 1));
-  trax_picture_release(&picture);
   trax_hits_release(&right);
   trax_frame_release(&frame);
   trax_scene_release(&scene);
