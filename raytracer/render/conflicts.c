@@ -10,9 +10,8 @@
 #define MOST_OCCLUSION_POINTS (1u << 16)
 
 bool options_rendered(const struct options *options) {
-  return options->output || options->prepare || options->keep || options->stats ||
-         options->ray_cycles || options->compare || options->cost_picture || options->cost_values ||
-         trax_explain_wanted(&options->explain);
+  return options->output || options->prepare || options->keep || options->stats || options->ray_cycles ||
+         options->compare || options->cost_picture || options->cost_values || trax_explain_wanted(&options->explain);
 }
 
 /* Options that need a picture, a view or shading; NULL: none was given. */
@@ -114,12 +113,11 @@ trax_status options_check(const struct options *options, trax_error *error) {
     return check_sequence(options, error);
   if (options->no_refit)
     return trax_fail(error, "--no-refit is for --frames with --at X:Y");
-  if (options->prepare && (options->output || options->stats || options->ray_cycles || options->compare ||
-                           options->hits || options->ray_trace || options->cost_picture || options->cost_values ||
-                           trax_explain_wanted(&options->explain)))
+  if (options->prepare &&
+      (options->output || options->stats || options->ray_cycles || options->compare || options->hits ||
+       options->ray_trace || options->cost_picture || options->cost_values || trax_explain_wanted(&options->explain)))
     return trax_fail(error, "--prepare renders nothing, so there is nothing to write, explain or compare");
-  if (!options_rendered(options) &&
-      !(options->rays || options->hits || options->ray_trace || options->write_view)) {
+  if (!options_rendered(options) && !(options->rays || options->hits || options->ray_trace || options->write_view)) {
     for (size_t i = 0; i < options->mesh_count; i++) /* a missing mesh is reported first */
       if (trax_mesh_check(options->meshes[i], error) != TRAX_OK)
         return TRAX_ERROR;

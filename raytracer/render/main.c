@@ -115,7 +115,8 @@ static trax_status render(const struct options *options, trax_progress_line *pro
       status = trax_fail(error, "out of memory");
     inputs_view(&view, &inputs, options, i);
     if (status == TRAX_OK)
-      status = render_view(options, &inputs, &view, output ? output : options->output, &scaled, progress, agrees, error);
+      status =
+          render_view(options, &inputs, &view, output ? output : options->output, &scaled, progress, agrees, error);
     free(output);
   }
   inputs_release(&inputs);

@@ -187,8 +187,8 @@ double trax_difference_floats_percent(const struct trax_difference *difference);
 struct trax_render_run {
   void (*progress)(void *context, uint64_t done, uint64_t total); /* about ten times a second; may be NULL */
   void *progress_context;
-  const volatile int *interrupt; /* polled; may be NULL */
-  uint64_t rays;                 /* out: rays traced; 0 with accesses, which know of them slot by slot */
+  const volatile int *interrupt;       /* polled; may be NULL */
+  uint64_t rays;                       /* out: rays traced; 0 with accesses, which know of them slot by slot */
   uint64_t kinds[TRAX_RAY_KIND_COUNT]; /* out, of the twin: the same by kind */
   bool layers;                         /* the picture gets layers (layers.h) */
   bool exactly; /* of Embree: hits without error (exact.h), of the rays that the device program has */
