@@ -28,7 +28,6 @@ def el(name, /, *content, **attributes):
     return Html(f"{opened}>{join(content)}</{name}>")
 
 
-MISSING = Html('<span class="missing" title="not measured">–</span>')
 
 
 def _cell(cell, numeric):
