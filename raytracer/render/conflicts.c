@@ -4,7 +4,6 @@
 #include "trax/output.h"
 
 #include <string.h>
-#include <sys/stat.h>
 
 /* The sampler's numbers have 16 bits (device/sampler.h). */
 #define MOST_OCCLUSION_POINTS (1u << 16)
@@ -23,7 +22,7 @@ static const char *against_rays(const struct options *options) {
     const char *name;
   } others[] = {{options->output, "--output"},
                 {options->layers, "--layers"},
-                {options->frames > 1, "--frames"},
+                {options->frames, "--frames"},
                 {options->view, "--view"},
                 {camera->eye.given || camera->look_at.given || camera->up.given || camera->light_count,
                  "--eye, --look-at, --up or --light"},
@@ -87,7 +86,7 @@ static trax_status check_sequence(const struct options *options, trax_error *err
                 {options->write_view, "--write-view"},
                 {options->ray_trace || options->compare, "--ray-trace or --compare"},
                 {options->keep || options->cache, "--keep, --prepare or --cache"}};
-  if (options->frames == 1)
+  if (!options->frames)
     return trax_fail(error, "--at X:Y needs --frames N: the number of moments from X to Y");
   if (!options->output)
     return trax_fail(error, "--frames with --at X:Y needs -o FOLDER");
@@ -98,12 +97,6 @@ static trax_status check_sequence(const struct options *options, trax_error *err
   return TRAX_OK;
 }
 
-/* A device, a pipe or a folder. */
-static bool is_special(const char *path) {
-  struct stat found;
-  return stat(path, &found) == 0 && !S_ISREG(found.st_mode);
-}
-
 trax_status options_check(const struct options *options, trax_error *error) {
   if (options->mesh_count == 0)
     return trax_fail(error, "no mesh given; trax-render --help shows how");
@@ -111,6 +104,8 @@ trax_status options_check(const struct options *options, trax_error *error) {
     return TRAX_ERROR;
   if (options->sequence)
     return check_sequence(options, error);
+  if (options->frames)
+    return trax_fail(error, "--frames is for a sequence, --at X:Y; --orbit makes each picture of a turntable");
   if (options->no_refit)
     return trax_fail(error, "--no-refit is for --frames with --at X:Y");
   if (options->prepare &&
@@ -124,13 +119,9 @@ trax_status options_check(const struct options *options, trax_error *error) {
     return trax_fail(error,
                      "no picture given: -o PICTURE.png, or another output (--explore, --stats, --cost-picture, ...)");
   }
-  if (options->frames > 1 && !options->output)
-    return trax_fail(error, "--frames needs -o PICTURE.png: each picture has its number in the name");
-  if (options->frames > 1 && (trax_output_descriptor(options->output) >= 0 || is_special(options->output)))
-    return trax_fail(error, "--frames: %s is no file that could have a number in its name", options->output);
   if (options->import.animation && !options->import.moves)
     return trax_fail(error, "--animation without --at");
-  if (options->hits && (options->frames > 1 || options->sampled))
+  if (options->hits && options->sampled)
     return trax_fail(error, "--hits is about one whole picture");
   if (options->layers && !(options->output && trax_output_has_ending(options->output, "exr")))
     return trax_fail(error, "--layers needs -o FILE.exr");
@@ -149,8 +140,8 @@ trax_status options_check(const struct options *options, trax_error *error) {
     return trax_fail(error, "--sample-fraction and --sample-error: one follows from the other");
   if (options->sampled && options->engine != ENGINE_FAST)
     return trax_fail(error, "--sampled needs engine fast");
-  if (options->sampled && (options->compare || options->prepare || options->frames > 1 || options->cost_picture ||
-                           options->cost_values || options->ray_trace || trax_explain_wanted(&options->explain)))
+  if (options->sampled && (options->compare || options->prepare || options->cost_picture || options->cost_values ||
+                           options->ray_trace || trax_explain_wanted(&options->explain)))
     return trax_fail(error, "--sampled leaves out most of the run: there is nothing to compare, explain or prepare");
   if (options->sampled && options->source && options->output)
     return trax_fail(error, "--sampled -o: of another --source the native twin's picture would be another one");
@@ -192,10 +183,6 @@ trax_status options_check(const struct options *options, trax_error *error) {
     return TRAX_ERROR;
   if (options->explain.source_folder_count && !options->explain.explore)
     return trax_fail(error, "--source-folder without --explore");
-  if (options->frames > 1 &&
-      (options->stats || options->ray_cycles || options->keep || options->cost_picture || options->cost_values ||
-       options->compare || options->ray_trace || trax_explain_wanted(&options->explain)))
-    return trax_fail(error, "--frames makes pictures only: --stats, --keep, --compare and the like are for one");
   if (options->ray_trace && options->engine >= ENGINE_EMBREE)
     return trax_fail(error, "--ray-trace: the rays are the device program's, which Embree does not run");
   if (options->ray_trace && (options->program || options->source))

@@ -55,7 +55,6 @@ static trax_status find_program(struct trax_program *program, const struct job *
                                                .icache_bytes = chosen->icache_bytes,
                                                .queues = chosen->queues,
                                                .interrupt = &trax_signal,
-                                               .transient = options->frames > 1,
                                                .record = options->layers};
   if (!installation(root))
     return trax_fail(error, "the place of trax-render itself is not known: %s", strerror(errno));

@@ -159,12 +159,11 @@ trax_status inputs_load(struct inputs *inputs, const struct options *options, tr
   return status;
 }
 
-void inputs_view(struct trax_view *view, const struct inputs *inputs, const struct options *options, unsigned number) {
-  const struct camera_options *camera = &options->camera;
-  const float angle = camera->orbit[0] + (number ? 360 * (float)number / (float)options->frames : 0);
+void inputs_view(struct trax_view *view, const struct inputs *inputs, const struct options *options) {
+  const float *orbit = options->camera.orbit;
   *view = inputs->view;
-  if (angle != 0 || camera->orbit[1] != 0)
-    trax_view_orbit(view, inputs->centre, angle, camera->orbit[1]);
+  if (orbit[0] != 0 || orbit[1] != 0)
+    trax_view_orbit(view, inputs->centre, orbit[0], orbit[1]);
 }
 
 void inputs_release(struct inputs *inputs) {

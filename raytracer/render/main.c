@@ -26,11 +26,11 @@ static void on_broken_pipe(int signal_number) {
   reader_gone = 1;
 }
 
-static void print_outputs(const struct options *options, const struct inputs *inputs, const char *picture) {
+static void print_outputs(const struct options *options, const struct inputs *inputs) {
   if (*inputs->choice)
     printf("view        %s\n", inputs->choice);
-  if (picture)
-    printf("picture     %s\n", picture);
+  if (options->output)
+    printf("picture     %s\n", options->output);
   if (options->stats)
     printf("statistics  %s\n", options->stats);
   if (options->hits)
@@ -56,19 +56,14 @@ static trax_status init_frame(struct trax_frame *frame, const struct options *op
   return trax_frame_init(frame, scene, view, &chosen, error);
 }
 
-/* One picture. *scaled: the power of two by which the scene was scaled so far. */
 static trax_status render_view(const struct options *options, struct inputs *inputs, struct trax_view *view,
-                               const char *output, int *scaled, trax_progress_line *progress, bool *agrees,
-                               trax_error *error) {
+                               trax_progress_line *progress, bool *agrees, trax_error *error) {
   struct trax_frame frame = {0};
   struct trax_picture picture = {0};
-  int exponent;
-  trax_scale_view(view, *scaled);
-  trax_status status = trax_normalise(&inputs->scene, view, &exponent, error);
-  if (status == TRAX_OK) {
-    *scaled += exponent;
+  int scaled;
+  trax_status status = trax_normalise(&inputs->scene, view, &scaled, error);
+  if (status == TRAX_OK)
     status = init_frame(&frame, options, inputs, view, error);
-  }
   const struct job job = {.options = options, .frame = &frame, .progress = progress};
   if (status == TRAX_OK && options->hits)
     status = measure_hits(&job, error);
@@ -76,18 +71,15 @@ static trax_status render_view(const struct options *options, struct inputs *inp
     status = options->engine <= ENGINE_REFERENCE ? emulate(&picture, &job, error)
                                                  : run_on_host(&picture, &job, options->engine, error);
   if (status == TRAX_OK && picture.layers)
-    trax_layers_finish(&picture, &frame, *scaled);
+    trax_layers_finish(&picture, &frame, scaled);
   if (status == TRAX_OK && options->ray_trace)
-    status = trace_rays(&job, *scaled, picture.pixels ? &picture : NULL, error);
-  if (status == TRAX_OK && output)
-    status = trax_picture_write(&picture, output, error);
+    status = trace_rays(&job, scaled, picture.pixels ? &picture : NULL, error);
+  if (status == TRAX_OK && options->output)
+    status = trax_picture_write(&picture, options->output, error);
   if (status == TRAX_OK && !options->quiet)
-    print_outputs(options, inputs, output);
-  if (status == TRAX_OK && options->compare) {
-    bool same = true;
-    status = compare(&picture, &job, &same, error);
-    *agrees = *agrees && same;
-  }
+    print_outputs(options, inputs);
+  if (status == TRAX_OK && options->compare)
+    status = compare(&picture, &job, agrees, error);
   trax_picture_release(&picture);
   trax_frame_release(&frame);
   return status;
@@ -97,7 +89,6 @@ static trax_status render(const struct options *options, trax_progress_line *pro
                           trax_error *error) {
   struct inputs inputs = {0};
   struct trax_view view;
-  int scaled = 0;
   trax_status status = inputs_load(&inputs, options, progress, error);
   if (options->rays) {
     if (status == TRAX_OK)
@@ -105,20 +96,12 @@ static trax_status render(const struct options *options, trax_progress_line *pro
     inputs_release(&inputs);
     return status;
   }
-  if (status == TRAX_OK && options->write_view) {
-    inputs_view(&view, &inputs, options, 0);
+  if (status == TRAX_OK)
+    inputs_view(&view, &inputs, options);
+  if (status == TRAX_OK && options->write_view)
     status = trax_view_write(&view, options->write_view, error);
-  }
-  for (unsigned i = 0; i < options->frames && status == TRAX_OK; i++) {
-    char *output = options->frames > 1 ? numbered(options->output, i + 1) : NULL;
-    if (options->frames > 1 && !output)
-      status = trax_fail(error, "out of memory");
-    inputs_view(&view, &inputs, options, i);
-    if (status == TRAX_OK)
-      status =
-          render_view(options, &inputs, &view, output ? output : options->output, &scaled, progress, agrees, error);
-    free(output);
-  }
+  if (status == TRAX_OK)
+    status = render_view(options, &inputs, &view, progress, agrees, error);
   inputs_release(&inputs);
   return status;
 }

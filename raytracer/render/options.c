@@ -45,10 +45,10 @@ static const trax_option rows[] = {
     {"samples", .argument = "N", NUMBER(frame.samples, 1, TRAX_RENDER_MAX_SAMPLES),
      .meaning = "rays from the eye through every pixel, 1 to 4096 (default 1)"},
     {"float", FIELD(frame.floats), .meaning = "the program computes linear floats; the picture is made of them here"},
-    {"frames", .argument = "N", NUMBER(frames, 1, 9999),
-     .meaning = "a turntable: N pictures of a whole turn, PICTURE-0001.png and so on; with --at A:B a sequence: -o\n"
-                "is a folder, with picture and statistics of each frame, frames.csv, and report.html with curves of\n"
-                "new trees and of the first frame's, refitted; the same command continues what was interrupted"},
+    {"frames", .argument = "N", NUMBER(frames, 2, 9999),
+     .meaning = "with --at A:B a sequence of N moments: -o is a folder, with picture and statistics of each frame,\n"
+                "frames.csv, and report.html with curves of new trees and of the first frame's, refitted; the same\n"
+                "command continues what was interrupted"},
     {"no-refit", FIELD(no_refit), .meaning = "of a sequence: new trees alone"},
     {"id-picture", .instead = "-o FILE.exr --layers, whose channel triangle has the same numbers"},
     {"show", .instead = "--engine native, the same picture in a fraction of the time"},
@@ -246,8 +246,7 @@ const trax_command render_command = {
     .column = 26};
 
 trax_parsed options_parse(struct options *options, int argc, char **argv, trax_error *error) {
-  *options = (struct options){.frames = 1,
-                              .environment_strength = 1,
+  *options = (struct options){.environment_strength = 1,
                               .frame = {.width = 1280,
                                         .height = 720,
                                         .ambient = TRAX_DEFAULT_AMBIENT,

@@ -41,7 +41,7 @@ struct options {
   double environment_turn; /* degrees */
   const char *view;        /* NULL: framed automatically */
   struct camera_options camera;
-  unsigned frames;        /* pictures of a turntable, or of a sequence; 1: none */
+  unsigned frames;        /* of a sequence; 0: none */
   bool sequence;          /* --at has two moments */
   bool no_refit;          /* of a sequence's trees */
   const char *write_view; /* NULL: not wanted */

@@ -108,7 +108,6 @@ struct trax_specialise_options {
   const volatile int *interrupt; /* polled; may be NULL */
   uint32_t icache_bytes;         /* a larger program is compiled for less code; 0: as many as the paper's 4096 */
   unsigned queues;               /* of pixels (device/slots.h); more than TRAX_MAX_QUEUES are as many; 0: 1 */
-  bool transient;                /* of one of many pictures, as of a turntable: other programs stay in the cache */
   bool record;                   /* it records (trax/record.h); its stack is in global memory: times mean nothing */
 };
 

@@ -178,11 +178,6 @@ def renderer():
     if os.path.exists("general.elf"):
         refused(INPUT, "trax-render", "a.obj", *words, "--no-specialise", "-o", "new.png", "--stats", "general.elf")
         os.remove("general.elf")
-    write("turn-0002.png", PICTURE)
-    write("c.mtl", "newmtl m\nmap_Kd turn-0002.png\n")
-    write("c.obj", "mtllib c.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n")
-    refused(INPUT, "trax-render", "c.obj", *words, "--frames", "3", "-o", "./turn.png", "--engine", "native")
-    refused(TWICE, "trax-render", "a.obj", *words, "--frames", "3", "-o", "twist.png", "--write-view", "twist-0002.png")
     outputs = [option("output"), option("write-view"), option("stats"), option("explore"),
                option("cost-picture"), option("cost-values")]
     write("there.png", "kept")

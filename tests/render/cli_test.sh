@@ -95,11 +95,8 @@ for option in eye look-at up light; do
 done
 refuse "--fov: '180' is not" "$render" "$box" -o x.png --fov 180
 refuse "--orbit: '1,2,3' is not" "$render" "$box" -o x.png --orbit 1,2,3
-refuse "--frames: '0' is not a whole number" "$render" "$box" -o x.png --frames 0
-refuse '--frames makes pictures only' "$render" "$box" -o x.png --frames 2 --stats s.json
-for output in - /dev/stdout /dev/null .; do
-  refuse "--frames: $output is no file" "$render" "$box" -o $output --frames 2
-done
+refuse "--frames: '1' is not a whole number" "$render" "$box" -o x.png --frames 1
+refuse '--frames is for a sequence, --at X:Y; --orbit' "$render" "$box" -o x.png --frames 2
 refuse '--animation without --at' "$render" "$box" -o x.png --animation run
 refuse 'the meshes have no cameras' "$render" "$box" -o x.png --view file:main
 refuse 'is the eye itself' "$render" "$box" -o x.png --eye 1,2,3 --look-at 1,2,3
@@ -189,17 +186,8 @@ accept "$render" "$box" -o c.png --engine native --size 32x24 --view written.vie
 accept "$compare" b.png c.png
 accept "$render" "$box" -o c.png --engine native --size 32x24 --view written.view --orbit 30,10
 "$compare" -q b.png c.png && fail "--orbit makes no difference"
-accept "$render" "$box" -o turn.png --engine native --size 32x24 --view written.view --frames 3
-[ "$(echo turn*)" = 'turn-0001.png turn-0002.png turn-0003.png' ] || fail "--frames 3 left $(echo turn*)"
-accept "$compare" b.png turn-0001.png
-accept "$render" "$box" -o c.png --engine native --size 32x24 --view written.view --orbit 240
-accept "$compare" c.png turn-0003.png
-# A scene so small that it is scaled first: each picture of the turntable is as if it was alone.
-sed 's/^v \(\S*\) \(\S*\) \(\S*\)/v \1e-12 \2e-12 \3e-12/' "$source/box.obj" >small.obj
-cp "$source/box.mtl" .
-accept "$render" small.obj -o small.png --engine native --size 32x24 --frames 2
-accept "$render" small.obj -o c.png --engine native --size 32x24 --orbit 180
-accept "$compare" c.png small-0002.png
+accept "$render" "$box" -o c.png --engine native --size 32x24 --view written.view --orbit 360
+accept "$compare" b.png c.png --within 2 --at-least 99
 
 # A camera of a glTF file, by its name or the first; what stands in its place is the same view.
 cat >camera.gltf <<'END'
@@ -309,15 +297,15 @@ for file in interrupted.png*; do
   [ -e "$file" ] && fail "interrupted: left $file"
 done
 
-# --- nobody reads what is printed: every picture is written all the same
+# --- nobody reads what is printed: the picture is written all the same
 mkfifo reader
-(exec 3<>reader 4>reader 3<&- && "$render" "$box" -o piped.png $native --size 32x24 --frames 3 >&4 2>"$err")
+(exec 3<>reader 4>reader 3<&- && "$render" "$box" -o piped.png $native --size 32x24 >&4 2>"$err")
 status=$?
 rm reader
 [ $status -eq 141 ] || fail "a reader that is gone: status $status instead of 141"
 [ -s "$err" ] && fail "a reader that is gone: $(cat "$err")"
-[ "$(ls piped-*.png | wc -l)" -eq 3 ] || fail "a reader that is gone: $(ls)"
-rm -f piped-*.png
+[ -s piped.png ] || fail "a reader that is gone: $(ls)"
+rm -f piped.png
 
 [ $failures -eq 0 ] && echo "all command lines as expected"
 exit $((failures > 0))

@@ -89,7 +89,6 @@ refuse() {
 for words in -q --sampled --mark-rays "--samples 2"; do
   refuse 'no picture given' $words
 done
-refuse '--frames needs -o' --frames 2 --cost-picture x.png
 refuse 'nowhere/x.json' --hits nowhere/x.json
 refuse '--error has been removed; --layers' --error x.json
 refuse '--layers needs -o FILE.exr' --layers -o x.png

@@ -332,7 +332,7 @@ def rays(reader):
             check_way(traced)
     check_numbers(reader)
     for words, message in ((["--sampled"], "leaves out"), (["--engine", "embree"], "Embree"),
-                           (["--frames", "2"], "--frames"), (["--prepare", "d"], "--prepare")):
+                           (["--prepare", "d"], "--prepare")):
         out = [] if "--prepare" in words else ["-o", "q.png"]
         done = call("trax-render", *SIZE, *words, *out, "--ray-trace", "no.bin", status=1)
         check(message in done.stderr and not pathlib.Path("no.bin").exists(), words, done.stderr)

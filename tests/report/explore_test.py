@@ -178,8 +178,7 @@ class Data(Scratch):
                                                               "is an input and the output of --explore"),
                                (["--explore", "kept.html", "--engine",
                                  "native"], "need the emulator"), (["--explore", "kept.html",
-                                                                    "--sampled"], "nothing to compare, explain"),
-                               (["--explore", "kept.html", "--frames", "2"], "pictures only")):
+                                                                    "--sampled"], "nothing to compare, explain")):
             ended = render(self.folder, *(words if "-o" in words else ["-o", "new.png", *words]), check=False)
             self.assertEqual(ended.returncode, 1, words)
             self.assertRegex(ended.stderr, r"^trax-render: error: .*(" + message + ")")
