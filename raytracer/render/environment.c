@@ -75,7 +75,7 @@ static trax_status check(const struct trax_picture *picture, const char *name, t
 
 /* --- probabilities --- */
 
-/* In proportion to the luminance of the texel (Rec. 709), times its solid angle. */
+/* A texel's probability is in proportion to its luminance (Rec. 709) times its solid angle. */
 static void choose(struct trax_environment *environment) {
   double total = 0;
   for (int i = 0; i < TEXELS; i++) {

@@ -16,7 +16,7 @@ trax_status trax_hits_native(struct trax_hits *hits, const struct trax_frame *fr
 /* Finds hits by Embree in robust mode; embree.c. */
 trax_status trax_hits_embree(struct trax_hits *hits, const struct trax_frame *frame, struct trax_render_run *run,
                              trax_error *error);
-/* Without error (exact.h); embree.c. */
+/* Finds hits without error (exact.h); embree.c. */
 trax_status trax_hits_exact(struct trax_hits *hits, const struct trax_frame *frame, struct trax_render_run *run,
                             trax_error *error);
 void trax_hits_release(struct trax_hits *hits);

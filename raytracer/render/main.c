@@ -41,8 +41,7 @@ static void print_outputs(const struct options *options, const struct inputs *in
     printf("inputs      %s\n", options->keep);
 }
 
-/* With layers, the program computes floats only if path.h renders the picture: in the paper's workload they are
-   recorded. */
+/* Layers need the program's floats only if path.h renders the picture: in the paper's workload they are recorded. */
 static trax_status init_frame(struct trax_frame *frame, const struct options *options, const struct inputs *inputs,
                               const struct trax_view *view, trax_error *error) {
   const struct trax_scene *scene = &inputs->scene;

@@ -8,7 +8,7 @@
 
 /* The names of enum engine. */
 static const char *const engines[] = {"fast", "reference", "native", "embree", "exact", NULL};
-/* In the order of enum trax_ray_order. */
+/* The order is that of enum trax_ray_order. */
 static const char *const ray_orders[] = {"found", "morton", "treelet", "random", NULL};
 
 #define FIELD(member) TRAX_OPTION_FIELD(struct options, member)

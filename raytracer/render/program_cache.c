@@ -12,7 +12,7 @@
 #include <unistd.h>
 #include <xxhash.h>
 
-/* More are not kept: a program is some 30 kB, most of it debug information. */
+/* The cache keeps no more: a program is some 30 kB, most of it debug information. */
 #define MOST_PROGRAMS 256
 #define LARGEST_PROGRAM ((size_t)64 << 20)
 

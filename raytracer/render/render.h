@@ -72,7 +72,7 @@ uint32_t trax_frame_image_bytes(const struct trax_frame *frame);
 /* features.c: the features that the picture needs, a bit each. */
 uint32_t trax_features_of(const struct trax_frame_options *options, const struct trax_view *view,
                           const struct trax_scene *scene);
-/* Its name in reports. */
+/* The feature's name in reports. */
 const char *trax_feature_name(enum trax_feature feature);
 /* The sections of the scene that are read for these features: 1 << enum trax_scene_section_kind each. */
 uint32_t trax_feature_sections(uint32_t features);
@@ -178,7 +178,7 @@ void trax_picture_compare(struct trax_difference *difference, const struct trax_
 /* The mean of the light, linear: of the floats if there are any, else of what the pixels show, 0 to 1. */
 double trax_picture_light(const struct trax_picture *picture);
 double trax_difference_percent(const struct trax_difference *difference); /* of pixels not beyond */
-/* The same by floats; without floats, that of the pixels. */
+/* The per cent of floats not beyond; without floats, of pixels. */
 double trax_difference_floats_percent(const struct trax_difference *difference);
 
 /* --- renderers --- */

@@ -161,7 +161,7 @@ static bool make_part(struct trax_mesh *mesh, uint32_t sources) {
   return true;
 }
 
-/* With instances in either mesh, triangles are numbered part by part, and each part is placed at least once. */
+/* If either mesh has instances, triangles are numbered part by part, and each part is placed at least once. */
 static bool unite_parts(struct trax_mesh *mesh, struct trax_mesh *part, uint32_t first_source_id,
                         uint32_t part_sources) {
   if (mesh->part_count + part->part_count == 0)

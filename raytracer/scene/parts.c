@@ -12,7 +12,7 @@ struct polygon {
   double corner[MOST_CORNERS][3];
 };
 
-/* At most MOST_CORNERS corners are kept. */
+/* A polygon keeps at most MOST_CORNERS corners. */
 static void clip(struct polygon *out, const struct polygon *in, int axis, double sign, double plane) {
   out->count = scene_clip_polygon(out->corner, MOST_CORNERS, in->corner, in->count, axis, sign, plane);
 }

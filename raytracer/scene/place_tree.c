@@ -19,7 +19,7 @@ static trax_scene_ref place_leaf(struct layout *layout, const struct scene_tree_
     if (layout->normals && layout->file_normals)
       memcpy(layout->normals[layout->next_triangle].corner, layout->mesh->normals[node->triangles[i]],
              sizeof layout->normals->corner);
-    /* Without a texture they stay zeros: nothing reads them, and their range was not checked. */
+    /* Coordinates without a texture stay zeros: nothing reads them, and their range was not checked. */
     if (layout->uvs && layout->mesh->uvs && layout->mesh->materials[source->material].surface.texture)
       memcpy(layout->uvs[layout->next_triangle].corner, layout->mesh->uvs[node->triangles[i]],
              sizeof layout->uvs->corner);

@@ -31,7 +31,7 @@ trax_status scene_check_lamps(const struct trax_scene *scene, const char *name, 
 /* out = a b, of the first three rows of matrices. */
 void scene_multiply(double out[3][4], const double a[3][4], const double b[3][4]);
 
-/* Of the first three columns. */
+/* The determinant of the first three columns. */
 double scene_determinant(const double m[3][4]);
 
 /* Transforms a normal, whose length may change: by the cofactors of the matrix, which are the inverse's transpose but

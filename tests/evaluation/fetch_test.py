@@ -57,7 +57,7 @@ class Place:
         return [self.program, "fetch-scenes", "--sources", str(self.list), "-o", str(self.folder), *map(str, words)]
 
     def run(self, *words, status=0):
-        """In this process, which takes a fifth of a new one's time. What is printed, errors too."""
+        """Runs the command in this process, in a fifth of a new one's time. Returns what it prints."""
         said = io.StringIO()
         with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
             try:
@@ -257,7 +257,7 @@ def test_folder(program, scratch, server):
 
 
 def test_table(program, scratch, server):
-    """From an empty folder to a table, with a small mesh in the dragon's place."""
+    """An empty folder becomes a table, with a small mesh in the dragon's place."""
     server.files["/mirror/dragon.ply.gz"] = gzip.compress(ply(MESH))
     box = os.path.relpath(TREE / "raytracer/evaluation/scenes/dragon_box.obj", scratch)
     known = json.loads((TREE / "raytracer/evaluation/fetch/sources.json").read_text())["meshes"]

@@ -56,7 +56,7 @@ class Folder:
         return json.loads((self.out / "results.json").read_text())["runs"]
 
     def imports(self):
-        """When the scene files were made."""
+        """Returns when the scene files were made."""
         return {path: (path.stat().st_mtime_ns, path.stat().st_ino) for path in (self.out / "scenes").glob("*.trax")}
 
 

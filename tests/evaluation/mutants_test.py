@@ -163,7 +163,7 @@ def test_commands(folder, inside, scratch):
 
 
 def test_dry_run(folder, scratch):
-    """It needs no importer, no compiler and no renderer where nothing has been imported, and imports nothing."""
+    """The command imports nothing, and needs no importer, compiler or renderer where nothing has been imported."""
     bare = scratch / "bare"
     (bare / "bin").mkdir(parents=True)
     (bare / "lib").symlink_to(folder.parent / "lib")

@@ -10,7 +10,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
@@ -43,7 +42,7 @@ def pixels():
 
 
 def clean(cache, programs):
-    """Only whole entries, so many."""
+    """The cache has so many entries, and all are whole."""
     names = sorted(os.listdir(cache))
     keys = {name[:32] for name in names}
     if len(keys) != programs or names != sorted(f"{key}.{ending}" for key in keys for ending in ("elf", "h")):
@@ -61,7 +60,7 @@ def expect(ended, what, note=None):
 
 
 def damages(entry, whole, other):
-    """What a power loss or a stranger may leave: (name, how it is made)."""
+    """Yields what a power loss or a stranger may leave: (name, how it is made)."""
     def put(data):
         def make():
             with open(entry, "wb") as file:
@@ -97,7 +96,7 @@ def remove(entry):
 
 
 def healing():
-    """Of a program that is compiled in no time."""
+    """The cache heals itself: with a program that compiles in no time."""
     global picture
     shutil.copytree(f"{BIN}/../lib/trax/raytracer", "tiny")
     with open("tiny/main.c", "w") as file:
@@ -224,10 +223,4 @@ def full():
         fail(f"{len(kept)} programs are in the full cache, from {kept[0]}")
 
 
-with tempfile.TemporaryDirectory() as directory:
-    os.chdir(directory)
-    for part in (healing, full, together, no_room):
-        part()
-    os.chdir("/")
-print("all as expected" if not checking.failures else f"{checking.failures} failures")
-sys.exit(checking.failures > 0)
+sys.exit(checking.run(healing, full, together, no_room))

@@ -173,7 +173,7 @@ static void test_one_plane(void **state) {
   release(&exact, &frame, &scene, &mesh);
 }
 
-/* From the inside of a closed surface no ray gets out; in a convex one no light is blocked. */
+/* No ray leaves a closed surface; within a convex one no light is blocked. */
 static void test_no_gaps(void **state) {
   (void)state;
   struct trax_mesh mesh = {0};

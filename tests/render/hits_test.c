@@ -131,7 +131,7 @@ static void test_wrong_hits(void **state) {
   trax_mesh_release(&mesh);
 }
 
-/* By exact hits nothing is missed, and those of binary32 are seen to have holes, or to be wrong. */
+/* Exact hits miss nothing, and hits of binary32 are seen to have holes or to be wrong. */
 static void check_range(struct trax_mesh *mesh, struct trax_view view, uint64_t least_holes, uint64_t least_wrong) {
   struct trax_scene scene = {0};
   struct trax_frame frame;

@@ -8,7 +8,6 @@ import os
 import pathlib
 import sys
 import struct
-import tempfile
 import time
 import zlib
 
@@ -44,7 +43,7 @@ def render(name, *words):
 
 
 def check_exact():
-    """In every bit: pictures, shadows, numbers of triangles. The emulated chip draws the twin's."""
+    """Pictures, shadows and layers are the same in every bit. The emulated chip draws the twin's picture."""
     write("exact.instances", HEAD, "material blue 0.1,0.1,0.8\n", *(f"place solid {rows}\n" for rows in EXACT),
           *(f"place solid material {name}\nplace solid\n" for name in ("blue", "red", "blue")))  # at one place
     for options in ([], ["--paths", "3", "--one-sided"]):
@@ -80,7 +79,7 @@ def looking(scale, offset):
 
 
 def check_view():
-    """Without a view the instances are in the picture where they are placed: of boxes as of the flattened ones."""
+    """Instances are in the picture without a view, too, where they are placed: boxes as flattened boxes."""
     write("box.obj", *(f"v {i & 1} {i >> 1 & 1} {i >> 2}\n" for i in range(8)),
           "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n")
     write("away.instances", "mesh box box.obj\n", "place box 1 0 0 64  0 1 0 32  0 0 1 0\n",
@@ -264,7 +263,7 @@ def check_bad():
 
 
 def check_unplaced():
-    """What is placed nowhere leaves nothing in the file, not even light."""
+    """A mesh that is placed nowhere leaves nothing in the file, not even light."""
     write("lamp.mtl", "newmtl lamp\nKe 5 5 5\n")
     write("lamp.obj", "mtllib lamp.mtl\nusemtl lamp\n", FLOOR)
     for name, more in ("with", "mesh lamp lamp.obj\n"), ("without", ""):
@@ -294,25 +293,10 @@ def check_empty():
         check("empty.trax: instances without triangles" in done.stderr, done.stderr)
 
 
-def main():
-    with tempfile.TemporaryDirectory() as folder:
-        os.chdir(folder)
-        write("solid.obj", SOLID)
-        write("floor.obj", FLOOR)
-        check_exact()
-        check_shading()
-        check_scales()
-        check_view()
-        check_shadows()
-        check_groups()
-        check_story()
-        check_gltf()
-        check_bad()
-        check_unplaced()
-        check_absolute()
-        check_empty()
-        os.chdir("/")
-    sys.exit(checking.failures > 0)
+def write_meshes():
+    write("solid.obj", SOLID)
+    write("floor.obj", FLOOR)
 
 
-main()
+sys.exit(checking.run(write_meshes, check_exact, check_shading, check_scales, check_view, check_shadows, check_groups,
+                      check_story, check_gltf, check_bad, check_unplaced, check_absolute, check_empty))

@@ -95,7 +95,7 @@ static bool shoot(const struct trax_scene *scene, const float from[3], const flo
   return nearest;
 }
 
-/* From within a closed surface, aimed exactly at vertices, at points of edges, and anywhere: every ray hits. */
+/* Every ray from within a closed surface hits, aimed exactly at vertices, at points of edges, or anywhere. */
 static void test_no_ray_leaves_a_closed_surface(void **state) {
   struct trax_mesh mesh = {0};
   struct trax_scene scene = {0};

@@ -62,7 +62,7 @@ static void test_hall(void **state) {
   trax_mesh_release(&mesh);
 }
 
-/* The same with z upwards. */
+/* The room with z upwards. */
 static void test_hall_upwards(void **state) {
   (void)state;
   struct trax_mesh mesh = {0};
@@ -76,7 +76,7 @@ static void test_hall_upwards(void **state) {
   trax_mesh_release(&mesh);
 }
 
-/* From within a solid thing one sees backs; where a wall is missing, much of the sphere. */
+/* An eye within a solid object sees backs; one where a wall is missing sees much of the sphere. */
 static void test_no_room(void **state) {
   (void)state;
   struct trax_mesh mesh = {0};

@@ -112,7 +112,7 @@ static void test_combinations(void **state) {
     trax_picture_release(&twin);
     trax_picture_release(&other);
 
-    /* The same with paths: of the same random numbers, so nearly all pixels are alike, too. */
+    /* Paths are alike, too: the random numbers are the same, so nearly all pixels are. */
     options.paths = 1 + row % 5;
     options.seed = row;
     options.floats = true;
@@ -554,7 +554,7 @@ static void test_near_lamps(void **state) {
     }
 }
 
-/* Where hits are exact, too: a floor of 2 x 10^5, the light 1 above it. */
+/* Exact hits, too: a floor of 2 x 10^5, and the light 1 above it. */
 static void test_exact_hits(void **state) {
   (void)state;
   struct trax_mesh mesh = {0};

@@ -17,7 +17,7 @@ static void set_signal(int number) {
   trax_signal = number;
 }
 
-/* With every section: of three materials the first and the last are textured. */
+/* A scene with every section: the first and the last of three materials are textured. */
 static int make_scene(void **state) {
   (void)state;
   struct trax_mesh mesh = {0};

@@ -899,7 +899,7 @@ static void test_interrupt(void **state) {
   assert_null(mesh.vertices);
 }
 
-/* As many triangles as the fairy forest, none degenerate, and the same to the bit on every host and by every compiler.
+/* The forest has as many triangles as the fairy forest, none degenerate, and the same bits on every host.
  */
 static void test_forest(void **state) {
   (void)state;

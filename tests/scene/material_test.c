@@ -26,7 +26,7 @@ static size_t png_bytes(void *bytes, size_t room, const rgba *pixels, uint32_t w
   return size;
 }
 
-/* All of one colour. */
+/* An image of one colour. */
 static void write_jpeg(const char *name, int red, int green, int blue, unsigned width, unsigned height) {
   struct jpeg_compress_struct jpeg;
   struct jpeg_error_mgr errors;

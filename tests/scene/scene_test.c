@@ -261,7 +261,7 @@ static void face_normal(float normal[3], const struct trax_triangle *t) {
   }
 }
 
-/* From the pole down, `around` by `down` faces of a sphere of radius 1. */
+/* Makes `around` by `down` faces of a sphere of radius 1, from the pole down. */
 static void add_sphere(struct trax_mesh *mesh, int around, int down) {
   const double pi = acos(-1);
   for (int row = 0; row < down; row++)

@@ -205,7 +205,7 @@ def run_one_job(arguments, tools):
 
 
 def dispatch(arguments, tools, data):
-    """What one command alone needs is imported by it: it would double the time of every start."""
+    """A command imports what it alone needs: otherwise every start would take twice as long."""
     if arguments[:1] == ["compare"]:
         from compare import main as comparison
         return comparison.main(arguments[1:], tools, data)

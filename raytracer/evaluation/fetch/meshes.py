@@ -130,7 +130,7 @@ class Fetcher:
         put(path, self.folder, mesh.file)
 
     def record(self, origin, mesh, found):
-        """Beside the mesh: where it is from, and whom to credit."""
+        """Writes beside the mesh where it is from and whom to credit."""
         path = self.folder / f"{mesh.file}.source.json"
         if os.path.lexists(path) and not is_record(path):
             return  # the user's

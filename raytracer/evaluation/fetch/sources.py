@@ -66,7 +66,7 @@ class Mesh:
 
 
 def read_meshes(path):
-    """By the name of their file."""
+    """Returns the meshes by the names of their files."""
     fields = read_fields(path, ("meshes", ))
     listed = fields.value.get("meshes")
     if not isinstance(listed, list) or not listed:

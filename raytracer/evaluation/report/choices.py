@@ -54,7 +54,7 @@ def _cell(verdict, found):
 
 
 def _is_measured(found):
-    """On all scenes: a verdict on some of them is not comparable."""
+    """The choice must be on all scenes: a verdict on some of them is not comparable."""
     return found != NOT_MEASURED and not found.startswith("measured on")
 
 

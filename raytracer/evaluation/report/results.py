@@ -238,7 +238,7 @@ class Results:
         return run.get(name) if run else None
 
     def only(self, sweep):
-        """The same with the runs alone that a sweep asks for."""
+        """Returns results of the runs that a sweep asks for."""
         return Results(self.document, [run for run in self.runs if sweep in run.experiments])
 
     def named(self, kind):

@@ -34,7 +34,7 @@ from .tools import dying
 from .util import Problem, hash_bytes, hash_file, hash_value, read_json, remark, write_file, write_json, write_sealed
 
 FORMAT = 2
-# In the statistics, but not of the machine.
+# Members of the statistics that are not the machine's.
 OF_THE_HOST = ("program", "host_seconds", "instructions_per_host_second")
 
 # --- jobs

@@ -72,7 +72,7 @@ struct trax_mesh {
   struct trax_mesh_texture *textures;
   uint32_t *texels;
   struct trax_mesh_camera *cameras;
-  /* For the triangles' corners, from the files: NULL if no file has any, zeros for corners without. */
+  /* Attributes of the triangles' corners, from the files. NULL: no file has any; zeros: the corner has none. */
   float (*normals)[3][3];
   float (*uvs)[3][2];
   uint32_t vertex_count, triangle_count, material_count, texture_count, texel_count, camera_count;
@@ -173,8 +173,8 @@ trax_status trax_mesh_import(struct trax_mesh *mesh, const char *const *paths, s
                              trax_error *error);
 void trax_mesh_release(struct trax_mesh *mesh);
 
-/* From now on, lists each file that an import or a build reads in the file of this descriptor: a line as of `xxhsum
-   -H2`, or one that begins with "-" for a file that cannot be read. 0 ends the list. */
+/* Lists each file that an import or a build reads from now on, in the file of this descriptor. A line is as that of
+   `xxhsum -H2`, or begins with "-" if the file cannot be read. 0 ends the list. */
 void trax_scene_list_files(int descriptor);
 
 /* --- scenes --- */
@@ -265,7 +265,7 @@ trax_status trax_scene_read(struct trax_scene *scene, const char *path, trax_err
 /* unpack_limit: as of an import. */
 trax_status trax_scene_read_within(struct trax_scene *scene, const char *path, size_t unpack_limit, trax_error *error);
 
-/* The same checks on bytes in memory, which the caller keeps; messages contain name. On success *scene, if not NULL,
+/* Checks bytes in memory, which the caller keeps, likewise; messages contain name. On success *scene, if not NULL,
    views the bytes, and need not be released. bytes must be 64-byte aligned. */
 trax_status trax_scene_check(struct trax_scene *scene, const void *bytes, size_t size, const char *name,
                              trax_error *error);

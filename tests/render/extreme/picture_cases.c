@@ -42,7 +42,7 @@ static void make_grazing_globe_away(struct setup *setup, uint32_t rays) {
   grazing_globe(setup, rays, 1000);
 }
 
-/* At edges and corners of a room, exactly and close by, from inside. */
+/* The eye looks from inside at edges and corners of a room, or close by. */
 static void corners(struct setup *setup, uint32_t rays) {
   mesh_box(&setup->mesh, (float[]){-2, -1, -3}, (float[]){2, 1, 3}, 0);
   const float half[3] = {2, 1, 3};
@@ -139,7 +139,7 @@ static void make_picture_offset(struct setup *setup, uint32_t rays) {
           view_from(1e7f - 45, -1e7f + 38, 1e7f + 51, 0.6f, -0.6f, -1, 70, 1e7f + 19, -1e7f + 51, 1e7f + 45));
 }
 
-/* How much smaller a picture is in the short form of the suite. */
+/* Pictures are so many times smaller in the short form of the suite. */
 static uint32_t part_of(uint32_t rays) {
   return rays < 1000 ? 3 : 1;
 }

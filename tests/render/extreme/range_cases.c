@@ -30,7 +30,7 @@ static void turn_and_move(struct setup *setup, const float by[3]) {
 
 /* --- large faces --- */
 
-/* From within half a unit of 0, in all directions, most of them close to the horizon. */
+/* Rays start within half a unit of 0 and go in all directions, most of them close to the horizon. */
 static void look_around(struct setup *setup, uint32_t rays, float size) {
   for (uint32_t i = 0; i < rays; i++) {
     float from[3] = {0.5f * size * any(setup), 0.5f * size * any(setup), 0.5f * size * any(setup)};
@@ -102,7 +102,7 @@ static void rocks(struct setup *setup, float distance, float size, float height)
   }
 }
 
-/* At vertices, edges and faces of the first triangles. */
+/* Rays aim at vertices, edges and faces of the first triangles. */
 static void aim_at_first(struct setup *setup, uint32_t rays, uint32_t triangles, float radius) {
   const uint32_t all = setup->mesh.triangle_count;
   for (uint32_t i = 0; i < rays; i++) {
