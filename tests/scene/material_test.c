@@ -567,30 +567,9 @@ static void append(unsigned char *bytes, size_t *size, const void *part, size_t 
 
 static void test_gltf(void **state) {
   (void)state;
-  static const float corners[] = {0,
-                                  0,
-                                  0,
-                                  1,
-                                  0,
-                                  0,
-                                  0,
-                                  1,
-                                  0,
-                                  /* normals */ 0,
-                                  0.6f,
-                                  0.8f,
-                                  0,
-                                  0,
-                                  1,
-                                  0,
-                                  0,
-                                  1,
-                                  /* uvs, v down */ 0,
-                                  0,
-                                  1,
-                                  0,
-                                  0,
-                                  1};
+  static const struct {
+    float points[3][3], normals[3][3], uvs[3][2]; /* v down */
+  } corners = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 0.6f, 0.8f}, {0, 0, 1}, {0, 0, 1}}, {{0, 0}, {1, 0}, {0, 1}}};
   unsigned char bytes[8192], image[1024];
   const size_t image_size = (png_bytes(image, sizeof image, four, 2, 2) + 3) & ~(size_t)3;
   write_png("four of it.png", four, 2, 2);
@@ -643,7 +622,7 @@ static void test_gltf(void **state) {
   append(bytes, &size, header, sizeof header);
   append(bytes, &size, json, (size_t)length);
   append(bytes, &size, chunk, sizeof chunk);
-  append(bytes, &size, corners, sizeof corners);
+  append(bytes, &size, &corners, sizeof corners);
   append(bytes, &size, image, image_size);
   struct trax_mesh mesh;
   struct trax_import_report report;
