@@ -122,7 +122,7 @@ trax_status options_check(const struct options *options, trax_error *error) {
   if (options->import.animation && !options->import.moves)
     return trax_fail(error, "--animation without --at");
   if (options->hits && options->sampled)
-    return trax_fail(error, "--hits is about one whole picture");
+    return trax_fail(error, "--hits needs the whole picture: not with --sampled");
   if (options->layers && !(options->output && trax_output_has_ending(options->output, "exr")))
     return trax_fail(error, "--layers needs -o FILE.exr");
   if (options->layers && options->engine <= ENGINE_REFERENCE &&
@@ -144,7 +144,7 @@ trax_status options_check(const struct options *options, trax_error *error) {
                            options->ray_trace || trax_explain_wanted(&options->explain)))
     return trax_fail(error, "--sampled leaves out most of the run: there is nothing to compare, explain or prepare");
   if (options->sampled && options->source && options->output)
-    return trax_fail(error, "--sampled -o: of another --source the native twin's picture would be another one");
+    return trax_fail(error, "--sampled -o: the picture is the native twin's, which does not run another --source");
   if (options->engine > ENGINE_REFERENCE) {
     if (options->ray_cycles)
       return trax_fail(error, "--ray-cycles needs the emulator: the other engines simulate no time");
@@ -191,9 +191,9 @@ trax_status options_check(const struct options *options, trax_error *error) {
   if (options->frame.seed && !options->frame.paths && !options->frame.occlusion)
     return trax_fail(error, "--seed is for --paths and --occlusion: nothing else is random");
   if (options->frame.occlusion && options->frame.paths)
-    return trax_fail(error, "--occlusion is about the ambient light, which --paths does without");
+    return trax_fail(error, "--occlusion is for the ambient light, which --paths does not have");
   if (options->frame.occlusion && !options->frame.shadows)
-    return trax_fail(error, "--occlusion and --no-shadows: either something is in the light's way or nothing is");
+    return trax_fail(error, "--occlusion needs shadows, which --no-shadows leaves out");
   if (options->frame.occlusion * options->frame.samples > MOST_OCCLUSION_POINTS)
     return trax_fail(error, "--occlusion %u with --samples %u: there are %u points for a pixel at most",
                      options->frame.occlusion, options->frame.samples, MOST_OCCLUSION_POINTS);
