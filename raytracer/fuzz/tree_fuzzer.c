@@ -1,4 +1,4 @@
-/* Trees of one's own under libFuzzer: a case's files are the arrays nodes.npy, order.npy and boxes.npy, and the words
+/* Users' trees under libFuzzer: a case's files are the arrays nodes.npy, order.npy and boxes.npy, and the words
    of its first line say for which mesh. A refusal names its place; what is accepted makes a scene that passes every
    check. */
 #include "files.h"

@@ -43,7 +43,7 @@ struct sums {
   double light[3], weight;
 };
 
-/* Adds each pixel's light to the texels that it covers, by solid angle: in so many parts that no texel is missed. */
+/* Adds each pixel's light to the texels that it covers, by solid angle. A pixel's parts miss no texel. */
 static void spread(struct sums *sums, const struct trax_picture *picture, float strength, double turn) {
   const uint32_t width = picture->width, height = picture->height;
   const uint32_t down = (4 * SIDE + height - 1) / height, across = (8 * SIDE + width - 1) / width;

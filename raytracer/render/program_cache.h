@@ -22,7 +22,7 @@ struct cache_work {
 };
 
 trax_status cache_begin(struct cache_work *work, const char *cache, const char *key, trax_error *error);
-/* Makes an entry of it, in the place of whatever is there. */
+/* Makes an entry of it, which replaces whatever has its name. */
 trax_status cache_commit(const struct cache_work *work, const char *cache, const char *key, trax_error *error);
 void cache_end(const struct cache_work *work);
 

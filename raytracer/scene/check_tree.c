@@ -119,8 +119,7 @@ static trax_status enter_node(struct checker *checker, trax_scene_ref ref, unsig
   return TRAX_OK;
 }
 
-/* Each byte of a node is as it is written around these boxes: its frame, what is reserved, and children that are not
-   there. */
+/* Compares each byte with a node written around these boxes: its frame, reserved bytes, and absent children. */
 static trax_status check_bytes(const struct checker *checker, uint32_t number, const struct scene_node *node) {
   _Alignas(TRAX_SCENE_ALIGNMENT) unsigned char right[MOST_NODE_BYTES];
   const struct trax_node_format *format = format_of(checker);

@@ -4,10 +4,10 @@
 
 #include "internal.h"
 
-/* Derives all members but stretch from to_world and origin. NULL, or why there is no such instance. */
+/* Derives all members but stretch from to_world and origin. Returns NULL, or why the instance is impossible. */
 const char *scene_derive_instance(struct trax_instance *instance);
 
-/* Sets to_world and origin, and derives the others. NULL, or why there is no such instance. */
+/* Sets to_world and origin, and derives the others. Returns NULL, or why the instance is impossible. */
 const char *scene_place_instance(struct trax_instance *instance, const double transform[3][4]);
 
 /* The box of a mesh's triangles from number `first` on, without those that have a coordinate which is too large. */

@@ -174,7 +174,7 @@ def test_refusals(inside, scratch):
 
 
 def test_example(program, data, scratch):
-    """The sweep to copy runs as it is but for its scene. new-sweep, which once asked for one, names it."""
+    """The example sweep runs unchanged but for its scene. new-sweep, which once asked for one, names it."""
     mine = scratch / "copied"
     shutil.copytree(HERE / "researcher", mine)
     (mine / "leaves.json").write_text((data / "example.json").read_text().replace('"forest"', '"steps.json"'))

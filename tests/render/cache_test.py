@@ -178,8 +178,7 @@ def together():
 
 
 def no_room():
-    """Files of no more than so many bytes, as on a disk that is full: the general program renders, and nothing is left
-    behind."""
+    """Files may have only so many bytes, as on a full disk: the general program renders, and nothing is left behind."""
     entry, = glob.glob("cache/*.elf")
     for limit in (12000, 30000, os.path.getsize(entry) - 20):
         shutil.rmtree("full", ignore_errors=True)

@@ -117,7 +117,7 @@ static void test_inside_a_sphere(void **state) {
     struct trax_scene scene = {0};
     mesh_sphere(&mesh, 3, levels, 0);
     build(&scene, &mesh, NULL);
-    /* From the centre, symmetric: many rays meet vertices and edges; the light is there as well. */
+    /* The view from the centre is symmetric: many rays meet vertices and edges. The light is there, too. */
     struct trax_view view = view_from(0, 0, 0, 0, 0, -1, 120, 0, 0, 0);
     struct trax_picture picture = agreeing(&scene, &view, 255, 129, 33);
     assert_int_equal(background_pixels(&picture), 0);

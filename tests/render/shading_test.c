@@ -268,7 +268,7 @@ static const struct trax_view *dark_view(void) {
   return &view;
 }
 
-/* Inside of a closed surface that shines e and reflects r, light is e + e r + e r^2 + ..., as far as paths go. */
+/* The light in a closed surface that shines e and reflects r is e + e r + e r^2 + ..., up to the length of paths. */
 static void test_furnace_from_inside(void **state) {
   (void)state;
   const struct trax_material material = {

@@ -455,7 +455,7 @@ class Files(Scratch):
         self.assertEqual(self.command("--help").stdout.splitlines()[0], "usage: trax-sim compare [OPTION...] A B")
 
     def test_program(self):
-        """The command as it is typed."""
+        """The command in a process of its own."""
         for words, status in (((self.folder / "a.json", self.folder / "b.json"), 0), (("none.json", "x"), 1)):
             run = subprocess.run([BIN / "trax-sim", "compare", *words], cwd=self.place, capture_output=True, text=True)
             here = self.command(*words, status=status, folder=self.place)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The page of sweeps of one's own: own_test.py RAYTRACER/EVALUATION"""
+"""The page of a user's sweeps: own_test.py RAYTRACER/EVALUATION"""
 
 import copy
 import html

@@ -358,7 +358,7 @@ static void test_order_of_duplicates(void **state) {
   }
 }
 
-/* Nor do many slivers of which none is worse than the others: the tree is that without splits. */
+/* Many slivers of which none is worse than the others are not split, either: the tree is that without splits. */
 static void test_equals_do_not_call_for_splits(void **state) {
   (void)state;
   struct trax_scene_stats stats[2];

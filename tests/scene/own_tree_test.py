@@ -94,7 +94,7 @@ def widen(nodes, boxes, most, children_of):
 
 
 def whole_levels(nodes, levels):
-    """Up to so many levels of the tree as one, whole: halves of such children are the binary tree's again."""
+    """Joins so many levels of the tree into one node: halves of its children are the binary tree's again."""
     def children_of(number):
         children = [number]
         for _ in range(levels):
@@ -393,7 +393,7 @@ def refusals():
 
 
 def damaged():
-    """Files that are no such arrays."""
+    """Files that are no arrays are refused."""
     call("trax-scene", "big.obj", "-q", "--write-triangles", "t.npy")
     nodes, order, boxes = median_split(read_triangles("t.npy"), 2)
     write(nodes, order, boxes)

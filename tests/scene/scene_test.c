@@ -97,8 +97,8 @@ static void test_shapes(void **state) {
       }
 }
 
-/* Triangles that no plane separates, a row in which each is a fraction of the one before, and one through so many
-   octaves that surface areas alone lead to a tree far deeper than allowed. */
+/* Triangles that no plane separates; a row in which each is a fraction of the one before; a row over so many octaves
+   that surface areas alone would make a tree far deeper than allowed. */
 static void test_awkward_meshes(void **state) {
   (void)state;
   struct trax_mesh same = {0}, row = {0}, nest = {0};

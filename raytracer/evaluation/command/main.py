@@ -84,8 +84,8 @@ def check_threads(option, value):
 
 
 def choose(options, data):
-    """The sweep files and the folder of scenes that the words name. The last of several words may name both: it is the
-    folder then."""
+    """Returns the sweep files and the folder of scenes that the words name. If the last of several words may name
+    both, it is the folder."""
     known = {path.stem: path for path in experiments(data)}
     files, folder = [path for path in known.values() if read_sweep(path).in_all] if options.all else [], None
     words = options.words

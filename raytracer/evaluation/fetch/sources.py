@@ -1,4 +1,4 @@
-"""The meshes that can be fetched, and where from: sources.json, or a file of one's own (docs/scenes.md)."""
+"""The meshes that can be fetched, and their sources: sources.json, or the user's file (docs/scenes.md)."""
 
 import re
 

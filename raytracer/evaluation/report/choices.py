@@ -1,4 +1,4 @@
-"""How the verdicts on the paper's claims depend on choices that the paper leaves open: the claims, judged anew by the
+"""The verdicts on the paper's claims under choices that the paper leaves open: the claims are judged again by the
 runs with another view of the dragon, and by those of SWEEPS that make one of CHOICES."""
 
 import copy

@@ -133,7 +133,7 @@ class Run:
         return self.configured(name)
 
     def configured(self, name):
-        """The configuration's value of a key, as it is."""
+        """The configuration's value of a key, unchanged."""
         self.asked.setdefault(self.index, set()).add("configuration." + name)
         value = self.stats.get("configuration")
         for part in name.split(".", 1):

@@ -114,7 +114,7 @@ trax_status trax_override_material(struct trax_material_override *override, char
 /* The default limit of bytes of a packed file, or one without a size (a pipe): docs/scene-file.md, "Limits". */
 #define TRAX_DEFAULT_UNPACK_LIMIT ((size_t)1 << 30)
 
-/* Parses "700M", "2G", "65536": bytes; K, M and G are powers of 1024; 1 to 4 GiB. False: text is no such size. */
+/* Parses "700M", "2G", "65536": bytes; K, M and G are powers of 1024; 1 to 4 GiB. False: text is no size. */
 bool trax_parse_size(const char *text, size_t *bytes);
 
 struct trax_import_options {
@@ -251,7 +251,7 @@ bool trax_splits_choose(const char *text, struct trax_build_options *build);
 trax_status trax_scene_build(struct trax_scene *scene, const struct trax_mesh *mesh,
                              const struct trax_build_options *options, trax_error *error);
 
-/* Writes the triangles of a mesh as a tree of one's own numbers them: an array of floats (.npy) of the shape (n, 3, 3).
+/* Writes the triangles of a mesh as a user's tree numbers them: an array of floats (.npy) of the shape (n, 3, 3).
  */
 trax_status trax_mesh_write_triangles(const struct trax_mesh *mesh, const char *path, trax_error *error);
 
