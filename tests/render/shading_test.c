@@ -242,19 +242,6 @@ static void test_lights_add_up(void **state) {
 static void build_sphere(struct trax_scene *scene, float radius, const struct trax_material *material) {
   struct trax_mesh whole = {0};
   mesh_sphere(&whole, radius, 4, mesh_material(&whole, 0, 0, 0));
-  for (uint32_t i = 0; i < whole.triangle_count; i++) { /* outwards: counterclockwise from outside */
-    uint32_t *v = whole.triangles[i].vertices;
-    const float *a = whole.vertices[v[0]], *b = whole.vertices[v[1]], *c = whole.vertices[v[2]];
-    float outwards = 0;
-    for (int k = 0; k < 3; k++) {
-      int l = (k + 1) % 3, m = (k + 2) % 3;
-      outwards += ((b[l] - a[l]) * (c[m] - a[m]) - (b[m] - a[m]) * (c[l] - a[l])) * a[k];
-    }
-    if (outwards < 0) {
-      const uint32_t swapped = v[1];
-      v[1] = v[2], v[2] = swapped;
-    }
-  }
   whole.materials[0].surface = *material;
   build(scene, &whole, &(struct trax_build_options){.smooth = true});
   trax_mesh_release(&whole);
@@ -397,17 +384,19 @@ static void test_bent_surfaces(void **state) {
 
 /* --- two ways to the same light --- */
 
+static void wide_floor(struct trax_mesh *mesh, float width, uint32_t material) {
+  mesh_quad(mesh, (float[][3]){{-width, 0, -width}, {width, 0, -width}, {width, 0, width}, {-width, 0, width}},
+            material);
+}
+
 static void floor_mesh(struct trax_mesh *mesh, bool lamp) {
   const uint32_t grey = mesh_material(mesh, 0.6f, 0.6f, 0.6f), bright = mesh_material(mesh, 0, 0, 0);
-  const uint32_t first = mesh_vertex(mesh, -3, 0, -3);
-  mesh_vertex(mesh, 3, 0, -3), mesh_vertex(mesh, 3, 0, 3), mesh_vertex(mesh, -3, 0, 3);
-  mesh_triangle(mesh, first, first + 1, first + 2, grey), mesh_triangle(mesh, first, first + 2, first + 3, grey);
+  wide_floor(mesh, 3, grey);
   mesh_box(mesh, (float[]){-0.3f, 0, -0.3f}, (float[]){0.3f, 0.4f, 0.3f}, grey);
   const float height = lamp ? 1 : -1; /* below the floor it does nothing */
-  const uint32_t corner = mesh_vertex(mesh, -0.8f, height, -0.5f);
-  mesh_vertex(mesh, 0.2f, height, -0.5f), mesh_vertex(mesh, 0.2f, height, 0.5f), mesh_vertex(mesh, -0.8f, height, 0.5f);
-  mesh_triangle(mesh, corner, corner + 1, corner + 2, bright);
-  mesh_triangle(mesh, corner, corner + 2, corner + 3, bright);
+  mesh_quad(mesh,
+            (float[][3]){{-0.8f, height, -0.5f}, {0.2f, height, -0.5f}, {0.2f, height, 0.5f}, {-0.8f, height, 0.5f}},
+            bright);
   for (int channel = 0; channel < 3; channel++)
     mesh->materials[bright].surface.emission[channel] = 2;
 }
@@ -505,14 +494,9 @@ static struct trax_picture near_lamp(float width, int lamp, const struct trax_fr
   struct trax_mesh mesh = {0};
   struct trax_scene scene = {0};
   const uint32_t grey = mesh_material(&mesh, 0.6f, 0.6f, 0.6f), bright = mesh_material(&mesh, 0, 0, 0);
-  const uint32_t first = mesh_vertex(&mesh, -width, 0, -width);
-  mesh_vertex(&mesh, width, 0, -width), mesh_vertex(&mesh, width, 0, width), mesh_vertex(&mesh, -width, 0, width);
-  mesh_triangle(&mesh, first, first + 1, first + 2, grey), mesh_triangle(&mesh, first, first + 2, first + 3, grey);
+  wide_floor(&mesh, width, grey);
   if (lamp == 3) {
-    const uint32_t corner = mesh_vertex(&mesh, -1, 1, -0.5f);
-    mesh_vertex(&mesh, 0, 1, -0.5f), mesh_vertex(&mesh, 0, 1, 0.5f), mesh_vertex(&mesh, -1, 1, 0.5f);
-    mesh_triangle(&mesh, corner, corner + 1, corner + 2, bright);
-    mesh_triangle(&mesh, corner, corner + 2, corner + 3, bright);
+    mesh_quad(&mesh, (float[][3]){{-1, 1, -0.5f}, {0, 1, -0.5f}, {0, 1, 0.5f}, {-1, 1, 0.5f}}, bright);
     mesh.materials[bright].surface.emission[0] = 2;
   }
   build(&scene, &mesh, NULL);
@@ -559,10 +543,7 @@ static void test_exact_hits(void **state) {
   (void)state;
   struct trax_mesh mesh = {0};
   struct trax_scene scene = {0};
-  const uint32_t grey = mesh_material(&mesh, 0.5625f, 0.5625f, 0.5625f);
-  const uint32_t first = mesh_vertex(&mesh, -1e5f, 0, -1e5f);
-  mesh_vertex(&mesh, 1e5f, 0, -1e5f), mesh_vertex(&mesh, 1e5f, 0, 1e5f), mesh_vertex(&mesh, -1e5f, 0, 1e5f);
-  mesh_triangle(&mesh, first, first + 1, first + 2, grey), mesh_triangle(&mesh, first, first + 2, first + 3, grey);
+  wide_floor(&mesh, 1e5f, mesh_material(&mesh, 0.5625f, 0.5625f, 0.5625f));
   build(&scene, &mesh, NULL);
   const struct trax_view view = view_from(0, 5, 0, 0, -1, -0.01f, 1, 0, 1, 0);
   struct trax_frame_options options = plain;
