@@ -8,8 +8,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* The result of make(), all of it zero before. */
+/* The result of make(), all of it zero before, but for the seed and the case's numbers. */
 struct setup {
+  const double *numbers;
   struct trax_mesh mesh;
   struct trax_scene premade; /* instead of the mesh */
   struct trax_build_options build;

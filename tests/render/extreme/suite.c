@@ -143,6 +143,7 @@ static void prepare(struct prepared *prepared, const struct extreme_case *extrem
   prepared->short_form = short_form;
   struct setup *setup = &prepared->setup;
   setup->seed = seed;
+  setup->numbers = extreme->numbers;
   extreme->make(setup, rays);
   setup->build.allow_empty = true;
   if (setup->premade.bytes) {
