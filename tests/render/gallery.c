@@ -126,6 +126,12 @@ void gallery_mesh(struct trax_mesh *mesh, unsigned parts) {
     memcpy(material_of(mesh, lamp)->emission, (float[]){9, 8, 6}, 12);
 }
 
+struct trax_scene gallery_scene(unsigned parts) {
+  struct trax_mesh mesh = {0};
+  gallery_mesh(&mesh, parts);
+  return scene_of(&mesh, &(struct trax_build_options){.smooth = true, .crease_degrees = 40});
+}
+
 struct trax_view gallery_view(unsigned lights) {
   struct trax_view view = view_from(0.05f, 1.05f, 3.9f, 0, -0.03f, -1, 38, 0.2f, 1.7f, 0.9f);
   static const struct trax_light all[3] = {{.kind = TRAX_LIGHT_POINT,

@@ -17,6 +17,7 @@ enum {
 };
 
 void gallery_mesh(struct trax_mesh *mesh, unsigned parts);
+struct trax_scene gallery_scene(unsigned parts);
 /* The view from its open side. lights: how many of a point, a directional light and a rectangle the view has; 0: the
    paper's one point light. */
 struct trax_view gallery_view(unsigned lights);

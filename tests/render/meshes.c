@@ -144,6 +144,13 @@ void build(struct trax_scene *scene, const struct trax_mesh *mesh, const struct 
   }
 }
 
+struct trax_scene scene_of(struct trax_mesh *mesh, const struct trax_build_options *options) {
+  struct trax_scene scene = {0};
+  build(&scene, mesh, options);
+  trax_mesh_release(mesh);
+  return scene;
+}
+
 int normalise(struct trax_scene *scene, struct trax_view *view) {
   trax_error error;
   int exponent;

@@ -30,6 +30,8 @@ struct trax_view view_from(float ex, float ey, float ez, float dx, float dy, flo
 void chain_scene(struct trax_scene *scene);
 
 void build(struct trax_scene *scene, const struct trax_mesh *mesh, const struct trax_build_options *options);
+/* Builds the scene of a mesh, which is released. */
+struct trax_scene scene_of(struct trax_mesh *mesh, const struct trax_build_options *options);
 /* Returns the exponent. */
 int normalise(struct trax_scene *scene, struct trax_view *view);
 struct trax_picture take(const struct trax_scene *scene, const struct trax_view *view, uint32_t width, uint32_t height,
