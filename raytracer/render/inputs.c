@@ -67,7 +67,7 @@ static trax_status load_scene(struct inputs *inputs, const struct options *optio
             "%s: a scene file is as trax-scene made it: --material, --diffuse, --at, --no-textures, "
             "--texture-size, --nodes, --splits, --instances, --flatten and --normals smooth are for meshes",
             options->meshes[0]);
-      trax_status status = trax_scene_read_within(scene, options->meshes[0], options->import.unpack_limit, error);
+      trax_status status = trax_scene_read(scene, options->meshes[0], options->import.unpack_limit, error);
       if (status == TRAX_OK && options->frame.smooth && !scene->normals && scene->triangle_count)
         status = trax_fail(error, "%s: --smooth: the scene has no normals; trax-scene --smooth makes them",
                            options->meshes[0]);

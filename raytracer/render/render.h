@@ -55,8 +55,7 @@ struct trax_frame {
    no scale suffices, as for a light farther away than 2^40 times the scene's size. */
 trax_status trax_normalise(struct trax_scene *scene, struct trax_view *view, int *exponent, trax_error *error);
 
-/* Scale by 2^exponent: a view whose scene was scaled before, and a scene. */
-void trax_scale_view(struct trax_view *view, int exponent);
+/* Scales by 2^exponent. */
 void trax_scale_scene(struct trax_scene *scene, int exponent);
 
 /* scene and view as trax_normalise left them; scene must outlive the frame. */

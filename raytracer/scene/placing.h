@@ -4,6 +4,8 @@
 
 #include "internal.h"
 
+extern const double scene_identity[3][4];
+
 /* Derives all members but stretch from to_world and origin. Returns NULL, or why the instance is impossible. */
 const char *scene_derive_instance(struct trax_instance *instance);
 

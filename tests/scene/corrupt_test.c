@@ -83,7 +83,7 @@ static void test_every_length(void **state) {
   free(bytes);
   struct trax_scene scene;
   trax_error error;
-  assert_int_equal(trax_scene_read(&scene, path, &error), TRAX_ERROR);
+  assert_int_equal(trax_scene_read(&scene, path, 0, &error), TRAX_ERROR);
   assert_contains(error.message, "long.trax: ");
   assert_contains(error.message, "where its header says");
 }
@@ -312,7 +312,7 @@ static void test_not_scenes(void **state) {
              {test_text("tiny.trax", "TRXS"), "tiny.trax: cut off: 4 bytes"},
              {test_text("text.trax", "This is not a scene."), "text.trax: not a scene file"}};
   for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
-    assert_int_equal(trax_scene_read(&scene, bad[i].path, &error), TRAX_ERROR);
+    assert_int_equal(trax_scene_read(&scene, bad[i].path, 0, &error), TRAX_ERROR);
     assert_contains(error.message, bad[i].message);
     assert_null(scene.bytes);
   }
@@ -334,7 +334,7 @@ static void test_large_files(void **state) {
   const char *path = sparse_file("vast.trax", (off_t)10 << 30);
   getrlimit(RLIMIT_AS, &before);
   setrlimit(RLIMIT_AS, &(struct rlimit){(rlim_t)1 << 30, before.rlim_max});
-  const trax_status status = trax_scene_read(&scene, path, &error);
+  const trax_status status = trax_scene_read(&scene, path, 0, &error);
   setrlimit(RLIMIT_AS, &before);
   assert_int_equal(status, TRAX_ERROR);
   assert_contains(error.message, "vast.trax: more than 4294967296 bytes");
@@ -345,7 +345,7 @@ static void test_large_files(void **state) {
   const struct itimerval soon = {.it_value = {.tv_usec = 1000}};
   sigaction(SIGALRM, &action, &old);
   setitimer(ITIMER_REAL, &soon, NULL);
-  assert_int_equal(trax_scene_read(&scene, path, &error), TRAX_INTERRUPTED);
+  assert_int_equal(trax_scene_read(&scene, path, 0, &error), TRAX_INTERRUPTED);
   sigaction(SIGALRM, &old, NULL);
   trax_signal = 0;
   remove(path);

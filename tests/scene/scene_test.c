@@ -514,7 +514,7 @@ static void test_empty(void **state) {
   const char *path = test_path("empty.trax");
   assert_int_equal(trax_scene_write(&scene, path, &error), TRAX_OK);
   trax_scene_release(&scene);
-  assert_int_equal(trax_scene_read(&scene, path, &error), TRAX_OK);
+  assert_int_equal(trax_scene_read(&scene, path, 0, &error), TRAX_OK);
   assert_int_equal(scene.triangle_count, 0);
   struct trax_scene_stats stats;
   trax_scene_measure(&stats, &scene);
@@ -534,7 +534,7 @@ static void test_write_and_read(void **state) {
   assert_null(scene.source_ids);
   const char *path = test_path("soup.trax");
   assert_int_equal(trax_scene_write(&scene, path, &error), TRAX_OK);
-  assert_int_equal(trax_scene_read(&read, path, &error), TRAX_OK);
+  assert_int_equal(trax_scene_read(&read, path, 0, &error), TRAX_OK);
   assert_int_equal((uintptr_t)read.bytes % TRAX_SCENE_ALIGNMENT, 0);
   assert_int_equal(read.size, scene.size);
   assert_memory_equal(read.bytes, scene.bytes, scene.size);

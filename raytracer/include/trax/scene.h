@@ -21,10 +21,6 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 /* --- meshes --- */
 
 struct trax_mesh_triangle {
@@ -251,8 +247,7 @@ bool trax_splits_choose(const char *text, struct trax_build_options *build);
 trax_status trax_scene_build(struct trax_scene *scene, const struct trax_mesh *mesh,
                              const struct trax_build_options *options, trax_error *error);
 
-/* Writes the triangles of a mesh as a user's tree numbers them: an array of floats (.npy) of the shape (n, 3, 3).
- */
+/* Writes the triangles of a mesh as a user's tree numbers them: an array of floats (.npy) of the shape (n, 3, 3). */
 trax_status trax_mesh_write_triangles(const struct trax_mesh *mesh, const char *path, trax_error *error);
 
 /* path is replaced at once or stays as it was (trax/output.h). */
@@ -260,10 +255,8 @@ trax_status trax_scene_write(const struct trax_scene *scene, const char *path, t
 
 /* Reads a file and checks it completely: header, checksum, sections, and the BVH as a tree in which every box is exact
    and every triangle within its leaf's, or those of several leaves together. An accepted scene cannot lead a traversal
-   astray. */
-trax_status trax_scene_read(struct trax_scene *scene, const char *path, trax_error *error);
-/* unpack_limit: as of an import. */
-trax_status trax_scene_read_within(struct trax_scene *scene, const char *path, size_t unpack_limit, trax_error *error);
+   astray. unpack_limit: as of an import. */
+trax_status trax_scene_read(struct trax_scene *scene, const char *path, size_t unpack_limit, trax_error *error);
 
 /* Checks bytes in memory, which the caller keeps, likewise; messages contain name. On success *scene, if not NULL,
    views the bytes, and need not be released. bytes must be 64-byte aligned. */
@@ -281,9 +274,5 @@ struct trax_scene_stats {
 };
 
 void trax_scene_measure(struct trax_scene_stats *stats, const struct trax_scene *scene);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif
