@@ -1,5 +1,5 @@
-"""Functions that tests in Python share: checks of conditions, whose failures `failures` counts, and the run of a
-program."""
+"""Functions that tests in Python share: checks of conditions, whose failures `failures` counts, and the runs of a
+test's parts and of a program."""
 import os
 import subprocess
 import tempfile
@@ -30,6 +30,16 @@ def call(folder, program, *words, status=0):
     done = subprocess.run(command, capture_output=True, text=True, timeout=280, check=False)
     check(done.returncode == status, program, *words, "status", done.returncode, done.stdout, done.stderr)
     return done
+
+
+def run(*parts):
+    """Runs the parts of a test in a temporary folder, and returns the exit status."""
+    with tempfile.TemporaryDirectory(dir=os.environ.get("TRAX_TEST_FOLDER")) as folder:
+        os.chdir(folder)
+        for part in parts:
+            part()
+        os.chdir("/")
+    return failures != 0
 
 
 def run_measured(command):

@@ -1,4 +1,4 @@
-/* From a slot to its pixel, and from a pixel to its ray. */
+/* The pixel of a slot, and the rays of a pixel. */
 #ifndef TRAX_DEVICE_CAMERA_H
 #define TRAX_DEVICE_CAMERA_H
 

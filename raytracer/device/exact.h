@@ -25,7 +25,7 @@
 
 /* --- sums of products --- */
 
-/* In units of 2^-447, the product of three of the least floats. trax_normalise keeps all factors below
+/* The unit is 2^-447, the product of three of the least floats. trax_normalise keeps all factors below
    2^33. Then the sum of 36 products has less than 32 * EXACT_WORDS bits. */
 #define EXACT_WORDS 18
 

@@ -16,7 +16,7 @@
 
 #define AT_INSTANCE(member) ((int)__builtin_offsetof(struct trax_instance, member))
 
-/* A ray as it is before it is prepared. */
+/* A ray before it is prepared. */
 struct bare_ray {
   struct vector origin, direction;
   float margin;

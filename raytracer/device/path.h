@@ -68,8 +68,8 @@ _Static_assert(sizeof(struct path) <= TRAX_PATH_BYTES, "render_params.h");
 
 #define MOST_HOLES 1024 /* a ray ends at the next */
 
-/* Whether the hit point and the start of the shadow ray must be told apart. Not so with one light that is far away
-   (TRAX_FEATURE_NEAR_LIGHT): then path->point is the start, and the hit point is not kept. */
+/* Whether the hit point and the start of the shadow ray must be told apart. One light that is far away (no
+   TRAX_FEATURE_NEAR_LIGHT) needs only the start, which is then path->point. */
 #define LIT_AT_POINT(run) (NEEDS(run, LIGHTS) || NEEDS(run, NEAR_LIGHT) || (NEEDS(run, PATHS) && NEEDS(run, EMISSION)))
 #define PATH_START(run, path) (LIT_AT_POINT(run) ? (path)->start : (path)->point)
 #define SURE_DEPTH 3 /* roulette begins at this depth */

@@ -30,7 +30,7 @@ extern struct trax_buffer scene, params, image;
 /* Whether the picture needs the feature NAME of features.def. */
 #define NEEDS(run, NAME) ((RUN_FEATURES(run) >> TRAX_FEATURE_##NAME & 1u) != 0)
 
-/* Whether rays of the paper's workload are counted where they begin. Else those of a pixel are counted at its end. */
+/* Whether rays of the paper's workload are counted where they begin. If not, a pixel's rays are counted at its end. */
 #ifdef TRAX_SPECIALISED_FEATURES
 #define MARKS_RAYS(run) NEEDS(run, RAY_KINDS)
 #else

@@ -63,7 +63,7 @@ struct words {
   uint32_t x, y;
 };
 
-/* In units of 2^-32. */
+/* The unit is 2^-32. */
 static inline struct words scrambled_point(uint32_t sample, uint32_t seed) {
   uint32_t seed_x = hash_word(seed ^ 0x9E3779B9u), seed_y = hash_word(seed ^ 0x3C6EF372u);
   uint32_t number = reverse_bits(scramble_upwards(reverse_bits(sample), hash_word(seed))) & 0xFFFFu;
@@ -75,7 +75,7 @@ static inline struct place place_of(struct words words) {
   return (struct place){(float)(int32_t)(words.x >> 8) * 0x1p-24f, (float)(int32_t)(words.y >> 8) * 0x1p-24f};
 }
 
-/* The same point in every pixel, so that there is no noise. The first sample takes the middle. */
+/* Every pixel has the same point, so there is no noise. The first sample takes the middle. */
 static inline struct place even_point(uint32_t sample, uint32_t dimension) {
   struct words first = scrambled_point(0, hash_word(dimension)), words = scrambled_point(sample, hash_word(dimension));
   return place_of((struct words){words.x ^ first.x ^ 0x80000000u, words.y ^ first.y ^ 0x80000000u}); /* still a net */

@@ -68,8 +68,8 @@ static inline __attribute__((always_inline)) void find_surface(struct surface *s
 #endif
   struct vector out = times(bound * inverse_length, n);
 
-  /* Also half as far back along the sight, but not beyond the eye. Nothing is in between, so this leads away from
-     every near surface. In a corner, the normal alone may lead along another wall, or into it. */
+  /* The start is also half as far back along the line of sight, but not beyond the eye. Nothing is in between, so
+     this is away from every near surface. In a corner, the normal alone may lead along another wall, or into it. */
   struct vector inside = plus(times(hit->weight1, e), times(hit->weight2, f));
   sight = plus(sight, inside);
   int32_t far = greatest_magnitude(sight) & 0x7F800000;

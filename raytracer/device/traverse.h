@@ -63,8 +63,8 @@ static inline __attribute__((always_inline)) bool descend(uint32_t layout, const
   return true;
 }
 
-/* The same. If the instruction cache has room, by a copy of the loop for either sign of the ray's x: then addresses of
-   planes of x are the node's and a constant. */
+/* Descends likewise. If the instruction cache has room, each sign of the ray's x has a copy of the loop: then
+   addresses of planes of x are the node's and a constant. */
 static inline __attribute__((always_inline)) bool descend_by_sign(uint32_t layout, const char *scene,
                                                                   const struct ray *ray, int32_t limit,
                                                                   trax_scene_ref *reference, struct stack_entry **top) {

@@ -1,5 +1,5 @@
-/* A ray tracer as people wrote it when the paper was written, to tell what of our figures is the machine's and what is
-   our program's. It is as near to the paper's as its text allows; docs/evaluation.md says what the text leaves open and
+/* A ray tracer in the style of the paper's time. It tells which part of our figures is the machine's and which is our
+   program's. It is as near to the paper's as its text allows; docs/evaluation.md says what the text leaves open and
    what was chosen. Plain C: a binary BVH of boxes, 32-bit floats compared as floats, Moeller and Trumbore's triangle
    test, an epsilon, pixels row by row from the atomic counter. Nothing here knows what the machine shares. */
 #include "picture.h"

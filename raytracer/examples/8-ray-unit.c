@@ -1,5 +1,5 @@
 /* Step 8: the ray unit. Boxes and triangles are tested by a unit that TPs share: two instructions, which read a ray and
-   a box or a triangle from registers. The data cache holds the threads up then, so two planes of a box are one load.
+   a box or a triangle from registers. Then threads wait for the data cache, so two planes of a box are one load.
    The paper's machine has no such unit (docs/results/ray-unit.md). The program needs ray.units_per_group=1. */
 #include "quantised.h"
 #include "queues.h"

@@ -1,5 +1,5 @@
 /* A wavefront (9-wavefront.c) of all that the general device program renders: paths over many surfaces, all materials
-   and lights. A pixel's path waits in memory, and what happens to it is the device program's: follow_ray traces its
+   and lights. A pixel's path waits in memory, and functions of the device program handle it: follow_ray traces its
    ray, after_ray shades the result and makes the next ray (raytracer/device/path.h). In a round all threads sort the
    rays of all paths, trace them, and shade them. A pixel takes its samples one after the other, so every sum is in the
    same order, and the picture is the general program's in every bit.

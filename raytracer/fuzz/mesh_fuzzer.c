@@ -1,6 +1,7 @@
-/* Meshes under libFuzzer: a case's first file is one, by its ending, and refers to the others. What is accepted makes a
-   scene that passes every check. The words of the first line are materials as --material takes them; "moves" is for
-   half a second of its animation, whose tree is then also that of its beginning, refitted. */
+/* Meshes under libFuzzer: a case's first file is a mesh or a file of instances, by its ending, and refers to the
+   others. An accepted mesh makes a scene that passes every check. A refused file of instances has a message with its
+   place. The words of the first line are materials as --material takes them. With "moves" the mesh is that of half a
+   second of its animation, and the tree of its beginning is also refitted to it. */
 #include "files.h"
 
 #include <stdlib.h>
@@ -22,6 +23,11 @@ static void refit(const struct trax_mesh *mesh, const char *path, struct trax_im
     trax_scene_release(&base);
   }
   trax_mesh_release(&first);
+}
+
+static bool is_instances(const char *path) {
+  const char *ending = strrchr(path, '.');
+  return ending && strcmp(ending, ".instances") == 0;
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
@@ -53,8 +59,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
         refit(&mesh, path, options);
     }
     trax_mesh_release(&mesh);
-  } else if (!error.message[0]) {
-    abort(); /* an error without a reason */
+  } else if (!error.message[0] || (is_instances(path) && strncmp(error.message, path, strlen(path)) != 0)) {
+    abort(); /* an error without a reason or a place */
   }
   fuzz_case_free(&fuzz_case);
   return 0;
@@ -82,6 +88,7 @@ size_t LLVMFuzzerCustomMutator(uint8_t *bytes, size_t size, size_t capacity, uns
                                       "place a\n",
                                       "place b material a\n",
                                       "place a 0 -1 0 3  1 0 0 -4e5  0 0 2 0\n",
+                                      "place a 1e-3 0 0 nan  0 1e300 0 -inf  0 0 0x1p-4 1e39\n",
                                       "end\n",
                                       "material a ggx:0.5\n",
                                       "property list uchar int vertex_indices\n",

@@ -28,7 +28,7 @@ trax_status __wrap_trax_read_file(const char *path, size_t limit, uint8_t **byte
   return TRAX_OK;
 }
 
-/* Made anew for each case, since a frame scales it. */
+/* The scene is made again for each case, since a frame scales it. */
 static void make_scene(struct trax_scene *scene, enum trax_node_layout layout) {
   enum { TRIANGLES = 24 };
   static float vertices[TRIANGLES + 2][3];

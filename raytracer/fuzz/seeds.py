@@ -93,10 +93,9 @@ INSTANCES = (b"mesh m a.obj\nmaterial red 0.8,0.1,0.1\ngroup g\nplace m\n"
              b"place m 0 -1 0 2 1 0 0 0 0 0 1 0 material red\nend\n"
              b"place g\nplace g -1 0 0 5  0 1 0 0  0 0 0.5 1e4\nplace m material red\n")
 add_case("trax-scene-mesh", "", ("a.instances", INSTANCES), ("a.obj", OBJ.replace(b"usemtl b\n", b"")), ("a.mtl", MTL))
-add_case("trax-instances", "", ("a.instances", INSTANCES), ("a.obj", OBJ.replace(b"usemtl b\n", b"")), ("a.mtl", MTL))
 NESTED = (b"mesh a a.obj\nmesh b b.ply\ngroup c\nplace a\nplace b 1 0 0 3  0 -2 0 1  0 0 1 0\nend\n"
           b"place c\nplace c 1e-3 0 0 1e6  0 1e3 0 0  0 0 1 0\n")
-add_case("trax-instances", "", ("a.instances", NESTED), ("a.obj", OBJ), ("b.ply", BINARY_PLY))
+add_case("trax-scene-mesh", "", ("a.instances", NESTED), ("a.obj", OBJ), ("b.ply", BINARY_PLY))
 GLTF = json.dumps({
     "asset": {"version": "2.0"},
     "scene": 0,

@@ -1,4 +1,4 @@
-/* Trees of one's own under libFuzzer: a case's files are the arrays nodes.npy, order.npy and boxes.npy, and the words
+/* Users' trees under libFuzzer: a case's files are the arrays nodes.npy, order.npy and boxes.npy, and the words
    of its first line say for which mesh. A refusal names its place; what is accepted makes a scene that passes every
    check. */
 #include "files.h"
@@ -83,20 +83,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size) {
 
 /* A small number, or the limit of a type, in place of one behind the header. */
 static void change_number(fuzz_file *file, fuzz_random *random) {
-  static const uint32_t values[] = {0,
-                                    1,
-                                    2,
-                                    3,
-                                    7,
-                                    8,
-                                    TRIANGLES - 1,
-                                    TRIANGLES,
-                                    0x7FFFFFFF,
-                                    0x80000000,
-                                    0xFFFFFFFF,
-                                    0x7F800000 /* infinite */,
-                                    0x7FC00000 /* NaN */,
-                                    0x40000000 /* 2.0f */};
+  const uint32_t infinite = 0x7F800000, nan = 0x7FC00000, two = 0x40000000; /* as floats */
+  const uint32_t values[] = {0,         1,          2,          3,          7,        8,   TRIANGLES - 1,
+                             TRIANGLES, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF, infinite, nan, two};
   const size_t header = file->size >= 64 ? 64 : 0;
   const size_t words = (file->size - header) / 4;
   if (words == 0)

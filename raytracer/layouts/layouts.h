@@ -52,7 +52,7 @@ struct node_code {
   /* The bytes of a node, and a node from its bytes. Boxes are as stored, but in frames exact ones are written. */
   void (*write)(void *bytes, const struct trax_node_format *format, const struct scene_node *node);
   void (*read)(struct scene_node *node, const struct trax_node_format *format, const void *bytes);
-  /* For the device: coordinates times 2^exponent, and addresses for references. */
+  /* Prepare a node for the device: coordinates times 2^exponent, and addresses for references. */
   void (*scale)(void *bytes, const struct trax_node_format *format, int exponent);
   void (*relocate)(void *bytes, const struct trax_node_format *format, uint32_t address);
   /* NULL, or of nodes with frames of their own: a box as this node stores it; the distance of planes along an axis. */
@@ -112,7 +112,7 @@ struct scene_tree {
 
 /* Whether boxes on the scene's grid cost few additional visits in each larger part of the tree. */
 bool scene_grid_suits(const struct scene_tree *tree);
-/* In cells, rounded outwards. */
+/* Converts a box to cells, rounded outwards. */
 struct scene_box scene_box_in_cells(const struct trax_scene_grid *grid, const struct scene_box *box);
 
 /* --- widen.c --- */

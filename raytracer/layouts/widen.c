@@ -35,7 +35,7 @@ static void measure(struct widening *w) {
   }
 }
 
-/* Whether these may be the children of one node. Below each there must be room for the tree as it is. */
+/* Whether these may be the children of one node. There must be room for the tree below each. */
 static bool fits(const struct widening *w, const uint32_t *children, uint32_t count, uint32_t room) {
   uint32_t triangles = 0;
   for (uint32_t i = 0; i < count; i++) {

@@ -13,20 +13,16 @@ trax_status run_on_host(struct trax_picture *picture, const struct job *job, enu
   static const char *const names[] = {
       [ENGINE_NATIVE] = "native twin", [ENGINE_EMBREE] = "Embree", [ENGINE_EXACT] = "exact picture"};
   const struct options *options = job->options;
-  struct step step = {.line = job->progress, .name = names[engine], .live = job->live};
+  struct step step = {.line = job->progress, .name = names[engine]};
   struct trax_render_run run = {.progress = show_step,
                                 .progress_context = &step,
                                 .interrupt = &trax_signal,
                                 .layers = options->layers,
                                 .exactly = engine == ENGINE_EXACT};
-  step.run = &run;
-  live_begin(job->live, job->frame);
   double begun = trax_seconds();
   trax_status status = engine == ENGINE_NATIVE ? trax_render_twin(picture, job->frame, options->threads, &run, error)
                                                : trax_render_embree(picture, job->frame, &run, error);
   trax_progress_line_clear(job->progress);
-  if (status == TRAX_OK)
-    status = live_end(job->live, picture, error);
   if (status == TRAX_OK && !options->quiet)
     printf("rays        %llu in %.3f s on this computer\n", (unsigned long long)run.rays, trax_seconds() - begun);
   return status;
@@ -34,13 +30,11 @@ trax_status run_on_host(struct trax_picture *picture, const struct job *job, enu
 
 enum finder { BY_TWIN, BY_EMBREE, WITHOUT_ERROR };
 
-/* Finds the hits of the rays from the eye; with holes, the first that is no hole. */
-static trax_status find_hits(struct trax_hits *hits, const struct job *job, enum finder finder, bool holes,
-                             trax_error *error) {
+/* Finds the hits of the rays from the eye. */
+static trax_status find_hits(struct trax_hits *hits, const struct job *job, enum finder finder, trax_error *error) {
   static const char *const names[] = {"hits", "Embree's hits", "exact hits"};
   struct step step = {.line = job->progress, .name = names[finder]};
-  struct trax_render_run run = {
-      .progress = show_step, .progress_context = &step, .interrupt = &trax_signal, .holes = holes};
+  struct trax_render_run run = {.progress = show_step, .progress_context = &step, .interrupt = &trax_signal};
   trax_status status = finder == BY_TWIN     ? trax_hits_native(hits, job->frame, job->options->threads, &run, error)
                        : finder == BY_EMBREE ? trax_hits_embree(hits, job->frame, &run, error)
                                              : trax_hits_exact(hits, job->frame, &run, error);
@@ -54,7 +48,7 @@ static trax_status judge_hits(struct trax_hits_difference *difference, uint64_t 
   struct trax_hits hits[3] = {{0}};
   trax_status status = TRAX_OK;
   for (int finder = BY_TWIN; finder <= WITHOUT_ERROR && status == TRAX_OK; finder++)
-    status = find_hits(&hits[finder], job, finder, false, error);
+    status = find_hits(&hits[finder], job, finder, error);
   if (status == TRAX_OK) {
     trax_hits_judge(difference, &hits[BY_TWIN], &hits[WITHOUT_ERROR], job->frame);
     *embree = trax_hits_same(&hits[BY_TWIN], &hits[BY_EMBREE], job->frame);
@@ -97,27 +91,6 @@ trax_status measure_hits(const struct job *job, trax_error *error) {
     return TRAX_ERROR;
   figures_print(output.file, figures, sizeof figures / sizeof *figures);
   return trax_output_commit(&output, error); /* which finds earlier failures to write */
-}
-
-trax_status write_hits(const struct job *job, trax_error *error) {
-  static const enum finder finders[] = {[ENGINE_FAST] = BY_TWIN,
-                                        [ENGINE_REFERENCE] = BY_TWIN,
-                                        [ENGINE_NATIVE] = BY_TWIN,
-                                        [ENGINE_EMBREE] = BY_EMBREE,
-                                        [ENGINE_EXACT] = WITHOUT_ERROR};
-  const struct options *options = job->options;
-  struct trax_hits hits = {0};
-  struct trax_picture picture = {0};
-  trax_status status = find_hits(&hits, job, finders[options->engine], true, error);
-  if (status == TRAX_OK)
-    status = trax_hits_picture(&picture, &hits, job->frame, error);
-  if (status == TRAX_OK)
-    status = trax_picture_write(&picture, options->id_picture, error);
-  if (status == TRAX_OK && !options->quiet)
-    printf("triangles   %s\n", options->id_picture);
-  trax_picture_release(&picture);
-  trax_hits_release(&hits);
-  return status;
 }
 
 trax_status compare(const struct trax_picture *picture, const struct job *job, bool *agrees, trax_error *error) {

@@ -13,9 +13,6 @@ trax_status compare(const struct trax_picture *picture, const struct job *job, b
 /* --hits: the figures of --compare about hits, as JSON. */
 trax_status measure_hits(const struct job *job, trax_error *error);
 
-/* --id-picture. */
-trax_status write_hits(const struct job *job, trax_error *error);
-
 /* --ray-trace; picture: of the same frame by another engine, or NULL. */
 trax_status trace_rays(const struct job *job, int scaled, const struct trax_picture *picture, trax_error *error);
 

@@ -44,13 +44,13 @@ static const trax_option rows[] = {
 static const trax_command command = {.name = "trax-compare",
                                      .synopsis = "[options] A B",
                                      .description =
-                                         "Compares two pictures of one size, PNG, PFM or EXR: all four channels as "
-                                         "they are seen, of linear floats with gamma\n"
-                                         "2. Two pictures of floats are judged by their floats: N of 255 is a part of "
-                                         "the root of a value, and at least of that of\n"
-                                         "white. Prints also the root of the mean square of the differences of R, G "
-                                         "and B, of 255 and, of two pictures of floats,\n"
-                                         "of their values. Exit status 0: they agree; 1: they do not, or an error.",
+                                         "Compares two pictures of one size (PNG, PFM or EXR) by all four channels "
+                                         "as they are seen; linear floats get gamma 2.\n"
+                                         "Two pictures of floats are judged by their floats: N of 255 is a part of "
+                                         "the root of a value, and at least of white's.\n"
+                                         "The RMSE of R, G and B is printed, too, in parts of 255, and for two "
+                                         "pictures of floats also that of their values.\n"
+                                         "Exit status 0: they agree; 1: they do not, or an error.",
                                      .rows = rows,
                                      .examples = "trax-compare before.png after.png   # the same in every bit?\n"
                                                  "trax-compare ours.png embree.png --within 2 --at-least 99.9",

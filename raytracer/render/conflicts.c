@@ -4,15 +4,13 @@
 #include "trax/output.h"
 
 #include <string.h>
-#include <sys/stat.h>
 
 /* The sampler's numbers have 16 bits (device/sampler.h). */
 #define MOST_OCCLUSION_POINTS (1u << 16)
 
 bool options_rendered(const struct options *options) {
-  return options->output || options->progress_png || options->prepare || options->keep || options->stats ||
-         options->ray_cycles || options->compare || options->cost_picture || options->cost_values ||
-         trax_explain_wanted(&options->explain);
+  return options->output || options->prepare || options->keep || options->stats || options->ray_cycles ||
+         options->compare || options->cost_picture || options->cost_values || trax_explain_wanted(&options->explain);
 }
 
 /* Options that need a picture, a view or shading; NULL: none was given. */
@@ -24,9 +22,7 @@ static const char *against_rays(const struct options *options) {
     const char *name;
   } others[] = {{options->output, "--output"},
                 {options->layers, "--layers"},
-                {options->frames > 1, "--frames"},
-                {options->id_picture, "--id-picture"},
-                {options->progress_png, "--progress-png"},
+                {options->frames, "--frames"},
                 {options->view, "--view"},
                 {camera->eye.given || camera->look_at.given || camera->up.given || camera->light_count,
                  "--eye, --look-at, --up or --light"},
@@ -87,11 +83,10 @@ static trax_status check_sequence(const struct options *options, trax_error *err
                  "--program, --source, --no-specialise or --queues"},
                 {options->sampled, "--sampled"},
                 {options->layers || options->frame.floats, "--layers or --float"},
-                {options->id_picture || options->progress_png || options->write_view,
-                 "--id-picture, --progress-png or --write-view"},
+                {options->write_view, "--write-view"},
                 {options->ray_trace || options->compare, "--ray-trace or --compare"},
                 {options->keep || options->cache, "--keep, --prepare or --cache"}};
-  if (options->frames == 1)
+  if (!options->frames)
     return trax_fail(error, "--at X:Y needs --frames N: the number of moments from X to Y");
   if (!options->output)
     return trax_fail(error, "--frames with --at X:Y needs -o FOLDER");
@@ -102,12 +97,6 @@ static trax_status check_sequence(const struct options *options, trax_error *err
   return TRAX_OK;
 }
 
-/* A device, a pipe or a folder. */
-static bool is_special(const char *path) {
-  struct stat found;
-  return stat(path, &found) == 0 && !S_ISREG(found.st_mode);
-}
-
 trax_status options_check(const struct options *options, trax_error *error) {
   if (options->mesh_count == 0)
     return trax_fail(error, "no mesh given; trax-render --help shows how");
@@ -115,35 +104,30 @@ trax_status options_check(const struct options *options, trax_error *error) {
     return TRAX_ERROR;
   if (options->sequence)
     return check_sequence(options, error);
+  if (options->frames)
+    return trax_fail(error, "--frames is for a sequence, --at X:Y; --orbit makes each picture of a turntable");
   if (options->no_refit)
     return trax_fail(error, "--no-refit is for --frames with --at X:Y");
-  if (options->prepare && (options->output || options->stats || options->ray_cycles || options->compare ||
-                           options->hits || options->id_picture || options->ray_trace || options->cost_picture ||
-                           options->cost_values || trax_explain_wanted(&options->explain)))
+  if (options->prepare &&
+      (options->output || options->stats || options->ray_cycles || options->compare || options->hits ||
+       options->ray_trace || options->cost_picture || options->cost_values || trax_explain_wanted(&options->explain)))
     return trax_fail(error, "--prepare renders nothing, so there is nothing to write, explain or compare");
-  if (options->prepare && options->progress_png)
-    return trax_fail(error, "--prepare renders nothing, so there is nothing to show");
-  if (!options_rendered(options) &&
-      !(options->rays || options->hits || options->ray_trace || options->id_picture || options->write_view)) {
+  if (!options_rendered(options) && !(options->rays || options->hits || options->ray_trace || options->write_view)) {
     for (size_t i = 0; i < options->mesh_count; i++) /* a missing mesh is reported first */
       if (trax_mesh_check(options->meshes[i], error) != TRAX_OK)
         return TRAX_ERROR;
     return trax_fail(error,
                      "no picture given: -o PICTURE.png, or another output (--explore, --stats, --cost-picture, ...)");
   }
-  if (options->frames > 1 && !options->output)
-    return trax_fail(error, "--frames needs -o PICTURE.png: each picture has its number in the name");
-  if (options->frames > 1 && (trax_output_descriptor(options->output) >= 0 || is_special(options->output)))
-    return trax_fail(error, "--frames: %s is no file that could have a number in its name", options->output);
   if (options->import.animation && !options->import.moves)
     return trax_fail(error, "--animation without --at");
-  if (options->hits && (options->frames > 1 || options->sampled))
-    return trax_fail(error, "--hits is about one whole picture");
+  if (options->hits && options->sampled)
+    return trax_fail(error, "--hits needs the whole picture: not with --sampled");
   if (options->layers && !(options->output && trax_output_has_ending(options->output, "exr")))
     return trax_fail(error, "--layers needs -o FILE.exr");
   if (options->layers && options->engine <= ENGINE_REFERENCE &&
       (options->program || options->no_specialise || options->sampled || options->stats || options->ray_cycles ||
-       options->keep || options->compare || options->cost_picture || options->cost_values || options->progress_png ||
+       options->keep || options->compare || options->cost_picture || options->cost_values ||
        trax_explain_wanted(&options->explain)))
     return trax_fail(error,
                      "--layers needs a program that records and therefore has no run time to report: it excludes "
@@ -156,11 +140,11 @@ trax_status options_check(const struct options *options, trax_error *error) {
     return trax_fail(error, "--sample-fraction and --sample-error: one follows from the other");
   if (options->sampled && options->engine != ENGINE_FAST)
     return trax_fail(error, "--sampled needs engine fast");
-  if (options->sampled && (options->compare || options->prepare || options->frames > 1 || options->cost_picture ||
-                           options->cost_values || options->ray_trace || trax_explain_wanted(&options->explain)))
+  if (options->sampled && (options->compare || options->prepare || options->cost_picture || options->cost_values ||
+                           options->ray_trace || trax_explain_wanted(&options->explain)))
     return trax_fail(error, "--sampled leaves out most of the run: there is nothing to compare, explain or prepare");
   if (options->sampled && options->source && options->output)
-    return trax_fail(error, "--sampled -o: of another --source the native twin's picture would be another one");
+    return trax_fail(error, "--sampled -o: the picture is the native twin's, which does not run another --source");
   if (options->engine > ENGINE_REFERENCE) {
     if (options->ray_cycles)
       return trax_fail(error, "--ray-cycles needs the emulator: the other engines simulate no time");
@@ -199,10 +183,6 @@ trax_status options_check(const struct options *options, trax_error *error) {
     return TRAX_ERROR;
   if (options->explain.source_folder_count && !options->explain.explore)
     return trax_fail(error, "--source-folder without --explore");
-  if (options->frames > 1 &&
-      (options->stats || options->ray_cycles || options->keep || options->cost_picture || options->cost_values ||
-       options->compare || options->id_picture || options->ray_trace || trax_explain_wanted(&options->explain)))
-    return trax_fail(error, "--frames makes pictures only: --stats, --keep, --compare and the like are for one");
   if (options->ray_trace && options->engine >= ENGINE_EMBREE)
     return trax_fail(error, "--ray-trace: the rays are the device program's, which Embree does not run");
   if (options->ray_trace && (options->program || options->source))
@@ -211,9 +191,9 @@ trax_status options_check(const struct options *options, trax_error *error) {
   if (options->frame.seed && !options->frame.paths && !options->frame.occlusion)
     return trax_fail(error, "--seed is for --paths and --occlusion: nothing else is random");
   if (options->frame.occlusion && options->frame.paths)
-    return trax_fail(error, "--occlusion is about the ambient light, which --paths does without");
+    return trax_fail(error, "--occlusion is for the ambient light, which --paths does not have");
   if (options->frame.occlusion && !options->frame.shadows)
-    return trax_fail(error, "--occlusion and --no-shadows: either something is in the light's way or nothing is");
+    return trax_fail(error, "--occlusion needs shadows, which --no-shadows leaves out");
   if (options->frame.occlusion * options->frame.samples > MOST_OCCLUSION_POINTS)
     return trax_fail(error, "--occlusion %u with --samples %u: there are %u points for a pixel at most",
                      options->frame.occlusion, options->frame.samples, MOST_OCCLUSION_POINTS);

@@ -104,7 +104,7 @@ trax_status trax_costs_write(const struct trax_costs *costs, const char *path, t
 
 /* --- in colours --- */
 
-/* From 0 to the white of the summary, at equal distances. */
+/* The colours from 0 to the white of the summary, at equal distances. */
 static const struct {
   const char *name;
   uint8_t rgb[3];

@@ -136,9 +136,8 @@ static void embree_pixel(struct embree *embree, uint32_t x, uint32_t y, uint64_t
   if (embree->hits) {
     const struct vector camera = camera_direction(params, pixel_at(x, y), PIXEL_MIDDLE);
     struct exact_hit hit;
-    const struct double3 eye = from(params->eye), direction = {camera.x, camera.y, camera.z};
-    const bool found =
-        embree->run->holes ? embree_seen(embree, eye, direction, &hit) : embree_hit(embree, eye, direction, &hit);
+    const struct double3 direction = {camera.x, camera.y, camera.z};
+    const bool found = embree_hit(embree, from(params->eye), direction, &hit);
     embree->hits->triangles[index] = found ? hit.triangle : TRAX_NO_TRIANGLE;
     ++*rays;
     return;

@@ -88,9 +88,6 @@ double embree_towards(struct double3 point, struct double3 target, struct double
 /* The triangle's unit normal on the side of v0, v1, v2 counterclockwise. */
 struct double3 embree_winding_normal(const struct trax_triangle *triangle);
 
-/* Finds the nearest hit of a ray from the eye that is no hole. */
-bool embree_seen(const struct embree *embree, struct double3 eye, struct double3 direction, struct exact_hit *hit);
-
 /* embree_material.c: what surfaces do with light, in the formulas of the publications. Directions are of unit length
    and lead away from the surface. */
 struct embree_surface {

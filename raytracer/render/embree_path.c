@@ -181,18 +181,7 @@ static bool find_surface(struct surface *surface, const struct sample *sample, s
   }
 }
 
-bool embree_seen(const struct embree *embree, struct double3 eye, struct double3 direction, struct exact_hit *hit) {
-  uint64_t rays = 0;
-  const struct sample sample = {.embree = embree, .params = embree->frame->params, .rays = &rays};
-  struct surface surface;
-  double distance;
-  const bool seen = find_surface(&surface, &sample, eye, direction, &distance);
-  if (seen)
-    *hit = surface.hit;
-  return seen;
-}
-
-/* Behind each hole the ray is aimed at the target again, so that its result does not depend on where it starts. */
+/* The ray is aimed at the target again behind each hole, so its result does not depend on where it starts. */
 static bool light_reaches(const struct sample *sample, struct double3 origin, struct double3 direction,
                           double distance) {
   if (!embree_needs(sample->embree, TRAX_FEATURE_SHADOWS))
@@ -236,7 +225,7 @@ static struct double3 lit_by(const struct sample *sample, const struct surface *
                                                                                     : nothing;
 }
 
-/* The same of a sampled emitter, weighted by the balance heuristic. */
+/* The light of a sampled emitter, weighted by the balance heuristic. */
 static struct double3 lit_by_emitter(const struct sample *sample, const struct surface *surface, uint32_t pick,
                                      struct two place) {
   const struct double3 nothing = {0, 0, 0};
@@ -259,7 +248,7 @@ static struct double3 lit_by_emitter(const struct sample *sample, const struct s
   return scaled(1 / (chosen + density), times(part, from(material->emission)));
 }
 
-/* The same of the environment. */
+/* The light of the environment, weighted likewise. */
 static struct double3 lit_by_environment(const struct sample *sample, const struct surface *surface, uint32_t pick,
                                          struct two place) {
   const struct double3 direction = embree_pick_environment(sample->embree, pick, place.x, place.y);

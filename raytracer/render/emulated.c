@@ -55,7 +55,6 @@ static trax_status find_program(struct trax_program *program, const struct job *
                                                .icache_bytes = chosen->icache_bytes,
                                                .queues = chosen->queues,
                                                .interrupt = &trax_signal,
-                                               .transient = options->frames > 1,
                                                .record = options->layers};
   if (!installation(root))
     return trax_fail(error, "the place of trax-render itself is not known: %s", strerror(errno));
@@ -164,9 +163,8 @@ static trax_status write_costs(const struct trax_costs *costs, const struct opti
 static trax_status begin_sampling(struct trax_picture_sampling *sampling, struct trax_picture *picture,
                                   const struct job *job, const struct trax_program *program, trax_machine *machine,
                                   trax_error *error) {
-  struct step step = {.line = job->progress, .name = "predicting", .live = job->live};
+  struct step step = {.line = job->progress, .name = "predicting"};
   struct trax_render_run twin = {.progress = show_step, .progress_context = &step, .interrupt = &trax_signal};
-  step.run = &twin;
   sampling->slots = job->options->sampling;
   if (!(sampling->slots.fraction > 0) && !(sampling->slots.error > 0))
     sampling->slots.fraction = DEFAULT_FRACTION;
@@ -192,22 +190,6 @@ static const char *describe(char *text, size_t size, const struct job *job) {
   return text;
 }
 
-/* A run whose progress is shown. */
-struct shown_run {
-  struct trax_run_progress progress;
-  struct live *live;
-  trax_machine *machine;
-};
-
-static void show_run(void *context, const trax_progress *status) {
-  struct shown_run *run = context;
-  const uint8_t *image;
-  uint32_t size;
-  trax_run_progress_show(&run->progress, status);
-  if (run->live && trax_machine_read_buffer(run->machine, "image", &image, &size, NULL) == TRAX_OK)
-    live_show(run->live, image);
-}
-
 static void print_note(const char *text) {
   trax_message("trax-render", TRAX_MESSAGE_NOTE, "%s", text);
 }
@@ -221,7 +203,7 @@ static const char *engine_of(const struct options *options) {
 static trax_status run_loaded(struct trax_picture *picture, const struct job *job, const struct trax_program *program,
                               trax_machine *machine, struct trax_costs *costs, const char **doubt, trax_error *error) {
   const struct options *options = job->options;
-  struct shown_run shown = {{.line = job->progress, .task = "rendering"}, options->sampled ? NULL : job->live, machine};
+  struct trax_run_progress shown = {.line = job->progress, .task = "rendering"};
   char title[512];
   struct trax_explain_options explain = options->explain;
   uint32_t places[MOST_PIXELS];
@@ -238,7 +220,7 @@ static trax_status run_loaded(struct trax_picture *picture, const struct job *jo
       .is_twin = !options->program && !options->source,
       .run = {.output = stderr,
               .total_items = (uint64_t)job->frame->params->width * job->frame->params->height,
-              .progress = show_run,
+              .progress = trax_run_progress_show,
               .progress_context = &shown,
               .interrupt = &trax_signal,
               .engine = engine_of(options),
@@ -246,7 +228,6 @@ static trax_status run_loaded(struct trax_picture *picture, const struct job *jo
               .ray_cycles = options->ray_cycles != NULL}};
   struct trax_picture_sampling sampling = {0};
   trax_status status = TRAX_OK;
-  live_begin(job->live, job->frame);
   if (options->sampled) {
     status = begin_sampling(&sampling, picture, job, program, machine, error);
     run.run.slots = &sampling.slots;
@@ -283,8 +264,6 @@ static trax_status render_loaded(struct trax_picture *picture, const struct job 
     status = trax_stats_write_json(machine, options->stats, error);
   if (status == TRAX_OK && options->ray_cycles)
     status = trax_ray_cycles_write(machine, options->ray_cycles, error);
-  if (status == TRAX_OK)
-    status = live_end(job->live, picture, error);
   if (status == TRAX_OK && writes_costs)
     status = write_costs(&costs, options, error);
   trax_costs_release(&costs);

@@ -43,7 +43,7 @@ struct sums {
   double light[3], weight;
 };
 
-/* Adds each pixel's light to the texels that it covers, by solid angle: in so many parts that no texel is missed. */
+/* Adds each pixel's light to the texels that it covers, by solid angle. A pixel's parts miss no texel. */
 static void spread(struct sums *sums, const struct trax_picture *picture, float strength, double turn) {
   const uint32_t width = picture->width, height = picture->height;
   const uint32_t down = (4 * SIDE + height - 1) / height, across = (8 * SIDE + width - 1) / width;
@@ -75,7 +75,7 @@ static trax_status check(const struct trax_picture *picture, const char *name, t
 
 /* --- probabilities --- */
 
-/* In proportion to the luminance of the texel (Rec. 709), times its solid angle. */
+/* A texel's probability is in proportion to its luminance (Rec. 709) times its solid angle. */
 static void choose(struct trax_environment *environment) {
   double total = 0;
   for (int i = 0; i < TEXELS; i++) {

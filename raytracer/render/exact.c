@@ -215,7 +215,7 @@ static struct double2_3 placed_corner(struct double3 *size, const struct trax_in
   return corner;
 }
 
-/* The same in binary64: errors are within 2^-49 of the magnitudes. */
+/* Places a corner in binary64: errors are within 2^-49 of the magnitudes. */
 static struct double3 rounded_corner(struct double3 *size, const struct trax_instance *instance, const float v[3],
                                      struct double3 origin) {
   struct double3 corner;

@@ -53,7 +53,7 @@ static uint32_t number_of(const struct exact_part *part, const struct query *que
                                  : primitive;
 }
 
-/* Whether the first of two triangles that are hit is nearer. Of equal distances, the one that comes first is. */
+/* Whether the first of two triangles that are hit is nearer. If they are at one distance, the first one is. */
 static bool is_nearer(const struct query *query, const struct trax_scene *source, const struct exact_hit *hit,
                       const struct exact_hit *other) {
   if (fabs(hit->distance - other->distance) > 2 * EXACT_DISTANCE_ERROR * (hit->distance + other->distance))

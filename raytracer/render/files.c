@@ -6,18 +6,7 @@
 #include "views.h"
 
 #include <dirent.h>
-#include <stdlib.h>
 #include <string.h>
-
-char *numbered(const char *path, unsigned number) {
-  const char *slash = strrchr(path, '/'), *dot = strrchr(path, '.');
-  const size_t length = dot && dot > (slash ? slash + 1 : path) ? (size_t)(dot - path) : strlen(path);
-  const size_t size = strlen(path) + sizeof "-0001";
-  char *name = malloc(size);
-  if (name)
-    snprintf(name, size, "%.*s-%04u%s", (int)length, path, number, path + length);
-  return name;
-}
 
 /* The sources in the folder of --source, and in the folder of its headers. Headers elsewhere are found
    when they are compiled. */
@@ -63,28 +52,16 @@ static void add_in_folder(trax_files *files, const char *option, const char *fol
     trax_files_output(files, option, path);
 }
 
-static trax_status add_picture(trax_files *files, const struct options *options, trax_error *error) {
-  if (options->frames == 1)
-    trax_files_output(files, "--output", options->output);
-  for (unsigned i = 0; i < options->frames && options->frames > 1; i++) {
-    char *path = numbered(options->output, i + 1);
-    if (!path)
-      return trax_fail(error, "out of memory");
-    trax_files_output(files, "--output", path);
-    free(path);
-  }
-  return TRAX_OK;
-}
-
 trax_status check_files(trax_files *files, const struct options *options, trax_error *error) {
-  if (add_inputs(files, options, error) != TRAX_OK || add_picture(files, options, error) != TRAX_OK)
+  if (add_inputs(files, options, error) != TRAX_OK)
     return TRAX_ERROR;
+  trax_files_output(files, "--output", options->output);
   trax_command_files(&render_command, options, files);
   for (size_t i = 0; options->keep && prepared_file(i); i++)
     add_in_folder(files, options->prepare ? "--prepare" : "--keep", options->keep, prepared_file(i));
   if (trax_files_check(files, error) != TRAX_OK ||
       (options->output && trax_output_name_check(options->output, "png pfm exr", error) != TRAX_OK) ||
-      (options->output && options->frames == 1 && trax_output_check(options->output, error) != TRAX_OK))
+      (options->output && trax_output_check(options->output, error) != TRAX_OK))
     return TRAX_ERROR;
   return trax_command_check_outputs(&render_command, options, error);
 }

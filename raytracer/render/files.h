@@ -5,9 +5,6 @@
 #include "options.h"
 #include "trax/files.h"
 
-/* PICTURE.png becomes PICTURE-0001.png; from malloc. */
-char *numbered(const char *path, unsigned number);
-
 /* No output is an input, and none is written twice. files has all that is known from the command line, also after an
    error, and is released by the caller. */
 trax_status check_files(trax_files *files, const struct options *options, trax_error *error);

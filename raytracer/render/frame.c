@@ -46,7 +46,7 @@ void trax_scale_scene(struct trax_scene *scene, int exponent) {
   header->checksum = (uint32_t)crc32(crc32(0, NULL, 0), scene->bytes, (uInt)scene->size);
 }
 
-void trax_scale_view(struct trax_view *view, int exponent) {
+static void scale_view(struct trax_view *view, int exponent) {
   trax_scale_floats(view->eye, 3, exponent);
   trax_scale_floats(view->look_at, 3, exponent);
   trax_scale_floats(view->light, 3, exponent);
@@ -77,7 +77,7 @@ trax_status trax_normalise(struct trax_scene *scene, struct trax_view *view, int
   /* No further down than necessary, because details of a large scene would lose bits. */
   *exponent = (magnitude > GREATEST_EXPONENT ? GREATEST_EXPONENT : 0) - magnitude;
   trax_scale_scene(scene, *exponent);
-  trax_scale_view(view, *exponent);
+  scale_view(view, *exponent);
   return TRAX_OK;
 }
 

@@ -187,18 +187,3 @@ void trax_hits_judge(struct trax_hits_difference *difference, const struct trax_
       difference->wrong += answer != TRAX_NO_TRIANGLE;
     }
 }
-
-trax_status trax_hits_picture(struct trax_picture *picture, const struct trax_hits *hits,
-                              const struct trax_frame *frame, trax_error *error) {
-  if (trax_picture_init(picture, hits->width, hits->height, error) != TRAX_OK)
-    return TRAX_ERROR;
-  for (size_t i = 0; i < (size_t)hits->width * hits->height; i++) {
-    const uint32_t number = number_of(frame->scene, hits->triangles[i]) + 1; /* of none: 0 */
-    if (number > 0xFFFFFF) {
-      trax_picture_release(picture);
-      return trax_fail(error, "a picture of triangles has room for 16,777,215, and number %u is seen", number - 1);
-    }
-    picture->pixels[i] = number | 0xFF000000u;
-  }
-  return TRAX_OK;
-}

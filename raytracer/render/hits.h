@@ -10,13 +10,13 @@ struct trax_hits {
 };
 
 /* Finds hits by the device program compiled for the host, which records them (trax/record.h); twin.c. Holes are
-   surfaces unless run->holes. */
+   surfaces. */
 trax_status trax_hits_native(struct trax_hits *hits, const struct trax_frame *frame, unsigned threads,
                              struct trax_render_run *run, trax_error *error);
 /* Finds hits by Embree in robust mode; embree.c. */
 trax_status trax_hits_embree(struct trax_hits *hits, const struct trax_frame *frame, struct trax_render_run *run,
                              trax_error *error);
-/* Without error (exact.h); embree.c. */
+/* Finds hits without error (exact.h); embree.c. */
 trax_status trax_hits_exact(struct trax_hits *hits, const struct trax_frame *frame, struct trax_render_run *run,
                             trax_error *error);
 void trax_hits_release(struct trax_hits *hits);
@@ -44,10 +44,5 @@ void trax_hits_judge(struct trax_hits_difference *difference, const struct trax_
 
 /* The number of pixels that have the same triangle. */
 uint64_t trax_hits_same(const struct trax_hits *a, const struct trax_hits *b, const struct trax_frame *frame);
-
-/* A picture of numbers: R + 256 G + 65536 B is the triangle's number among those that were imported, plus 1; 0: none.
- */
-trax_status trax_hits_picture(struct trax_picture *picture, const struct trax_hits *hits,
-                              const struct trax_frame *frame, trax_error *error);
 
 #endif

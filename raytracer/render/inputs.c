@@ -67,7 +67,7 @@ static trax_status load_scene(struct inputs *inputs, const struct options *optio
             "%s: a scene file is as trax-scene made it: --material, --diffuse, --at, --no-textures, "
             "--texture-size, --nodes, --splits, --instances, --flatten and --normals smooth are for meshes",
             options->meshes[0]);
-      trax_status status = trax_scene_read_within(scene, options->meshes[0], options->import.unpack_limit, error);
+      trax_status status = trax_scene_read(scene, options->meshes[0], options->import.unpack_limit, error);
       if (status == TRAX_OK && options->frame.smooth && !scene->normals && scene->triangle_count)
         status = trax_fail(error, "%s: --smooth: the scene has no normals; trax-scene --smooth makes them",
                            options->meshes[0]);
@@ -159,12 +159,11 @@ trax_status inputs_load(struct inputs *inputs, const struct options *options, tr
   return status;
 }
 
-void inputs_view(struct trax_view *view, const struct inputs *inputs, const struct options *options, unsigned number) {
-  const struct camera_options *camera = &options->camera;
-  const float angle = camera->orbit[0] + (number ? 360 * (float)number / (float)options->frames : 0);
+void inputs_view(struct trax_view *view, const struct inputs *inputs, const struct options *options) {
+  const float *orbit = options->camera.orbit;
   *view = inputs->view;
-  if (angle != 0 || camera->orbit[1] != 0)
-    trax_view_orbit(view, inputs->centre, angle, camera->orbit[1]);
+  if (orbit[0] != 0 || orbit[1] != 0)
+    trax_view_orbit(view, inputs->centre, orbit[0], orbit[1]);
 }
 
 void inputs_release(struct inputs *inputs) {

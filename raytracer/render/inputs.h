@@ -20,8 +20,8 @@ struct inputs {
 
 trax_status inputs_load(struct inputs *inputs, const struct options *options, trax_progress_line *progress,
                         trax_error *error);
-/* Sets the view of the turntable's picture `number`, from 0. */
-void inputs_view(struct trax_view *view, const struct inputs *inputs, const struct options *options, unsigned number);
+/* Sets the view, after it has orbited. */
+void inputs_view(struct trax_view *view, const struct inputs *inputs, const struct options *options);
 void inputs_release(struct inputs *inputs);
 
 #endif

@@ -6,7 +6,7 @@
 
 struct trax_layers {
   uint32_t triangle; /* until trax_layers_finish its number in the scene file, TRAX_NO_TRIANGLE: none; then that in the
-                        meshes plus 1, 0: none, as in --id-picture */
+                        meshes plus 1, 0: none */
   uint32_t shadow;   /* enum trax_shadow: the first light ray of the paper's workload */
   float depth;       /* distance from the eye; 0 without a triangle */
   float normal[3];   /* the triangle's, of unit length, towards the eye */

@@ -4,7 +4,6 @@
 #include "files.h"
 #include "inputs.h"
 #include "layers.h"
-#include "live.h"
 #include "options.h"
 #include "rays_run.h"
 #include "render.h"
@@ -27,11 +26,11 @@ static void on_broken_pipe(int signal_number) {
   reader_gone = 1;
 }
 
-static void print_outputs(const struct options *options, const struct inputs *inputs, const char *picture) {
+static void print_outputs(const struct options *options, const struct inputs *inputs) {
   if (*inputs->choice)
     printf("view        %s\n", inputs->choice);
-  if (picture)
-    printf("picture     %s\n", picture);
+  if (options->output)
+    printf("picture     %s\n", options->output);
   if (options->stats)
     printf("statistics  %s\n", options->stats);
   if (options->hits)
@@ -42,8 +41,7 @@ static void print_outputs(const struct options *options, const struct inputs *in
     printf("inputs      %s\n", options->keep);
 }
 
-/* With layers, the program computes floats only if path.h renders the picture: in the paper's workload they are
-   recorded. */
+/* Layers need the program's floats only if path.h renders the picture: in the paper's workload they are recorded. */
 static trax_status init_frame(struct trax_frame *frame, const struct options *options, const struct inputs *inputs,
                               const struct trax_view *view, trax_error *error) {
   const struct trax_scene *scene = &inputs->scene;
@@ -57,50 +55,39 @@ static trax_status init_frame(struct trax_frame *frame, const struct options *op
   return trax_frame_init(frame, scene, view, &chosen, error);
 }
 
-/* One picture. *scaled: the power of two by which the scene was scaled so far. */
 static trax_status render_view(const struct options *options, struct inputs *inputs, struct trax_view *view,
-                               const char *output, int *scaled, trax_progress_line *progress, struct live *live,
-                               bool *agrees, trax_error *error) {
+                               trax_progress_line *progress, bool *agrees, trax_error *error) {
   struct trax_frame frame = {0};
   struct trax_picture picture = {0};
-  int exponent;
-  trax_scale_view(view, *scaled);
-  trax_status status = trax_normalise(&inputs->scene, view, &exponent, error);
-  if (status == TRAX_OK) {
-    *scaled += exponent;
+  int scaled;
+  trax_status status = trax_normalise(&inputs->scene, view, &scaled, error);
+  if (status == TRAX_OK)
     status = init_frame(&frame, options, inputs, view, error);
-  }
-  const struct job job = {.options = options, .frame = &frame, .progress = progress, .live = live};
+  const struct job job = {.options = options, .frame = &frame, .progress = progress};
   if (status == TRAX_OK && options->hits)
     status = measure_hits(&job, error);
   if (status == TRAX_OK && options_rendered(options))
     status = options->engine <= ENGINE_REFERENCE ? emulate(&picture, &job, error)
                                                  : run_on_host(&picture, &job, options->engine, error);
   if (status == TRAX_OK && picture.layers)
-    trax_layers_finish(&picture, &frame, *scaled);
+    trax_layers_finish(&picture, &frame, scaled);
   if (status == TRAX_OK && options->ray_trace)
-    status = trace_rays(&job, *scaled, picture.pixels ? &picture : NULL, error);
-  if (status == TRAX_OK && output)
-    status = trax_picture_write(&picture, output, error);
+    status = trace_rays(&job, scaled, picture.pixels ? &picture : NULL, error);
+  if (status == TRAX_OK && options->output)
+    status = trax_picture_write(&picture, options->output, error);
   if (status == TRAX_OK && !options->quiet)
-    print_outputs(options, inputs, output);
-  if (status == TRAX_OK && options->id_picture)
-    status = write_hits(&job, error);
-  if (status == TRAX_OK && options->compare) {
-    bool same = true;
-    status = compare(&picture, &job, &same, error);
-    *agrees = *agrees && same;
-  }
+    print_outputs(options, inputs);
+  if (status == TRAX_OK && options->compare)
+    status = compare(&picture, &job, agrees, error);
   trax_picture_release(&picture);
   trax_frame_release(&frame);
   return status;
 }
 
-static trax_status render(const struct options *options, trax_progress_line *progress, struct live *live, bool *agrees,
+static trax_status render(const struct options *options, trax_progress_line *progress, bool *agrees,
                           trax_error *error) {
   struct inputs inputs = {0};
   struct trax_view view;
-  int scaled = 0;
   trax_status status = inputs_load(&inputs, options, progress, error);
   if (options->rays) {
     if (status == TRAX_OK)
@@ -108,20 +95,12 @@ static trax_status render(const struct options *options, trax_progress_line *pro
     inputs_release(&inputs);
     return status;
   }
-  if (status == TRAX_OK && options->write_view) {
-    inputs_view(&view, &inputs, options, 0);
+  if (status == TRAX_OK)
+    inputs_view(&view, &inputs, options);
+  if (status == TRAX_OK && options->write_view)
     status = trax_view_write(&view, options->write_view, error);
-  }
-  for (unsigned i = 0; i < options->frames && status == TRAX_OK; i++) {
-    char *output = options->frames > 1 ? numbered(options->output, i + 1) : NULL;
-    if (options->frames > 1 && !output)
-      status = trax_fail(error, "out of memory");
-    inputs_view(&view, &inputs, options, i);
-    if (status == TRAX_OK)
-      status = render_view(options, &inputs, &view, output ? output : options->output, &scaled, progress, live, agrees,
-                           error);
-    free(output);
-  }
+  if (status == TRAX_OK)
+    status = render_view(options, &inputs, &view, progress, agrees, error);
   inputs_release(&inputs);
   return status;
 }
@@ -156,12 +135,8 @@ int main(int argc, char **argv) {
     trax_files files = {0};
     options.import.files = &files;
     trax_status status = check_files(&files, &options, &error);
-    struct live *live = NULL;
     if (status == TRAX_OK)
-      status = live_create(&live, &options, &error);
-    if (status == TRAX_OK)
-      status = render(&options, &progress, live, &agrees, &error);
-    live_destroy(live);
+      status = render(&options, &progress, &agrees, &error);
     trax_files_release(&files);
     trax_progress_line_clear(&progress);
     if (status != TRAX_OK && trax_signal) {

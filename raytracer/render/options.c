@@ -8,7 +8,7 @@
 
 /* The names of enum engine. */
 static const char *const engines[] = {"fast", "reference", "native", "embree", "exact", NULL};
-/* In the order of enum trax_ray_order. */
+/* The order is that of enum trax_ray_order. */
 static const char *const ray_orders[] = {"found", "morton", "treelet", "random", NULL};
 
 #define FIELD(member) TRAX_OPTION_FIELD(struct options, member)
@@ -41,21 +41,18 @@ static const trax_option rows[] = {
                 "distance from the eye (Z), normal (N.X, N.Y, N.Z) and shadow (0 no shadow ray, 1 lit, 2 in\n"
                 "shadow), by the first ray; on the emulator a program that records renders, without times"},
     {"size", .argument = "WxH", PARSED(take_size, frame),
-     .meaning = "its size in pixels, 1x1 to 16384x16384 (default 1280x720)"},
+     .meaning = "size of the picture in pixels, 1x1 to 16384x16384 (default 1280x720)"},
     {"samples", .argument = "N", NUMBER(frame.samples, 1, TRAX_RENDER_MAX_SAMPLES),
      .meaning = "rays from the eye through every pixel, 1 to 4096 (default 1)"},
-    {"float", FIELD(frame.floats), .meaning = "the program computes linear floats; the picture is made of them here"},
-    {"frames", .argument = "N", NUMBER(frames, 1, 9999),
-     .meaning = "a turntable: N pictures of a whole turn, PICTURE-0001.png and so on; with --at A:B a sequence: -o\n"
-                "is a folder, with picture and statistics of each frame, frames.csv, and report.html with curves of\n"
-                "new trees and of the first frame's, refitted; the same command continues what was interrupted"},
-    {"no-refit", FIELD(no_refit), .meaning = "of a sequence: new trees alone"},
-    {"id-picture", .argument = "FILE.png", OUTPUT(id_picture, "png"),
-     .meaning = "which triangle each pixel shows: its number in the meshes, from 1, as\n"
-                "R + 256 G + 65536 B; found natively, or by --engine embree or exact"},
-    {"show", .instead = "--progress-png FILE.png, and a viewer that loads a changed file again"},
-    {"progress-png", .argument = "FILE.png", OUTPUT(progress_png, "png"),
-     .meaning = "writes the picture again and again as it arrives; missing pixels are squares"},
+    {"float", FIELD(frame.floats), .meaning = "the program computes linear floats, of which the host makes the picture"},
+    {"frames", .argument = "N", NUMBER(frames, 2, 9999),
+     .meaning = "makes a sequence of N moments, with --at A:B: -o is a folder for picture and statistics of each\n"
+                "frame, frames.csv, and report.html with curves of new trees and of the first tree, refitted.\n"
+                "The same command continues an interrupted sequence"},
+    {"no-refit", FIELD(no_refit), .meaning = "makes a sequence with new trees only"},
+    {"id-picture", .instead = "-o FILE.exr --layers, whose channel triangle has the same numbers"},
+    {"show", .instead = "--engine native, the same picture in a fraction of the time"},
+    {"progress-png", .instead = "--engine native, the same picture in a fraction of the time"},
     TRAX_OPTION_GROUP("View"),
     {"view", .argument = "FILE|NAME", FIELD(view), .words = put_view_names,
      .meaning = "eye, direction, field of view and light: a file, or one that comes with trax;\n"
@@ -75,14 +72,14 @@ static const trax_option rows[] = {
     {"write-view", .argument = "FILE", OUTPUT(write_view, NULL), .meaning = "writes the view as a file"},
     TRAX_OPTION_GROUP("Meshes"),
     {"material", .argument = "[NAME=]KIND", PARSED(trax_take_material, import), .words = trax_put_material_kinds,
-     .meaning = "of the meshes: lambert, mirror[:R,G,B], glass[:IOR], ggx:ROUGHNESS[:R,G,B] or\n"
-                "emit:R,G,B, for the material NAME or for all (repeatable)"},
+     .meaning = "gives the material NAME, or all, this kind: lambert, mirror[:R,G,B], glass[:IOR],\n"
+                "ggx:ROUGHNESS[:R,G,B] or emit:R,G,B (repeatable)"},
     {"diffuse", .argument = "[NAME=]R,G,B", PARSED(trax_take_diffuse, import),
-     .meaning = "their colour, linear, 0 to 1 (repeatable)"},
+     .meaning = "gives it, or all, this linear colour, 0 to 1 (repeatable)"},
     {"at", .argument = "X[:Y]", PARSED(take_moments, import),
-     .meaning = "a moment: of a mesh's name with %d or %04d frame X, of glTF second X of its animation;\n"
+     .meaning = "a moment: frame X of meshes whose name has %d or %04d, second X of glTF's animation;\n"
                 "X:Y: the moments of --frames, evenly from X to Y"},
-    {"animation", .argument = "NAME", FIELD(import.animation), .meaning = "of glTF, instead of the first"},
+    {"animation", .argument = "NAME", FIELD(import.animation), .meaning = "glTF's animation of this name instead of the first"},
     {"instances", FIELD(import.instances), .meaning = "keeps a mesh of several glTF nodes once, and places it"},
     {"flatten", FIELD(import.flatten), .meaning = "gives every instance triangles of its own"},
     {"no-textures", FIELD(import.no_textures), .meaning = "reads no images; colours remain"},
@@ -91,14 +88,14 @@ static const trax_option rows[] = {
     {"unpack-limit", .argument = "SIZE", PARSED(trax_take_unpack_limit, import.unpack_limit),
      .meaning = "most bytes of a packed file or a pipe, unpacked; K, M and G are powers of 1024 (default 1G)"},
     {"nodes", .argument = "KIND", PARSED(trax_take_nodes, nodes), .choices = trax_node_words,
-     .meaning = "of the meshes' tree: binary, quantised, wide4, wide4-quantised, wide8 or auto, as trax-scene has\n"
-                "them (default auto; for another --program binary)"},
+     .meaning = "nodes of the meshes' tree: binary, quantised, wide4, wide4-quantised, wide8 or auto, as trax-scene\n"
+                "has them (default auto; for another --program binary)"},
     {"splits", .argument = "[=FACTOR]", PARSED(trax_take_splits, splits),
      .meaning = "splits large triangles, as trax-scene does (default auto; for another\n"
                 "--program 1, which is none)"},
     {"normals", .argument = "WHICH", PARSED(trax_take_normals, build), .choices = trax_normals_words,
-     .meaning = "file: --smooth by the meshes' own normals, computed where there are none (default);\n"
-                "smooth: by computed ones; flat: no --smooth"},
+     .meaning = "file: --smooth uses the meshes' own normals, computed where there are none (default);\n"
+                "smooth: it uses computed normals; flat: no --smooth"},
     TRAX_OPTION_GROUP("Rays instead of a picture"),
     {"rays", .argument = "FILE", FIELD(rays), .file = TRAX_OPTION_INPUT,
      .meaning = "traces the rays of a binary file that --ray-trace wrote; with --compare exit status 1 if a\n"
@@ -107,31 +104,31 @@ static const trax_option rows[] = {
      .meaning = "found (default): as in the file; morton: by origin and direction; treelet: by the first\n"
                 "treelet of the data cache's size that a ray enters; random"},
     {"ray-results", .argument = "FILE", OUTPUT(ray_results, NULL),
-     .meaning = "the same rays with the run's results, in the order of the file"},
+     .meaning = "writes the same rays with the run's results, in the order of the file"},
     TRAX_OPTION_GROUP("Shading"),
     {"paths", .argument = "DEPTH", NUMBER(frame.paths, 1, TRAX_RENDER_MAX_DEPTH),
      .meaning = "path tracing: light over up to DEPTH surfaces, 1 to 64; needs many samples"},
     {"occlusion", .argument = "N", NUMBER(frame.occlusion, 1, TRAX_RENDER_MAX_OCCLUSION),
      .meaning = "ambient occlusion: N rays a sample, 1 to 64, find how much of the ambient light arrives"},
     {"occlusion-reach", .argument = "X", PARSED(take_share, frame.occlusion_reach),
-     .meaning = "their length, above 0 to 1 times the diagonal of the scene's box (default 0.1)"},
+     .meaning = "length of these rays, above 0 to 1 times the diagonal of the scene's box (default 0.1)"},
     {"seed", .argument = "N", NUMBER(frame.seed, 0, UINT32_MAX),
-     .meaning = "of the random numbers of --paths and --occlusion, 0 to 4294967295 (default 0)"},
+     .meaning = "seed of the random numbers of --paths and --occlusion, 0 to 4294967295 (default 0)"},
     {"smooth", FIELD(build.smooth),
      .meaning = "shades by normals that vary across triangles; edges sharper than 60 degrees stay edges\n"
-                "(of a scene file: by the normals in it, made by trax-scene --smooth)"},
+                "(a scene file needs normals, made by trax-scene --smooth)"},
     {"one-sided", FIELD(frame.one_sided),
      .meaning = "triangles are seen from the side where they are counterclockwise, and glass from both"},
     {"no-shadows", FIELD(frame.shadows), .off = true, .meaning = "the light shines through everything"},
     {"ambient", .argument = "X", PARSED(take_fraction, frame.ambient),
      .meaning = "ambient light, 0 to 1 (default 0.12)"},
     {"environment", .argument = "FILE", FIELD(environment), .file = TRAX_OPTION_INPUT,
-     .meaning = "light from all directions, by a picture of longitude and latitude (EXR, HDR, PFM, PNG),\n"
+     .meaning = "takes light of all directions from a picture of longitude and latitude (EXR, HDR, PFM, PNG),\n"
                 "instead of the background; with --paths it lights the scene instead of the plain light"},
     {"environment-strength", .argument = "X", PARSED(take_strength, environment_strength),
-     .meaning = "times the picture's light (default 1)"},
+     .meaning = "factor of the picture's light (default 1)"},
     {"environment-turn", .argument = "DEGREES", PARSED(take_turn, environment_turn),
-     .meaning = "turned about the y axis; the picture's middle is -z, its right half +x"},
+     .meaning = "turns the picture about the y axis; its middle is -z, its right half +x"},
     {"background", .argument = "RRGGBB", PARSED(take_colour, frame.background),
      .meaning = "colour of rays that hit nothing, hexadecimal (default 98a8b8)"},
     TRAX_OPTION_GROUP("Machine"),
@@ -148,7 +145,7 @@ static const trax_option rows[] = {
     TRAX_OPTION_GROUP("What the run took"),
     {"stats", .argument = "FILE.json", OUTPUT(stats, NULL), .meaning = "writes every statistic of the run"},
     {"ray-cycles", .argument = "FILE.csv", OUTPUT(ray_cycles, NULL),
-     .meaning = "thread-cycles of the rays of each kind, by cause; also with --sampled. Needs --mark-rays\n"
+     .meaning = "writes thread-cycles of the rays of each kind, by cause; also with --sampled. Needs --mark-rays\n"
                 "unless the program counts its rays anyway"},
     {"explore", .argument = "FILE.html", OUTPUT(explain.explore, NULL),
      .meaning = "writes a page that explains the whole run, pixel by pixel too, for a browser"},
@@ -160,14 +157,14 @@ static const trax_option rows[] = {
     {"source-folder", .argument = "FOLDER", PARSED(take_source_folder, explain),
      .meaning = "lets that page contain the sources in FOLDER, too (repeatable)"},
     {"ray-trace", .argument = "FILE", OUTPUT(ray_trace, NULL),
-     .meaning = "every ray and its result, by the native twin; CSV for FILE.csv, else binary; alone,\n"
+     .meaning = "writes every ray and its result, by the native twin; CSV for FILE.csv, else binary; alone,\n"
                 "it renders nothing"},
     {"memory-trace", .argument = "FILE", OUTPUT(explain.memory_trace, NULL),
-     .meaning = "every transfer from and to off-chip memory; CSV for FILE.csv, else binary"},
+     .meaning = "writes every transfer from and to off-chip memory; CSV for FILE.csv, else binary"},
     {"cost-picture", .argument = "FILE.png", OUTPUT(cost_picture, "png"),
-     .meaning = "the cost of each pixel, in false colours"},
+     .meaning = "writes the cost of each pixel, in false colours"},
     {"cost-values", .argument = "FILE", OUTPUT(cost_values, "csv pfm"),
-     .meaning = "the same in numbers: PFM for FILE.pfm, else CSV"},
+     .meaning = "writes these costs as numbers: PFM for FILE.pfm, else CSV"},
     {"cost", .argument = "WHAT", PARSED(take_cost, cost), .words = put_costs,
      .meaning = "the cost: cycles (default), instructions, or one cause (trax-sim --help-stats)"},
     {"memory-trace-format", .instead = "--memory-trace FILE.csv, or FILE and memory_trace_for.py of docs/traces.md"},
@@ -180,8 +177,8 @@ static const trax_option rows[] = {
                 "99.9 % of the pixels are within 2/255 of Embree's (of paths 99 %, and the light\n"
                 "of the whole picture within 0.2 %)"},
     {"hits", .argument = "FILE.json", OUTPUT(hits, "json"),
-     .meaning = "how many pixels hit the nearest triangle, by the native twin, against exact arithmetic and\n"
-                "Embree; alone, it renders nothing"},
+     .meaning = "writes how many pixels hit the nearest triangle, by the native twin, against exact arithmetic\n"
+                "and Embree; alone, it renders nothing"},
     {"error", .argument = "FILE.json",
      .instead = "--layers writes what trax-compare --json compares; trax-eval's sweep accuracy does both"},
     {"converged", .argument = "DIR", .instead = "--engine exact --samples 1024 renders that picture"},
@@ -191,9 +188,9 @@ static const trax_option rows[] = {
      .meaning = "compiles the program so that it counts each ray where it begins, for trax-sim --ray-kinds\n"
                 "(with lights, materials, --paths and the like it does so anyway)"},
     {"program", .argument = "FILE.elf", FIELD(program), .file = TRAX_OPTION_INPUT,
-     .meaning = "another program for the TPs than the one that comes with trax"},
+     .meaning = "runs this program on the TPs instead of the one that comes with trax"},
     {"no-specialise", FIELD(no_specialise),
-     .meaning = "the program that can render every picture, instead of one compiled for this one"},
+     .meaning = "runs the program for all pictures instead of one compiled for this picture"},
     {"source", .argument = "DIR", FIELD(source),
      .meaning = "compiles the source in DIR, with its main.c, instead of the program that comes with trax;\n"
                 "to change a copy of lib/trax/raytracer; options of the compiler are in its flags.txt"},
@@ -216,17 +213,17 @@ static const trax_option rows[] = {
     {"sample-fraction", .argument = "X", PARSED(take_share, sampling.fraction),
      .meaning = "the share of the work that is simulated, above 0 to 1 (default 0.05; 1: all of it)"},
     {"sample-error", .argument = "X", PARSED(take_percent, sampling.error),
-     .meaning = "instead: enough for an interval of plus and minus X per cent, above 1"},
+     .meaning = "simulates enough for an interval of plus and minus X per cent, above 1"},
     {"sample-seed", .argument = "N", NUMBER(sampling.seed, 1, UINT32_MAX),
-     .meaning = "another choice of parts (default 1)"},
+     .meaning = "number of the choice of parts (default 1)"},
     {"sample-unit", .argument = "N", NUMBER(sampling.unit, 1, 1u << 24),
      .meaning = "pixels of a part (default 2 for each thread, at least 256)"},
     {"sample-warm-up", .argument = "N", NUMBER(sampling.warm_up, 1, 1u << 24),
-     .meaning = "pixels before it that are simulated, but not measured (default 4 for each thread)"},
+     .meaning = "pixels before a part that are simulated, but not measured (default 4 for each thread)"},
     TRAX_OPTION_GROUP("Files of the run"),
     {"keep", .argument = "DIR", FIELD(keep), WRITTEN,
      .meaning = "keeps the program and its inputs, with a manifest that trax-sim runs"},
-    {"prepare", .argument = "DIR", .parse = take_prepare, WRITTEN, .meaning = "the same, and renders nothing"},
+    {"prepare", .argument = "DIR", .parse = take_prepare, WRITTEN, .meaning = "keeps the same files, and renders nothing"},
     TRAX_OPTION_GROUP("Other"),
     {"quiet", 'q', FIELD(quiet), .meaning = "prints errors only"},
     TRAX_OPTION_HELP('h'),
@@ -249,8 +246,7 @@ const trax_command render_command = {
     .column = 26};
 
 trax_parsed options_parse(struct options *options, int argc, char **argv, trax_error *error) {
-  *options = (struct options){.frames = 1,
-                              .environment_strength = 1,
+  *options = (struct options){.environment_strength = 1,
                               .frame = {.width = 1280,
                                         .height = 720,
                                         .ambient = TRAX_DEFAULT_AMBIENT,

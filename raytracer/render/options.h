@@ -41,11 +41,10 @@ struct options {
   double environment_turn; /* degrees */
   const char *view;        /* NULL: framed automatically */
   struct camera_options camera;
-  unsigned frames;        /* pictures of a turntable, or of a sequence; 1: none */
+  unsigned frames;        /* of a sequence; 0: none */
   bool sequence;          /* --at has two moments */
   bool no_refit;          /* of a sequence's trees */
   const char *write_view; /* NULL: not wanted */
-  const char *id_picture; /* the same */
   const char *stats, *ray_cycles, *keep, *program;
   const char *ray_trace;          /* every ray; NULL: not wanted */
   const char *rays, *ray_results; /* files of rays; NULL: pixels are rendered; not wanted */
@@ -71,7 +70,6 @@ struct options {
   unsigned threads;            /* of the fast engine and the native twin; 0: as many as the host has */
   bool sampled;                /* most of the picture is not simulated */
   trax_slot_sampling sampling; /* fraction or error, and seed */
-  const char *progress_png;    /* the same frames; NULL: not wanted */
   bool layers;                 /* of the picture (layers.h) */
   bool compare, quiet, no_specialise;
   bool prepare; /* keep is written, nothing is rendered */

@@ -17,7 +17,7 @@ static const struct trax_instance *find_instance(const struct trax_scene *scene,
   return &scene->instances[first];
 }
 
-/* In the order and precision of the device. */
+/* Operations have the order and precision of the device. */
 static void place_corner(float corner[3], const struct trax_instance *instance) {
   const float x = corner[0], y = corner[1], z = corner[2];
   for (int row = 0; row < 3; row++) {

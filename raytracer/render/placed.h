@@ -25,7 +25,7 @@ uint32_t trax_number_of_hit(const struct trax_scene *scene, uint32_t triangle, u
 /* The number among those that were imported; with instances, if all are flattened. */
 uint32_t trax_source_of(const struct trax_scene *scene, uint32_t number);
 
-/* The direction or, relative to the instance's origin, the point in the mesh. With instance NULL as it is. */
+/* The direction or, relative to the instance's origin, the point in the mesh. If instance is NULL, the value itself. */
 struct double3 trax_to_object(const struct trax_instance *instance, struct double3 v);
 
 #endif

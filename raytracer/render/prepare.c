@@ -45,7 +45,7 @@ static json_t *light_of(const struct trax_light *light) {
   return object;
 }
 
-/* With the keys of a view's file (trax/view.h). */
+/* The keys are those of a view's file (trax/view.h). */
 static json_t *view_of(const struct trax_view *view) {
   json_t *object = json_pack("{so so so sf}", "eye", vector(view->eye), "direction", vector(view->direction), "up",
                              vector(view->up), "fov", (double)view->fov);

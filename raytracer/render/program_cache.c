@@ -12,11 +12,11 @@
 #include <unistd.h>
 #include <xxhash.h>
 
-/* More are not kept: a program is some 30 kB, most of it debug information. */
+/* The cache keeps no more: a program is some 30 kB, most of it debug information. */
 #define MOST_PROGRAMS 256
 #define LARGEST_PROGRAM ((size_t)64 << 20)
 
-enum { KEY_LENGTH = 32, UNFINISHED_SECONDS = 3600, LOADING_SECONDS = 10 };
+enum { KEY_LENGTH = 32, UNFINISHED_SECONDS = 3600 };
 
 bool join_path(char path[TRAX_PATH_SIZE], const char *folder, const char *name, const char *suffix) {
   int length = snprintf(path, TRAX_PATH_SIZE, "%s/%s%s", folder, name, suffix);
@@ -64,12 +64,7 @@ static bool make_seal(struct seal *seal, const uint8_t *program, size_t size, co
   return true;
 }
 
-static void mark_used(const char *path, bool transient) {
-  const struct timespec never[2] = {{.tv_nsec = UTIME_OMIT}, {.tv_sec = 0}};
-  utimensat(AT_FDCWD, path, transient ? never : NULL, 0); /* it may fail in another user's cache */
-}
-
-enum cache_entry cache_find(const char *path, const char *key, bool transient) {
+enum cache_entry cache_find(const char *path, const char *key) {
   struct stat status;
   if (stat(path, &status) != 0)
     return errno == ENOENT ? CACHE_ABSENT : CACHE_BAD;
@@ -84,7 +79,7 @@ enum cache_entry cache_find(const char *path, const char *key, bool transient) {
                     memcmp(bytes + size - sizeof seal, &seal, sizeof seal) == 0;
   free(bytes);
   if (good)
-    mark_used(path, transient);
+    utimensat(AT_FDCWD, path, NULL, 0); /* it may fail in another user's cache */
   return good ? CACHE_GOOD : CACHE_BAD;
 }
 
@@ -132,14 +127,12 @@ static bool move(const struct cache_work *work, const char *from, const char *to
   return rename(from, to) == 0;
 }
 
-trax_status cache_commit(const struct cache_work *work, const char *cache, const char *key, bool transient,
-                         trax_error *error) {
+trax_status cache_commit(const struct cache_work *work, const char *cache, const char *key, trax_error *error) {
   char header[TRAX_PATH_SIZE], program[TRAX_PATH_SIZE];
   if (!join_path(header, cache, key, ".h") || !join_path(program, cache, key, ".elf"))
     return trax_fail(error, "%s: the path is too long", cache);
   if (append_seal(work->program, key, error) != TRAX_OK)
     return TRAX_ERROR;
-  mark_used(work->program, transient);
   if (!move(work, work->header, header) || !move(work, work->program, program))
     return trax_fail(error, "%s: %s", program, strerror(errno));
   return TRAX_OK;
@@ -176,8 +169,7 @@ static void remove_unfinished(const char *cache, const char *name) {
     cache_end(&work);
 }
 
-/* Another process may remove entries at the same time. Transient programs go first, but not while they
-   may be about to be loaded. */
+/* Another process may remove entries at the same time. */
 void cache_prune(const char *cache, const char *key) {
   DIR *folder = opendir(cache);
   struct kept *kept = NULL;
@@ -194,8 +186,6 @@ void cache_prune(const char *cache, const char *key) {
         remove_unfinished(cache, entry->d_name);
       continue;
     }
-    if (status.st_mtim.tv_sec == 0 && status.st_ctim.tv_sec + LOADING_SECONDS > now)
-      continue;
     if (count == capacity) {
       struct kept *more = realloc(kept, (capacity = 2 * capacity + 64) * sizeof *kept);
       if (!more)

@@ -13,8 +13,8 @@ bool cache_make_folders(const char *path);
 
 enum cache_entry { CACHE_GOOD, CACHE_ABSENT, CACHE_BAD };
 
-/* Looks up the key at `path`. Sets a valid entry's time of use to now, or to 0 if it is transient. */
-enum cache_entry cache_find(const char *path, const char *key, bool transient);
+/* Looks up the key at `path`. Sets a valid entry's time of use to now. */
+enum cache_entry cache_find(const char *path, const char *key);
 
 /* A folder of this process's own within the cache, in which a program is made: KEY.h and KEY.elf. */
 struct cache_work {
@@ -22,9 +22,8 @@ struct cache_work {
 };
 
 trax_status cache_begin(struct cache_work *work, const char *cache, const char *key, trax_error *error);
-/* Makes an entry of it, in the place of whatever is there. */
-trax_status cache_commit(const struct cache_work *work, const char *cache, const char *key, bool transient,
-                         trax_error *error);
+/* Makes an entry of it, which replaces whatever has its name. */
+trax_status cache_commit(const struct cache_work *work, const char *cache, const char *key, trax_error *error);
 void cache_end(const struct cache_work *work);
 
 /* Removes the least recently used programs, but not KEY, and unfinished ones. */

@@ -132,8 +132,8 @@ static bool fits_cache(const char *program, uint32_t icache_bytes) {
   return trax_program_measure(&size, program, &ignored) == TRAX_OK && size.code_bytes <= icache_bytes;
 }
 
-/* Whether the compiler has said of a function's frame that it would be too large with the parameters in memory, too:
-   that frees 31 registers at most, so 124 bytes of the frame. */
+/* Whether the message is about a frame that stays too large with the parameters in memory: that frees at most 31
+   registers, so 124 bytes of the frame. */
 static bool is_far_too_large(const trax_error *error) {
   const char *said = strstr(error->message, "stack frame size");
   unsigned size, limit;

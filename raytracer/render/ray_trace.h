@@ -10,7 +10,7 @@
 trax_status trax_ray_trace_write(const char *path, const struct trax_frame *frame, int exponent,
                                  const struct trax_picture *picture, struct trax_render_run *run, trax_error *error);
 
-/* The number in the meshes of the triangle at an offset in the scene, as --id-picture shows it less 1; in scenes
+/* The number in the meshes of the triangle at an offset in the scene; in scenes
    without these numbers its place in the file. TRAX_NO_TRIANGLE of offset 0. */
 uint32_t trax_ray_triangle(const struct trax_scene *scene, uint32_t offset, uint32_t instance);
 

@@ -18,7 +18,7 @@
 /* Whether there are such triangles. scene and eye are those that trax_normalise wrote. */
 bool trax_needs_exact(const struct trax_scene *scene, const float eye[3]);
 
-/* In units of the distance between a triangle and the start of its shadow rays (device/shade.h). A light within
+/* The unit is the distance between a triangle and the start of its shadow rays (device/shade.h). A light within
    TRAX_NEAR_LIGHT is seen from that start at another angle than from the triangle. Farther away the cosine differs by
    less than 3 in TRAX_NEAR_LIGHT. */
 #define TRAX_NEAR_LIGHT 0x1p10

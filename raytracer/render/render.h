@@ -55,8 +55,7 @@ struct trax_frame {
    no scale suffices, as for a light farther away than 2^40 times the scene's size. */
 trax_status trax_normalise(struct trax_scene *scene, struct trax_view *view, int *exponent, trax_error *error);
 
-/* Scale by 2^exponent: a view whose scene was scaled before, and a scene. */
-void trax_scale_view(struct trax_view *view, int exponent);
+/* Scales by 2^exponent. */
 void trax_scale_scene(struct trax_scene *scene, int exponent);
 
 /* scene and view as trax_normalise left them; scene must outlive the frame. */
@@ -72,7 +71,7 @@ uint32_t trax_frame_image_bytes(const struct trax_frame *frame);
 /* features.c: the features that the picture needs, a bit each. */
 uint32_t trax_features_of(const struct trax_frame_options *options, const struct trax_view *view,
                           const struct trax_scene *scene);
-/* Its name in reports. */
+/* The feature's name in reports. */
 const char *trax_feature_name(enum trax_feature feature);
 /* The sections of the scene that are read for these features: 1 << enum trax_scene_section_kind each. */
 uint32_t trax_feature_sections(uint32_t features);
@@ -108,7 +107,6 @@ struct trax_specialise_options {
   const volatile int *interrupt; /* polled; may be NULL */
   uint32_t icache_bytes;         /* a larger program is compiled for less code; 0: as many as the paper's 4096 */
   unsigned queues;               /* of pixels (device/slots.h); more than TRAX_MAX_QUEUES are as many; 0: 1 */
-  bool transient;                /* of one of many pictures, as of a turntable: other programs stay in the cache */
   bool record;                   /* it records (trax/record.h); its stack is in global memory: times mean nothing */
 };
 
@@ -179,7 +177,7 @@ void trax_picture_compare(struct trax_difference *difference, const struct trax_
 /* The mean of the light, linear: of the floats if there are any, else of what the pixels show, 0 to 1. */
 double trax_picture_light(const struct trax_picture *picture);
 double trax_difference_percent(const struct trax_difference *difference); /* of pixels not beyond */
-/* The same by floats; without floats, that of the pixels. */
+/* The per cent of floats not beyond; without floats, of pixels. */
 double trax_difference_floats_percent(const struct trax_difference *difference);
 
 /* --- renderers --- */
@@ -187,13 +185,11 @@ double trax_difference_floats_percent(const struct trax_difference *difference);
 struct trax_render_run {
   void (*progress)(void *context, uint64_t done, uint64_t total); /* about ten times a second; may be NULL */
   void *progress_context;
-  const volatile int *interrupt; /* polled; may be NULL */
-  const void *image;             /* out, of the twin, while it runs: what the program has written of its picture */
-  uint64_t rays;                 /* out: rays traced; 0 with accesses, which know of them slot by slot */
+  const volatile int *interrupt;       /* polled; may be NULL */
+  uint64_t rays;                       /* out: rays traced; 0 with accesses, which know of them slot by slot */
   uint64_t kinds[TRAX_RAY_KIND_COUNT]; /* out, of the twin: the same by kind */
   bool layers;                         /* the picture gets layers (layers.h) */
   bool exactly; /* of Embree: hits without error (exact.h), of the rays that the device program has */
-  bool holes;   /* of hits (hits.h): rays go on through holes and, if they are, missing back faces */
   struct trax_access_log *accesses; /* records the reads of the twin, which then has one thread; or NULL */
 };
 

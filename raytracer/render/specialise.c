@@ -148,7 +148,7 @@ trax_status trax_program_specialise(struct trax_program *program, const struct t
   }
   if (status == TRAX_OK && !join_path(elf, cache, key, ".elf"))
     status = trax_fail(&reason, "%s: the path is too long", cache);
-  const enum cache_entry entry = status == TRAX_OK ? cache_find(elf, key, options->transient) : CACHE_ABSENT;
+  const enum cache_entry entry = status == TRAX_OK ? cache_find(elf, key) : CACHE_ABSENT;
   if (status == TRAX_OK && entry != CACHE_GOOD) {
     struct cache_work work;
     status = cache_begin(&work, cache, key, &reason);
@@ -159,7 +159,7 @@ trax_status trax_program_specialise(struct trax_program *program, const struct t
                                                        &flags, options->interrupt},
                                       frame, icache_bytes, &reason);
       if (status == TRAX_OK)
-        status = cache_commit(&work, cache, key, options->transient, &reason);
+        status = cache_commit(&work, cache, key, &reason);
       cache_end(&work);
     }
     if (status == TRAX_OK)

@@ -3,6 +3,4 @@
 void show_step(void *context, uint64_t done, uint64_t total) {
   const struct step *step = context;
   trax_progress_line_show(step->line, step->name, (double)done / (double)total, NULL);
-  if (step->run && step->run->image)
-    live_show(step->live, step->run->image);
 }

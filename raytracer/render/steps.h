@@ -2,22 +2,19 @@
 #ifndef TRAX_RENDER_STEPS_H
 #define TRAX_RENDER_STEPS_H
 
-#include "live.h"
+#include "options.h"
 #include "trax/progress.h"
 
 struct job {
   const struct options *options;
   const struct trax_frame *frame;
   trax_progress_line *progress;
-  struct live *live;      /* NULL without --progress-png */
   struct trax_rays *rays; /* of the frame, which get their hits; NULL: the frame is a picture */
 };
 
 struct step {
   trax_progress_line *line;
   const char *name;
-  struct live *live;                 /* the same */
-  const struct trax_render_run *run; /* the run that renders; NULL: none */
 };
 
 /* For trax_render_run.progress; context is a struct step. */

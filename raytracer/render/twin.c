@@ -86,7 +86,6 @@ static trax_status run_twin(struct trax_picture *picture, const struct trax_fram
   paths = (struct trax_buffer){path_bytes, threads * TRAX_PATH_BYTES};
   next_slot[0] = 0;
   trax_access_log = run->accesses;
-  run->image = pixels;
   if (run->accesses)
     threads = 1;
 
@@ -109,7 +108,6 @@ static trax_status run_twin(struct trax_picture *picture, const struct trax_fram
   free(path_bytes);
   run->rays = crew.rays;
   memcpy(run->kinds, crew.kinds, sizeof run->kinds);
-  run->image = NULL;
   trax_status status = interrupted    ? TRAX_INTERRUPTED
                        : started == 0 ? trax_fail(error, "cannot start a thread: %s", strerror(failure))
                                       : TRAX_OK; /* fewer threads render the same picture */
@@ -138,14 +136,6 @@ trax_status trax_render_twin(struct trax_picture *picture, const struct trax_fra
   return status;
 }
 
-/* The features that decide where holes are. */
-#define HOLES                                                                                                          \
-  (TRAX_FEATURE_BIT(ALPHA) | TRAX_FEATURE_BIT(ONE_SIDED) | TRAX_FEATURE_BIT(TEXTURES) | TRAX_FEATURE_BIT(MATERIALS))
-
-static bool has_holes(const struct trax_frame *frame) {
-  return frame->params->features & (TRAX_FEATURE_BIT(ALPHA) | TRAX_FEATURE_BIT(ONE_SIDED));
-}
-
 trax_status trax_hits_native(struct trax_hits *hits, const struct trax_frame *frame, unsigned threads,
                              struct trax_render_run *run, trax_error *error) {
   const size_t pixels = (size_t)frame->params->width * frame->params->height;
@@ -161,8 +151,7 @@ trax_status trax_hits_native(struct trax_hits *hits, const struct trax_frame *fr
   if (status == TRAX_OK) {
     /* One ray a pixel and no shading that matters. */
     memcpy(plain.params, frame->params, frame->params_size);
-    plain.params->features &=
-        TRAX_FEATURE_BIT(EXACT) | TRAX_FEATURE_BIT(INSTANCES) | (run->holes && has_holes(frame) ? HOLES : 0);
+    plain.params->features &= TRAX_FEATURE_BIT(EXACT) | TRAX_FEATURE_BIT(INSTANCES);
     plain.params->samples = 1;
     status = trax_render_twin(&picture, &plain, threads, &recorded, error);
     run->rays = recorded.rays;

@@ -21,7 +21,7 @@ bool scene_reach(void *array, size_t record_size, uint32_t count, size_t *capaci
   return true;
 }
 
-/* Coordinates beyond this many repeats are moved towards zero, where floats have more bits for a texel's place. */
+/* Coordinates beyond this many repeats move towards zero, where floats have more bits for a texel's place. */
 #define ORDINARY_REPEATS 16
 
 void scene_mend_uvs(struct trax_mesh *mesh, struct trax_import_report *report) {

@@ -20,7 +20,7 @@ unsigned scene_clip_polygon(double (*restrict out)[3], unsigned most, const doub
                             int axis, double sign, double plane);
 /* The bounds of that part of a triangle which is in the box, rounded outwards but not beyond the box. */
 struct scene_box scene_clip_triangle(const float *const corners[3], const struct scene_box *box);
-/* The same of the two parts of the box below and above a position on an axis. */
+/* The bounds in the two parts of the box, below and above a position on an axis. */
 void scene_split_triangle(const float *const corners[3], const struct scene_box *box, int axis, float position,
                           struct scene_box parts[2]);
 

@@ -30,7 +30,7 @@ struct sah_arguments {
   float traversal_cost;
 };
 
-/* The same tree for any number of threads. NULL when interrupted or out of memory. */
+/* Builds the same tree for any number of threads. NULL when interrupted or out of memory. */
 struct built_node *scene_build_sah(const struct sah_arguments *arguments, struct scene_crew *crew);
 
 /* --- numbering.c --- */
@@ -49,7 +49,7 @@ unsigned scene_least_height(uint32_t triangles, unsigned max_leaf);
 bool scene_measure_built(const struct scene_numbering *numbering, struct built_node *node);
 /* Adds the nodes to the tree, depth first, and rebuilds each subtree that is too deep. False when out of memory. */
 bool scene_number_built(struct scene_numbering *numbering, const struct built_node *root);
-/* The same of a tree by its links, which is not too deep. built: the node of each link. */
+/* Adds the nodes of a tree by its links, which is not too deep. built: the node of each link. */
 bool scene_number_links(struct scene_numbering *numbering, const struct scene_links *links,
                         struct built_node *const *built);
 

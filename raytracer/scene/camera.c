@@ -62,7 +62,7 @@ static int triangle_corners(float corners[8][3], const struct trax_triangle *tri
   return 3;
 }
 
-/* Of the mesh's box, placed: an instance may have as many triangles as any mesh, and there may be millions. */
+/* The corners of the mesh's box where it is placed: all triangles of millions of instances would take too long. */
 static int box_corners(float corners[8][3], const struct trax_scene *scene, const struct trax_instance *instance) {
   const struct trax_scene_mesh *mesh = &scene->meshes[instance->mesh];
   for (int c = 0; c < 8; c++)

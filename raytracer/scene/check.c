@@ -272,11 +272,7 @@ trax_status trax_scene_check(struct trax_scene *scene, const void *bytes, size_t
   return result;
 }
 
-trax_status trax_scene_read(struct trax_scene *scene, const char *path, trax_error *error) {
-  return trax_scene_read_within(scene, path, 0, error);
-}
-
-trax_status trax_scene_read_within(struct trax_scene *scene, const char *path, size_t unpack_limit, trax_error *error) {
+trax_status trax_scene_read(struct trax_scene *scene, const char *path, size_t unpack_limit, trax_error *error) {
   *scene = (struct trax_scene){0};
   struct scene_bytes file;
   trax_status result = scene_load_file(&file, path, scene_limits_of(unpack_limit), error);

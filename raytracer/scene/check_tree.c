@@ -119,8 +119,7 @@ static trax_status enter_node(struct checker *checker, trax_scene_ref ref, unsig
   return TRAX_OK;
 }
 
-/* Each byte of a node is as it is written around these boxes: its frame, what is reserved, and children that are not
-   there. */
+/* Compares each byte with a node written around these boxes: its frame, reserved bytes, and absent children. */
 static trax_status check_bytes(const struct checker *checker, uint32_t number, const struct scene_node *node) {
   _Alignas(TRAX_SCENE_ALIGNMENT) unsigned char right[MOST_NODE_BYTES];
   const struct trax_node_format *format = format_of(checker);
@@ -187,7 +186,7 @@ static trax_status check_subtree(struct checker *checker, trax_scene_ref ref, un
   return TRAX_OK;
 }
 
-/* Has room for the notes of each node and triangle. */
+/* The checker has room for the notes of each node and triangle. */
 static trax_status check_whole_tree(struct checker *checker) {
   struct scene_box root;
   if (format_of(checker)->code->arrange && TRAX_SCENE_REF_COUNT(checker->view->header->root))
@@ -235,7 +234,7 @@ static trax_status check_mesh(struct checker *checker, uint32_t number) {
   return wrong ? trax_fail(checker->error, "%s: mesh %u: %s", checker->name, number, wrong) : TRAX_OK;
 }
 
-/* But for its stretch, which the bounds of all decide. */
+/* Checks all but the stretch, which depends on the bounds of all instances. */
 static trax_status check_instance(struct checker *checker, uint32_t number) {
   const struct trax_scene *view = checker->view;
   const struct trax_instance *instance = &view->instances[number];

@@ -34,7 +34,7 @@ struct slot {
   uint32_t last, tag;
 };
 
-/* Lookups go through all of memory, so those of the next triangles are under way. */
+/* Lookups miss the caches, so the table's slots of the next triangles are prefetched. */
 enum { AHEAD = 16 };
 
 trax_status scene_find_duplicates(struct scene_duplicates *duplicates, const struct trax_mesh *mesh,

@@ -71,7 +71,7 @@ trax_status scene_load_file(struct scene_bytes *bytes, const char *path, struct 
   trax_status result = trax_input_open(&input, path, error);
   /* The size of a pipe's or a device's data is unknown, as that of packed data. */
   const size_t limit = input.is_regular || limits.plain < limits.unpacked ? limits.plain : limits.unpacked;
-  /* In steps, between which a signal ends it: a regular file is read without waiting. */
+  /* A signal ends the reading between two steps: a regular file is read without waiting. */
   for (size_t wanted = 0; result == TRAX_OK && input.size == wanted && wanted <= limit && input.expected <= limit;) {
     wanted = limit - wanted < READ_AT_ONCE ? limit + 1 : wanted + READ_AT_ONCE;
     result = trax_input_read(&input, wanted, error);

@@ -12,7 +12,7 @@ struct scene_bytes {
   size_t size;
 };
 
-/* The most bytes of a file: as it is, and unpacked or from a pipe or a device. */
+/* The most bytes of a plain file, and of one that is unpacked or comes from a pipe or a device. */
 struct scene_limits {
   size_t plain, unpacked;
 };

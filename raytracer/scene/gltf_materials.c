@@ -93,7 +93,7 @@ static trax_status find_texture(struct gltf *gltf, const json_t *slot, struct sc
 
 /* --- materials --- */
 
-/* From this roughness on, a surface is Lambert's: without a texture or a factor glTF's roughness is 1. */
+/* A surface of at least this roughness is Lambert's: glTF's roughness is 1 without a texture or a factor. */
 #define LAMBERT_ROUGHNESS 0.95f
 #define MIRROR_ROUGHNESS 0.05f
 

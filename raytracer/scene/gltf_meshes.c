@@ -262,10 +262,9 @@ static trax_status copy_triangles(struct gltf *gltf, const struct placing *placi
 
 static trax_status copy_primitive(struct gltf *gltf, const struct primitive *primitive, size_t number,
                                   const double matrix[3][4], const struct gltf_deform *deform) {
-  static const double identity[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
   struct placing placing = {.primitive = primitive, .matrix = matrix, .deform = deform};
   trax_status result = find_targets(&placing, gltf);
-  placing.keep = !memcmp(matrix, identity, sizeof identity) && placing.target_count == 0 &&
+  placing.keep = !memcmp(matrix, scene_identity, sizeof scene_identity) && placing.target_count == 0 &&
                  !(deform->joints && primitive->has_joints);
   if (result == TRAX_OK)
     result = copy_triangles(gltf, &placing, number);

@@ -7,7 +7,6 @@
 #include <string.h>
 
 enum { MOST_LEVELS = 1024 };
-static const double identity[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
 
 struct nodes {
   struct gltf *gltf;
@@ -16,7 +15,7 @@ struct nodes {
   struct gltf_size *sizes; /* of each mesh */
   struct gltf_size whole;
   size_t cameras, instances;
-  uint32_t *part_of; /* with instances: of each mesh: its part and 1, 0: it is not copied yet */
+  uint32_t *part_of;       /* with instances: of each mesh: its part and 1, 0: it is not copied yet */
   struct scene_box *boxes; /* of parts */
 };
 
@@ -180,7 +179,7 @@ static trax_status place_mesh(struct nodes *nodes, size_t node_number, size_t nu
                        gltf->path, number);
   if (result == TRAX_OK && !nodes->part_of[number]) {
     const uint32_t first = mesh->triangle_count;
-    result = gltf_copy_mesh(gltf, number, identity, &deform);
+    result = gltf_copy_mesh(gltf, number, scene_identity, &deform);
     const uint32_t count = mesh->triangle_count - first;
     for (uint32_t i = first; i < mesh->triangle_count; i++)
       mesh->triangles[i].source_id -= first;
@@ -237,7 +236,7 @@ static trax_status for_roots(struct nodes *nodes, bool copy) {
   for (size_t i = 0; result == TRAX_OK && i < count; i++) {
     const size_t node = scene ? gltf_index(gltf, "nodes", json_array_get(roots, i)) : i;
     if (scene || !nodes->parents[i])
-      result = copy ? copy_node(nodes, node, identity) : measure_node(nodes, node_at(gltf, node));
+      result = copy ? copy_node(nodes, node, scene_identity) : measure_node(nodes, node_at(gltf, node));
   }
   return result;
 }

@@ -320,7 +320,6 @@ static trax_status expand(struct reader *reader, const struct target *group, con
 
 trax_status scene_read_instances(struct trax_mesh *mesh, const char *path, const struct trax_import_options *options,
                                  struct trax_import_report *report, trax_error *error) {
-  static const double identity[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
   struct reader reader = {.path = path, .error = error, .options = options, .report = report, .mesh = mesh};
   struct scene_bytes file;
   trax_status result = scene_load_text(&file, path, scene_limits_of(options->unpack_limit), error);
@@ -344,7 +343,7 @@ trax_status scene_read_instances(struct trax_mesh *mesh, const char *path, const
   if (result == TRAX_OK) {
     mesh->instances = malloc(reader.targets[SCENE_GROUP].instances * sizeof *mesh->instances);
     if (mesh->instances)
-      result = expand(&reader, &reader.targets[SCENE_GROUP], identity, TRAX_NO_MATERIAL, NULL);
+      result = expand(&reader, &reader.targets[SCENE_GROUP], scene_identity, TRAX_NO_MATERIAL, NULL);
     else
       result = scene_out_of_memory(error, path);
   }

@@ -216,7 +216,7 @@ void scene_report(const struct trax_build_options *options, enum scene_phase pha
 
 #define SCENE_NO_DUPLICATE UINT32_MAX
 
-/* For each triangle: the first one with the same vertices, perhaps itself, and the next one or SCENE_NO_DUPLICATE. */
+/* Each triangle's first one with the same vertices, perhaps itself, and its next one or SCENE_NO_DUPLICATE. */
 struct scene_duplicates {
   uint32_t *first, *after;
   bool any;
@@ -229,7 +229,7 @@ void scene_duplicates_release(struct scene_duplicates *duplicates);
    which may be NULL. */
 trax_status scene_order_duplicates(struct scene_tree *tree, const uint32_t *leaves, const struct trax_mesh *mesh,
                                    trax_error *error);
-/* The same of a tree with splits, in which they are in this order along the tree. */
+/* Orders the parts of a tree with splits: duplicates are in this order along the tree. */
 trax_status scene_order_split_duplicates(struct scene_tree *tree, const uint32_t *leaves, const struct trax_mesh *mesh,
                                          trax_error *error);
 

@@ -1,4 +1,4 @@
-/* From a mesh and its tree to the bytes of a scene file. */
+/* Makes the bytes of a scene file from a mesh and its tree. */
 #include "layout.h"
 #include "crew.h"
 #include "placing.h"
@@ -24,7 +24,7 @@ void *scene_section_bytes(unsigned char *bytes, const struct trax_scene_section 
   return section->count ? bytes + section->offset : NULL;
 }
 
-/* To 2^-40, by halving the angle from 180 degrees: cos(a / 2) = sqrt((1 + cos a) / 2), and no two libraries differ. */
+/* Halves the angle from 180 degrees down to 2^-40: cos(a / 2) = sqrt((1 + cos a) / 2). No two libraries differ. */
 double scene_crease_cosine(const struct trax_build_options *options) {
   double degrees = options->crease_degrees > 0 ? (double)options->crease_degrees : TRAX_DEFAULT_CREASE;
   double cosine = 1, sine = 0, step_cosine = -1, step_sine = 0, step = 180; /* of the angle so far, and the next step */

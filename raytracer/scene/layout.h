@@ -1,4 +1,4 @@
-/* From a mesh and its tree to the sections of a scene file. */
+/* Makes the sections of a scene file from a mesh and its tree. */
 #ifndef TRAX_SCENE_LAYOUT_H
 #define TRAX_SCENE_LAYOUT_H
 
@@ -51,9 +51,9 @@ void scene_copy_materials(unsigned char *bytes, const struct trax_scene_section 
 
 /* Places the triangles of a tree whose nodes are binary, which needs no positions of nodes. */
 void scene_place_triangles(struct layout *layout);
-/* Places a subtree depth first; returns its reference, and its box as it is stored. */
+/* Places a subtree depth first; returns its reference, and its stored box. */
 trax_scene_ref scene_place_subtree(struct layout *layout, uint32_t index, struct scene_box *box);
-/* The same of a wide node and what is below it. */
+/* Places a wide node and what is below it. */
 trax_scene_ref scene_place_wide_node(struct layout *layout, uint32_t number, struct scene_box *box);
 
 /* --- layout.c --- */

@@ -149,19 +149,18 @@ static bool append_records(void *array, size_t used, const void *records, size_t
 
 /* Makes all triangles one part, at its place. */
 static bool make_part(struct trax_mesh *mesh, uint32_t sources) {
-  static const double identity[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
   mesh->parts = malloc(sizeof *mesh->parts);
   mesh->instances = malloc(sizeof *mesh->instances);
   if (!mesh->parts || !mesh->instances)
     return false;
   mesh->parts[0] = (struct trax_mesh_part){0, mesh->triangle_count, sources};
   mesh->instances[0] = (struct trax_mesh_instance){.material = TRAX_NO_MATERIAL};
-  memcpy(mesh->instances[0].transform, identity, sizeof identity);
+  memcpy(mesh->instances[0].transform, scene_identity, sizeof scene_identity);
   mesh->part_count = mesh->instance_count = 1;
   return true;
 }
 
-/* With instances in either mesh, triangles are numbered part by part, and each part is placed at least once. */
+/* If either mesh has instances, triangles are numbered part by part, and each part is placed at least once. */
 static bool unite_parts(struct trax_mesh *mesh, struct trax_mesh *part, uint32_t first_source_id,
                         uint32_t part_sources) {
   if (mesh->part_count + part->part_count == 0)

@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* With more faces around one place, as at the tip of a fine cone, the mean of all is taken, since angles would have to
-   be compared pair by pair. */
+/* The mean of all is taken if more faces meet at one place, as at the tip of a fine cone: angles would have to be
+   compared pair by pair. */
 enum { MOST_FACES = 64 };
 
 /* If the mean differs more from the face's own normal, that is taken. */

@@ -157,8 +157,8 @@ static uint32_t leaves_for(uint64_t triangles) {
   return (uint32_t)((triangles + TRAX_SCENE_MAX_LEAF - 1) / TRAX_SCENE_MAX_LEAF);
 }
 
-/* Adds a leaf. A larger one than the format has becomes the fewest leaves that hold its triangles, of equal size as far
-   as possible, below binary nodes that halve them. */
+/* Adds a leaf. A leaf too large for the format becomes the fewest leaves that hold its triangles, nearly equal in
+   size, below binary nodes that halve them. */
 static trax_status add_leaf(struct scene_tree_reading *reading, uint32_t node, uint64_t first, uint32_t count,
                             unsigned depth, trax_error *error) {
   struct scene_tree *tree = reading->tree;

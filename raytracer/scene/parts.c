@@ -12,7 +12,7 @@ struct polygon {
   double corner[MOST_CORNERS][3];
 };
 
-/* At most MOST_CORNERS corners are kept. */
+/* A polygon keeps at most MOST_CORNERS corners. */
 static void clip(struct polygon *out, const struct polygon *in, int axis, double sign, double plane) {
   out->count = scene_clip_polygon(out->corner, MOST_CORNERS, in->corner, in->count, axis, sign, plane);
 }
@@ -137,20 +137,17 @@ static bool check_triangle(struct cover *cover, const struct trax_triangle *tria
   return is_covered(cover, &polygon, &root);
 }
 
-struct copy {
-  const struct trax_triangle *triangle;
-};
-
 /* Orders by vertices, then by place in the file. */
 static int compare_copies(const void *a, const void *b) {
-  const struct copy *left = a, *right = b;
-  const int order = memcmp(left->triangle, right->triangle, 9 * sizeof(float));
-  return order ? order : left->triangle < right->triangle ? -1 : left->triangle > right->triangle;
+  const struct trax_triangle *left = *(const struct trax_triangle *const *)a,
+                             *right = *(const struct trax_triangle *const *)b;
+  const int order = memcmp(left, right, 9 * sizeof(float));
+  return order ? order : left < right ? -1 : left > right;
 }
 
 trax_status scene_check_parts(const struct scene_parts *parts, uint32_t *bad, trax_error *error) {
   const struct trax_scene *scene = parts->scene;
-  struct copy *copies = malloc(scene->triangle_count * sizeof *copies);
+  const struct trax_triangle **copies = malloc(scene->triangle_count * sizeof *copies);
   uint32_t *numbers = malloc(MOST_COPIES * sizeof *numbers);
   *bad = UINT32_MAX;
   if (!copies || !numbers) {
@@ -158,15 +155,14 @@ trax_status scene_check_parts(const struct scene_parts *parts, uint32_t *bad, tr
     return scene_out_of_memory(error, "BVH");
   }
   for (uint32_t i = 0; i < scene->triangle_count; i++)
-    copies[i].triangle = &scene->triangles[i];
+    copies[i] = &scene->triangles[i];
   qsort(copies, scene->triangle_count, sizeof *copies, compare_copies);
   for (uint32_t begin = 0, end; begin < scene->triangle_count && *bad == UINT32_MAX; begin = end) {
     uint32_t in_part = UINT32_MAX;
     bool whole = false;
-    for (end = begin;
-         end < scene->triangle_count && memcmp(copies[end].triangle, copies[begin].triangle, 9 * sizeof(float)) == 0;
+    for (end = begin; end < scene->triangle_count && memcmp(copies[end], copies[begin], 9 * sizeof(float)) == 0;
          end++) {
-      const uint32_t number = (uint32_t)(copies[end].triangle - scene->triangles);
+      const uint32_t number = (uint32_t)(copies[end] - scene->triangles);
       if (end - begin < MOST_COPIES)
         numbers[end - begin] = number;
       if (parts->in_part[number])
@@ -177,7 +173,7 @@ trax_status scene_check_parts(const struct scene_parts *parts, uint32_t *bad, tr
     if (whole || in_part == UINT32_MAX)
       continue;
     struct cover cover = {.parts = parts, .copies = numbers, .count = end - begin};
-    if (cover.count == 1 || cover.count > MOST_COPIES || !check_triangle(&cover, copies[begin].triangle))
+    if (cover.count == 1 || cover.count > MOST_COPIES || !check_triangle(&cover, copies[begin]))
       *bad = in_part;
   }
   free(copies), free(numbers);

@@ -19,7 +19,7 @@ static trax_scene_ref place_leaf(struct layout *layout, const struct scene_tree_
     if (layout->normals && layout->file_normals)
       memcpy(layout->normals[layout->next_triangle].corner, layout->mesh->normals[node->triangles[i]],
              sizeof layout->normals->corner);
-    /* Without a texture they stay zeros: nothing reads them, and their range was not checked. */
+    /* Coordinates without a texture stay zeros: nothing reads them, and their range was not checked. */
     if (layout->uvs && layout->mesh->uvs && layout->mesh->materials[source->material].surface.texture)
       memcpy(layout->uvs[layout->next_triangle].corner, layout->mesh->uvs[node->triangles[i]],
              sizeof layout->uvs->corner);
@@ -63,8 +63,8 @@ static void place_child(struct layout *layout, struct scene_node *out, uint32_t 
                                        : scene_place_wide_node(layout, layout->wide->number[index], &out->box[i]);
 }
 
-/* A leaf's box in a frame may be larger than the part that it is for: what counts above is the box that is stored, as
-   far as there are triangles in it. That is also all that the checker knows. */
+/* A leaf's box in a frame may be larger than its part. The nodes above count the stored box where it has triangles,
+   which is all that the checker knows. */
 static void read_back(struct scene_node *out, const struct layout *layout, const struct scene_wide_node *wide,
                       const void *bytes) {
   const struct trax_node_format *format = &trax_node_formats[layout->node_layout];

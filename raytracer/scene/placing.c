@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+const double scene_identity[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
+
 /* A matrix and its inverse stretch a vector by no more than this, so that rays and triangles stay in the range of
    floats (render/frame.c), and together by no more than MOST_CONDITION: flatter meshes would be hit with too large an
    error. */

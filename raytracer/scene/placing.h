@@ -4,10 +4,12 @@
 
 #include "internal.h"
 
-/* Derives all members but stretch from to_world and origin. NULL, or why there is no such instance. */
+extern const double scene_identity[3][4];
+
+/* Derives all members but stretch from to_world and origin. Returns NULL, or why the instance is impossible. */
 const char *scene_derive_instance(struct trax_instance *instance);
 
-/* Sets to_world and origin, and derives the others. NULL, or why there is no such instance. */
+/* Sets to_world and origin, and derives the others. Returns NULL, or why the instance is impossible. */
 const char *scene_place_instance(struct trax_instance *instance, const double transform[3][4]);
 
 /* The box of a mesh's triangles from number `first` on, without those that have a coordinate which is too large. */
@@ -31,7 +33,7 @@ trax_status scene_check_lamps(const struct trax_scene *scene, const char *name, 
 /* out = a b, of the first three rows of matrices. */
 void scene_multiply(double out[3][4], const double a[3][4], const double b[3][4]);
 
-/* Of the first three columns. */
+/* The determinant of the first three columns. */
 double scene_determinant(const double m[3][4]);
 
 /* Transforms a normal, whose length may change: by the cofactors of the matrix, which are the inverse's transpose but

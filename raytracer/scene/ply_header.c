@@ -15,7 +15,7 @@ trax_status scene_ply_fail(const struct ply_reader *reader, const char *reason) 
                    (unsigned long long)reader->current_number, reason);
 }
 
-/* The next word of the header's current line; false at its end, or if the word is longer than any that is known. */
+/* The next word of the header's current line; false at its end. A word longer than any that is known is cut off. */
 static bool next_word(struct ply_reader *reader, char word[max_name]) {
   while (*reader->at == ' ' || *reader->at == '\t')
     reader->at++;

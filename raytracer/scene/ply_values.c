@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* In ASCII, moves to the next value; false at the end of the file. */
+/* Moves to the next value of an ASCII file; false at its end. */
 static bool to_value(struct ply_reader *reader) {
   while (ply_is_space(*reader->at))
     reader->at++;
@@ -56,7 +56,7 @@ static const unsigned char *take_integer(const unsigned char *at, int64_t *value
   return count ? at : NULL;
 }
 
-/* The same of a decimal fraction. Digits and power of ten are binary64 numbers, so their product or quotient is rounded
+/* Reads a fraction likewise. Digits and power of ten are binary64 numbers, so their product or quotient is rounded
    once. It is rounded to binary32 as the decimal number would be, unless it is halfway between two of these. It is 0 or
    between 1e-22 and 1e38, where binary32 has all of its bits. */
 static const unsigned char *take_real(const unsigned char *at, float *value) {

@@ -39,7 +39,7 @@ static double turn(struct point a, struct point b, struct point c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/* Whether p prevents cutting the triangle off. Points at one of its corners do not; polygons with holes have such. */
+/* Whether p prevents cutting the triangle off. A point at its corners does not; polygons with holes have such. */
 static bool is_inside(struct point p, struct point a, struct point b, struct point c) {
   if ((p.x == a.x && p.y == a.y) || (p.x == b.x && p.y == b.y) || (p.x == c.x && p.y == c.y))
     return false;

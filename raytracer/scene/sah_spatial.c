@@ -165,7 +165,7 @@ static void walk(const struct cuts *cuts, struct range *ranges, double slopes[3]
   }
 }
 
-/* The same as cut_one_by_one. False if some float is not certain. */
+/* Cuts as cut_one_by_one does. False if some float is not certain. */
 static bool cut_at_once(struct cuts *cuts) {
   const struct outline *outline = cuts->outline;
   const int axis = cuts->axis, first = cuts->first, last = cuts->last;

@@ -1,4 +1,4 @@
-/* Whether triangles are split. */
+/* The decision whether triangles are split. */
 #include "internal.h"
 
 #include <math.h>

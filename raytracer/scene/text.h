@@ -78,7 +78,7 @@ static inline trax_status check_text(struct scene_bytes *file, const char *path,
 
 /* --- mtl_reader.c --- */
 
-/* Adds a library's materials to those of the mesh, whose materials are found by name. */
+/* The mesh whose materials are found by name, and the room for them. */
 struct scene_material_list {
   struct trax_mesh *mesh;
   size_t capacity;
@@ -90,7 +90,7 @@ uint32_t scene_find_material(const struct trax_mesh *mesh, const char *name);
 /* SCENE_NO_MATERIAL when out of memory. */
 uint32_t scene_add_material(struct scene_material_list *list, const char *name);
 
-/* Images that cannot be read are noted in textures->report. */
+/* Adds a library's materials. Images that cannot be read are noted in textures->report. */
 trax_status scene_read_mtl(struct scene_material_list *list, struct scene_textures *textures, const char *path,
                            trax_error *error);
 

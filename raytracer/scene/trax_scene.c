@@ -154,7 +154,7 @@ static trax_status find_base(struct trax_scene *base, const struct arguments *ar
   struct trax_build_options build = arguments->build;
   struct trax_mesh mesh;
   if (arguments->refit)
-    return trax_scene_read_within(base, arguments->refit, import.unpack_limit, error);
+    return trax_scene_read(base, arguments->refit, import.unpack_limit, error);
   import.at = arguments->base.at;
   build.choose_splits = false;
   trax_status result =
@@ -213,7 +213,7 @@ static trax_status run(const struct arguments *arguments, trax_progress_line *li
   int files = 0;
   trax_status result = begin_list(&files, arguments->list_files, error);
   if (result == TRAX_OK)
-    result = arguments->check ? trax_scene_read_within(&scene, arguments->check, arguments->import.unpack_limit, error)
+    result = arguments->check ? trax_scene_read(&scene, arguments->check, arguments->import.unpack_limit, error)
                               : import_and_build(&scene, &figures, arguments, error);
   if (result == TRAX_OK && trax_signal)
     result = TRAX_INTERRUPTED;

@@ -313,8 +313,8 @@ static trax_status make_file(struct two_levels *two) {
   return result;
 }
 
-/* The program of the paper's workload is some times as fast if its stack, for LOCAL_DEPTH nodes, is in local memory. So
-   the upper tree gets the levels that are left, if one more than the least suffices for it. */
+/* The program of the paper's workload is several times as fast if its stack, for LOCAL_DEPTH nodes, is in local memory.
+   So the upper tree gets the levels that are left, if one more than the least suffices for it. */
 static unsigned upper_depth(const struct two_levels *two) {
   enum { LOCAL_DEPTH = 36 };
   const unsigned room = TRAX_SCENE_MAX_DEPTH - 1 - two->depth, least = scene_least_height(two->mesh->instance_count, 1);

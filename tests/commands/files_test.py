@@ -155,11 +155,10 @@ def scenes():
 
 def renderer():
     words = ["--size", "8x6", "--view", "a.view", "-q"]
-    pictures = [option("output"), lambda path: ["-o", "new.png", "--id-picture", path],
-                lambda path: ["-o", "new.png", "--write-view", path]]
+    pictures = [option("output"), lambda path: ["-o", "new.png", "--write-view", path]]
     figures = [lambda path,
                name=name: ["-o", "new.png", f"--{name}",
-                           path] for name in ("stats", "explore", "cost-picture", "cost-values", "progress-png")]
+                           path] for name in ("stats", "explore", "cost-picture", "cost-values")]
     outputs_onto(["a.obj", "a.view"], pictures + figures, "trax-render", "a.obj", *words)
     outputs_onto(["a.mtl", "wood.png", "mask.png"], pictures + figures, "trax-render", "a.obj", *words,
                  message=INPUT_OR_ENDING)
@@ -179,13 +178,8 @@ def renderer():
     if os.path.exists("general.elf"):
         refused(INPUT, "trax-render", "a.obj", *words, "--no-specialise", "-o", "new.png", "--stats", "general.elf")
         os.remove("general.elf")
-    write("turn-0002.png", PICTURE)
-    write("c.mtl", "newmtl m\nmap_Kd turn-0002.png\n")
-    write("c.obj", "mtllib c.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n")
-    refused(INPUT, "trax-render", "c.obj", *words, "--frames", "3", "-o", "./turn.png", "--engine", "native")
-    refused(TWICE, "trax-render", "a.obj", *words, "--frames", "3", "-o", "twist.png", "--write-view", "twist-0002.png")
-    outputs = [option("output"), option("write-view"), option("id-picture"), option("stats"), option("explore"),
-               option("cost-picture"), option("cost-values"), option("progress-png")]
+    outputs = [option("output"), option("write-view"), option("stats"), option("explore"),
+               option("cost-picture"), option("cost-values")]
     write("there.png", "kept")
     for target in ("there.png", "absent.png"):
         for first, one in enumerate(outputs):
@@ -207,9 +201,8 @@ def renderer():
     # Endings that no writer has, and no name at all.
     for name in ("x.jpg", "x.obj", "x.trax", "x.PNGS", "x.view", "folder.d/x.p", "x.1"):
         refused("there is no writer for .", "trax-render", "a.obj", *words, "-o", name)
-    for name in ("id-picture", "cost-picture"):
-        refused("there is no writer for .exr, only for .png", "trax-render", "a.obj", *words, "-o", "x.png",
-                f"--{name}", "y.exr")
+    refused("there is no writer for .exr, only for .png", "trax-render", "a.obj", *words, "-o", "x.png",
+            "--cost-picture", "y.exr")
     refused("there is no writer for .exr, only for .csv and .pfm", "trax-render", "a.obj", *words, "-o", "x.png",
             "--cost-values", "y.exr")
     for spelled in (["-o", ""], ["-o", "x.png", "--stats="], ["--output="]):

@@ -64,9 +64,8 @@ def outputs():
     yield ["trax-scene", "-q", "a.obj"], lambda path: ["-o", path], ".trax"
     yield ["trax-scene", "-q", "a.obj", "-o", "new.trax"], lambda path: ["--stats-json", path], ""
     yield ["trax-render", "-q", "a.obj", "--size", "8x6", "--engine", "native"], lambda path: ["-o", path], ".png"
-    for name, ending in (("write-view", ""), ("id-picture", ".png")):
-        yield ["trax-render", "-q", "a.obj", "--size", "8x6", "--engine", "native", "-o",
-               "new.png"], lambda path, name=name: [f"--{name}", path], ending
+    yield ["trax-render", "-q", "a.obj", "--size", "8x6", "--engine", "native", "-o",
+           "new.png"], lambda path: ["--write-view", path], ""
     yield ["trax-ld", "h.o", "-e", "main"], lambda path: ["-o", path], ""
     yield ["trax-ld", "h.o", "-e", "main", "-o", "new"], lambda path: ["-Map", path], ""
     yield ["trax-mc", "-filetype=obj", "a.s"], lambda path: ["-o", path], ""

@@ -640,7 +640,7 @@ def simulators(folder, program="trax-sim"):
 
 
 def wait_for_simulators(folder):
-    """What a killed command had started ends by itself."""
+    """The processes that a killed command had started end by themselves."""
     deadline = time.monotonic() + 60
     while simulators(folder) and time.monotonic() < deadline:
         time.sleep(0.02)
@@ -831,7 +831,7 @@ def test_jobs(evaluation, scratch):
 
 
 def test_reason(evaluation, scratch):
-    """What is printed of a failed run names the reason."""
+    """The text about a failed run names the reason."""
     runners = importlib.import_module("trax_eval.runners")
     progress = runners.Progress(1, {"a": "run a"}, False)
     with unittest.mock.patch.object(sys, "stderr") as errors:

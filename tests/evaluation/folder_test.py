@@ -56,12 +56,12 @@ class Folder:
         return json.loads((self.out / "results.json").read_text())["runs"]
 
     def imports(self):
-        """When the scene files were made."""
+        """Returns when the scene files were made."""
         return {path: (path.stat().st_mtime_ns, path.stat().st_ino) for path in (self.out / "scenes").glob("*.trax")}
 
 
 def test_read(folder):
-    """A scene is imported anew if a file that the import read, or looked for, is another one; and only then."""
+    """A scene is imported again if, and only if, a file that the import read or looked for has changed."""
     (folder.path / "quad.mtl").write_text("newmtl a\nKd 1 1 1\nmap_Kd textures/t.png\n")
     folder()
     key, before = folder.runs()[0]["key"], folder.imports()
@@ -130,7 +130,7 @@ def test_scene_file(folder):
 
 
 def test_damage(folder):
-    """Whatever file is damaged, the same command makes it anew, says so, and has the same results."""
+    """The same command makes any damaged file again, says so, and has the same results."""
     sweep = SWEEP | {"programs": ["ours", "era"]}
     folder(sweep)
 

@@ -147,7 +147,7 @@ def test_commands(folder, inside, scratch):
                   f"{[str(word)[:80] for word in words]}: {run.returncode}: {run.stderr[-600:]}")
         except Exception as error:  # what would be a traceback
             check(False, f"{[str(word)[:80] for word in words]}: {error!r}")
-    # A disk that is full wherever it fills up: files may have so many bytes.
+    # A disk may be full at any place: files may have only so many bytes.
     for limit in (0, 100, 2000, 8000):
         run = subprocess.run([program, good, empty, "-o", scratch / f"full-{limit}"], capture_output=True, text=True,
                              timeout=100, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
@@ -163,7 +163,7 @@ def test_commands(folder, inside, scratch):
 
 
 def test_dry_run(folder, scratch):
-    """It needs no importer, no compiler and no renderer where nothing has been imported, and imports nothing."""
+    """The command imports nothing, and needs no importer, compiler or renderer where nothing has been imported."""
     bare = scratch / "bare"
     (bare / "bin").mkdir(parents=True)
     (bare / "lib").symlink_to(folder.parent / "lib")

@@ -3,11 +3,9 @@
 trax-render --rays on these rays, in each order; and what they cannot do is an error with its place."""
 import argparse
 import json
-import os
 import pathlib
 import subprocess
 import sys
-import tempfile
 
 parser = argparse.ArgumentParser()
 parser.add_argument("--bin", type=pathlib.Path, required=True)
@@ -75,10 +73,10 @@ def errors():
     check(done.returncode == 1 and "has no rays of kind glass" in done.stderr, "no such rays:", done.stderr)
 
 
-with tempfile.TemporaryDirectory() as folder:
-    os.chdir(folder)
+def orders():
     one, other = swept(), direct()
     check(one == other, "sweep and trax-render --rays:", one, other)
     check(len(set(other.values())) == 4, "orders make no difference:", other)
-    errors()
-sys.exit(1 if checking.failures else 0)
+
+
+sys.exit(checking.run(orders, errors))

@@ -87,7 +87,7 @@ def test_report(program, data, scratch):
                  "memory.bandwidth_gbps"):
         check(text in page, f"the report does not have {text!r}")
     check("rings" in run.stdout and "small.cfg" in run.stdout, f"the table: {run.stdout}")
-    # From another folder, the same bytes; and nothing is made again.
+    # A call from another folder gives the same bytes, and makes nothing again.
     shutil.copytree(mine, scratch / "elsewhere")
     run = command(program, scratch / "elsewhere", "mine.json", "-q", "-o", scratch / "again")
     check(run.returncode == 0, f"from another folder: {run.stderr}")
@@ -157,7 +157,7 @@ REFUSED = [
 
 
 def test_refusals(inside, scratch):
-    """What is wrong with a file beside a sweep: its name and key, and what is allowed."""
+    """A message about a file beside a sweep has its name and key, and what is allowed."""
     mine = scratch / "refused"
     shutil.copytree(HERE / "researcher", mine)
     for number, (name, members, message) in enumerate(REFUSED, 1):
@@ -174,7 +174,7 @@ def test_refusals(inside, scratch):
 
 
 def test_example(program, data, scratch):
-    """The sweep to copy runs as it is but for its scene. new-sweep, which once asked for one, names it."""
+    """The example sweep runs unchanged but for its scene. new-sweep, which once asked for one, names it."""
     mine = scratch / "copied"
     shutil.copytree(HERE / "researcher", mine)
     (mine / "leaves.json").write_text((data / "example.json").read_text().replace('"forest"', '"steps.json"'))

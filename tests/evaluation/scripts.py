@@ -1,4 +1,4 @@
-"""What the scripts of this folder share: check, the command line, and a run of every test in a scratch folder."""
+"""The scripts of this folder share check, the command line, and the run of every test in a scratch folder."""
 
 import argparse
 import os

@@ -1,17 +1,14 @@
 """A web server on this host for tests: files from memory, and ways in which it fails to send them."""
 
 import http.server
-import re
 import threading
 
 
 class Server:
-    """files: contents by path. ways: by path "whole" (the default, parts on request), "plain" (neither parts nor a
-    version), "short" (half of it, then the connection ends), "short-once", "busy-once", "stall" (half of it, and the
-    rest after go()). seen: the path of each request, and its range. parts: how many were answered by a part."""
+    """files: contents by path. ways: by path "whole" (the default), "short" (half of it, then the connection ends),
+    "short-once", "busy-once", "stall" (half of it, and the rest after `go`). seen: the path of each request."""
     def __init__(self):
-        self.files, self.ways, self.seen, self.tag, self.parts = {}, {}, [], 1, 0
-        self.gate = threading.Event()
+        self.files, self.ways, self.seen, self.go = {}, {}, [], threading.Event()
         outer = self
 
         class Handler(http.server.BaseHTTPRequestHandler):
@@ -30,48 +27,31 @@ class Server:
         return self
 
     def __exit__(self, *_):
-        self.gate.set()
+        self.go.set()
         self.server.shutdown()
         self.server.server_close()
 
-    def go(self):
-        """Lets stalled answers go on."""
-        self.gate.set()
-        self.gate = threading.Event()
-
     def answer(self, request):
-        path, gate = request.path, self.gate
+        path = request.path
         way = self.ways.get(path, "whole")
-        wanted = request.headers.get("Range")
-        self.seen.append((path, wanted))
+        self.seen.append(path)
         if way.endswith("-once"):
             self.ways[path] = "whole"
         if way == "busy-once" or path not in self.files:
             return request.send_error(503 if path in self.files else 404)
-        data, tag, begin = self.files[path], f'"{self.tag}"', 0
-        if wanted and request.headers.get("If-Range") == tag and way != "plain":
-            begin = int(re.fullmatch(r"bytes=(\d+)-", wanted)[1])
-            if begin >= len(data):
-                return request.send_error(416)
-            request.send_response(206)
-            self.parts += 1
-            request.send_header("Content-Range", f"bytes {begin}-{len(data) - 1}/{len(data)}")
-        else:
-            request.send_response(200)
-        if way != "plain":
-            request.send_header("ETag", tag)
-        request.send_header("Content-Length", str(len(data) - begin))
+        data = self.files[path]
+        request.send_response(200)
+        request.send_header("Content-Length", str(len(data)))
         request.end_headers()
         half = len(data) // 2
         try:
-            if way in ("short", "short-once", "stall"):
-                request.wfile.write(data[begin:half])
+            if way != "whole":
+                request.wfile.write(data[:half])
                 request.wfile.flush()
-                if way != "stall":
-                    return None
-                gate.wait(30)
-                begin = half
-            request.wfile.write(data[begin:])
-        except OSError:  # the other side has gone
+                data = data[half:] if way == "stall" else b""
+            if way == "stall":
+                self.go.wait(30)
+            request.wfile.write(data)
+        except OSError:  # the client has gone
             pass
         return None

@@ -1,6 +1,6 @@
 #!/bin/sh
-# chip_test.sh BIN: the program and the order of nodes follow the caches of the chip that is asked for, and with the paper's
-# caches they are as they are without a word of them.
+# chip_test.sh BIN: the program and the order of nodes follow the caches of the chip that is asked for. The paper's caches
+# are the default.
 . "$(dirname "$0")/head.sh"
 set -e
 export LC_ALL=C

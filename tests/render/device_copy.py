@@ -1,4 +1,4 @@
-"""What mutants.py here and in extreme share: a changed copy of the device program."""
+"""The part that mutants.py here and in extreme share: a changed copy of the device program."""
 
 import shutil
 

@@ -2,11 +2,9 @@
 """environment_test.py BIN: light from all directions by --environment, against closed forms."""
 import functools
 import math
-import os
 import pathlib
 import struct
 import sys
-import tempfile
 import zlib
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
@@ -38,7 +36,7 @@ def read_pfm(path):
 
 
 def direction_of(column, row, width, height):
-    """By the definition of the map: the middle is -z, the right half +x, the top +y."""
+    """Returns a texel's direction by the definition of the map: the middle is -z, the right half +x, the top +y."""
     theta, phi = math.pi * (row + 0.5) / height, 2 * math.pi * ((column + 0.5) / width - 0.5)
     return math.sin(theta) * math.sin(phi), math.cos(theta), -math.sin(theta) * math.cos(phi)
 
@@ -71,42 +69,20 @@ def test_directions():
     far = "far.obj"
     pathlib.Path(far).write_text("v 0 500 0\nv 0.001 500 0\nv 0 500 0.001\nf 1 2 3\n")
     size, half = 16, math.tan(math.radians(30))
-    for forward, up in (((0, 0, -1), (0, 1, 0)), ((1, 0, 0), (0, 1, 0)), ((0, -1, 0), (0, 0, 1)), ((-0.6, 0, 0.8),
-                                                                                                   (0, 1, 0))):
-        picture = render(far,
-                         "--eye",
-                         "0,0,0",
-                         "--look-at",
-                         ",".join(map(str, forward)),
-                         "--up",
-                         ",".join(map(str, up)),
-                         "--fov",
-                         "60",
-                         "--environment",
-                         "axes.pfm",
-                         size=f"{size}x{size}")
-        right = [
-            forward[1] * up[2] - forward[2] * up[1], forward[2] * up[0] - forward[0] * up[2],
-            forward[0] * up[1] - forward[1] * up[0]
-        ]
+    for forward, up in (((0, 0, -1), (0, 1, 0)), ((1, 0, 0), (0, 1, 0)), ((0, -1, 0), (0, 0, 1)),
+                        ((-0.6, 0, 0.8), (0, 1, 0))):
+        picture = render(far, "--eye", "0,0,0", "--look-at", ",".join(map(str, forward)), "--up",
+                         ",".join(map(str, up)), "--fov", "60", "--environment", "axes.pfm", size=f"{size}x{size}")
+        right = [forward[1] * up[2] - forward[2] * up[1], forward[2] * up[0] - forward[0] * up[2],
+                 forward[0] * up[1] - forward[1] * up[0]]
         for y in range(size):
             for x in range(size):
                 a, b = (2 * (x + 0.5) / size - 1) * half, (1 - 2 * (y + 0.5) / size) * half
                 d = [f + a * r + b * u for f, r, u in zip(forward, right, up)]
                 length = math.hypot(*d)
                 close(picture[y][x], [0.5 + 0.5 * part / length for part in d], 0.012, "direction", forward, x, y)
-    turned = render(far,
-                    "--eye",
-                    "0,0,0",
-                    "--look-at",
-                    "0,0,-1",
-                    "--environment",
-                    "axes.pfm",
-                    "--environment-turn",
-                    "90",
-                    "--environment-strength",
-                    "2",
-                    size="1x1")
+    turned = render(far, "--eye", "0,0,0", "--look-at", "0,0,-1", "--environment", "axes.pfm", "--environment-turn",
+                    "90", "--environment-strength", "2", size="1x1")
     close(turned[0][0], [0, 1, 1], 0.03, "turned: the middle of the map is now at +x, and -x, seen before, is here")
 
 
@@ -184,14 +160,12 @@ def test_hdr():
               lambda x, y: [math.ldexp(part + 0.5, pixels[y][x][3] - 136) for part in pixels[y][x][:3]])
     for name in ("plain", "runs", "old"):
         call("trax-compare", f"{name}.hdr", "same.pfm", "--within", "0")
-    for name, data, said in (("cut", plain[:-1], "row 1 of an HDR picture"), ("code", runs[:-9] + b"\0" * 9,
-                                                                              "is cut off or damaged"),
+    for name, data, said in (("cut", plain[:-1], "row 1 of an HDR picture"),
+                             ("code", runs[:-9] + b"\0" * 9, "is cut off or damaged"),
                              ("first", hdr(pixels) + b"\1\1\1\x04" + plain[-76:], "is cut off or damaged"),
-                             ("format", plain.replace(b"rgbe", b"xyze"),
-                              "of another format"), ("turned", plain.replace(b"-Y 2 +X 10",
-                                                                             b"+X 10 -Y 2"), "do not go down"),
-                             ("huge", plain.replace(b"-Y 2 +X 10", b"-Y 2 +X 99999"),
-                              "must be 1 to"),
+                             ("format", plain.replace(b"rgbe", b"xyze"), "of another format"),
+                             ("turned", plain.replace(b"-Y 2 +X 10", b"+X 10 -Y 2"), "do not go down"),
+                             ("huge", plain.replace(b"-Y 2 +X 10", b"-Y 2 +X 99999"), "must be 1 to"),
                              ("bomb", hdr([], size=(16384, 16384)) + 16384 * b"\x09\x09\x09\x82\1\1\1\xff\1\1\1\x3f",
                               "16384 x 16384 pixels in 196"), ("head", b"#?RADIANCE\nFORMAT=32-bit", "does not end")):
         pathlib.Path(f"{name}.hdr").write_bytes(data)
@@ -220,27 +194,18 @@ def test_blank():
 def test_refusals():
     write_pfm("nan.pfm", 4, 2, lambda x, y: (1, math.nan if (x, y) == (2, 1) else 1, 1))
     write_pfm("minus.pfm", 4, 2, lambda x, y: (1, 1, -1 if (x, y) == (3, 0) else 1))
-    for said, *words in (("the light of pixel (2, 1) is nan", "--environment",
-                          "nan.pfm"), ("the light of pixel (3, 0) is -1", "--environment",
-                                       "minus.pfm"), ("not a readable PNG", "--environment", "floor.obj"),
-                         ("No such file", "--environment", "nothing.exr"), ("without --environment",
-                                                                            "--environment-turn", "9"),
-                         ("is not a number from 0", "--environment", "white.pfm", "--environment-strength",
-                          "-1"), ("for trax-render's own program", "--environment", "white.pfm", "--program", "x.elf")):
-        done = call("trax-render", "floor.obj", *words, "-q", "-o", "x.pfm", status=1)
+    for said, words in (("the light of pixel (2, 1) is nan", "--environment nan.pfm"),
+                        ("the light of pixel (3, 0) is -1", "--environment minus.pfm"),
+                        ("not a readable PNG", "--environment floor.obj"),
+                        ("No such file", "--environment nothing.exr"),
+                        ("without --environment", "--environment-turn 9"),
+                        ("is not a number from 0", "--environment white.pfm --environment-strength -1"),
+                        ("for trax-render's own program", "--environment white.pfm --program x.elf")):
+        done = call("trax-render", "floor.obj", *words.split(), "-q", "-o", "x.pfm", status=1)
         check(said in done.stderr, said, done.stderr)
     check(not pathlib.Path("x.pfm").exists(), "nothing is written")
 
 
-def main():
-    with tempfile.TemporaryDirectory() as folder:
-        os.chdir(folder)
-        for test in (test_directions, test_irradiance, test_noise, test_engines, test_hdr, test_blank, test_refusals):
-            test()
-        os.chdir("/")
-    print(f"environment: {checking.failures} failed")
-    return 1 if checking.failures else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+if __name__ == "__main__":  # instances_light_test.py has parts of this file
+    sys.exit(checking.run(test_directions, test_irradiance, test_noise, test_engines, test_hdr, test_blank,
+                          test_refusals))

@@ -71,21 +71,18 @@ static struct trax_picture exact_of(const struct trax_frame *frame) {
   return exact;
 }
 
-static void release(struct trax_picture *picture, struct trax_frame *frame, struct trax_scene *scene,
-                    struct trax_mesh *mesh) {
+static void release(struct trax_picture *picture, struct trax_frame *frame, struct trax_scene *scene) {
   trax_picture_release(picture);
   trax_frame_release(frame);
   trax_scene_release(scene);
-  trax_mesh_release(mesh);
 }
 
 /* The nearest of all triangles, one by one. */
 static void test_against_all_triangles(void **state) {
   (void)state;
   struct trax_mesh mesh = {0};
-  struct trax_scene scene = {0};
   mesh_soup(&mesh, 500, 7);
-  build(&scene, &mesh, NULL);
+  struct trax_scene scene = scene_of(&mesh, NULL);
   struct trax_view view = view_from(0.3f, 0.5f, 2.6f, -0.1f, -0.2f, -1, 45, 1.5f, 2, 2);
   struct trax_frame frame = frame_of(&scene, &view, 48, 27, 1);
   struct trax_picture exact = exact_of(&frame), finished = exact_of(&frame);
@@ -122,7 +119,7 @@ static void test_against_all_triangles(void **state) {
     }
   assert_in_range(hits, 150, 48 * 27 - 150);
   trax_picture_release(&finished);
-  release(&exact, &frame, &scene, &mesh);
+  release(&exact, &frame, &scene);
 }
 
 static bool has_first_bits(const struct trax_triangle *triangle, const struct trax_triangle *other) {
@@ -139,7 +136,6 @@ static bool has_first_bits(const struct trax_triangle *triangle, const struct tr
 static void test_one_plane(void **state) {
   (void)state;
   struct trax_mesh mesh = {0};
-  struct trax_scene scene = {0};
   uint32_t seed = 11, covered = 0;
   for (int i = 0; i < 20; i++) {
     uint32_t corner[3];
@@ -148,7 +144,7 @@ static void test_one_plane(void **state) {
     mesh_triangle(&mesh, corner[0], corner[1], corner[2], 0);
   }
   mesh_material(&mesh, 1, 1, 1);
-  build(&scene, &mesh, NULL);
+  struct trax_scene scene = scene_of(&mesh, NULL);
   struct trax_view view = view_from(0.3f, 0.5f, 2.6f, -0.1f, -0.2f, -1, 45, 1.5f, 2, 2);
   struct trax_frame frame = frame_of(&scene, &view, 48, 27, 1);
   struct trax_picture exact = exact_of(&frame);
@@ -170,16 +166,15 @@ static void test_one_plane(void **state) {
       covered += hits > 1;
     }
   assert_in_range(covered, 100, 48 * 27);
-  release(&exact, &frame, &scene, &mesh);
+  release(&exact, &frame, &scene);
 }
 
-/* From the inside of a closed surface no ray gets out; in a convex one no light is blocked. */
+/* No ray leaves a closed surface; within a convex one no light is blocked. */
 static void test_no_gaps(void **state) {
   (void)state;
   struct trax_mesh mesh = {0};
-  struct trax_scene scene = {0};
   mesh_sphere(&mesh, 3, 5, 0);
-  build(&scene, &mesh, NULL);
+  struct trax_scene scene = scene_of(&mesh, NULL);
   struct trax_view view = view_from(0, 0, 0, 1, 0, 0, 90, 0, 0.5f, 0);
   struct trax_frame frame = frame_of(&scene, &view, 256, 256, 1);
   struct trax_picture exact = exact_of(&frame);
@@ -187,16 +182,15 @@ static void test_no_gaps(void **state) {
     assert_int_not_equal(exact.layers[i].triangle, TRAX_NO_TRIANGLE);
     assert_int_equal(exact.layers[i].shadow, TRAX_SHADOW_LIT);
   }
-  release(&exact, &frame, &scene, &mesh);
+  release(&exact, &frame, &scene);
 }
 
 /* Embree's hits in binary32 lead to the same picture but for a few rays. */
 static void test_against_embree(void **state) {
   (void)state;
   struct trax_mesh mesh = {0};
-  struct trax_scene scene = {0};
   mesh_soup(&mesh, 3000, 3);
-  build(&scene, &mesh, NULL);
+  struct trax_scene scene = scene_of(&mesh, NULL);
   struct trax_view view = view_from(0.3f, 0.5f, 2.6f, -0.1f, -0.2f, -1, 45, 1.5f, 2, 2);
   struct trax_frame frame = frame_of(&scene, &view, 160, 90, 3);
   struct trax_picture exact = exact_of(&frame);
@@ -211,7 +205,7 @@ static void test_against_embree(void **state) {
                         (picture.pixels[i] >> 8 * channel & 255)) > 0.501;
   assert_in_range(different, 0, 20);
   trax_picture_release(&picture);
-  release(&exact, &frame, &scene, &mesh);
+  release(&exact, &frame, &scene);
 }
 
 /* Two triangles that face the eye, the second 1 % farther away and twice as large, and a third in the second's plane.
@@ -219,7 +213,6 @@ static void test_against_embree(void **state) {
 static void test_kinds_of_wrong_hits(void **state) {
   (void)state;
   struct trax_mesh mesh = {0};
-  struct trax_scene scene = {0};
   static const float corners[3][2] = {{-1, -1}, {1, -1}, {0, 1}};
   static const struct { float z, size; } layers[3] = {{-1, 0.2f}, {-1.01f, 0.4f}, {-1.01f, 0.8f}};
   const uint32_t material = mesh_material(&mesh, 0.5f, 0.5f, 0.5f);
@@ -230,7 +223,7 @@ static void test_kinds_of_wrong_hits(void **state) {
                                      layers[layer].size * corners[corner][1], layers[layer].z);
     mesh_triangle(&mesh, vertices[0], vertices[1], vertices[2], material);
   }
-  build(&scene, &mesh, NULL);
+  struct trax_scene scene = scene_of(&mesh, NULL);
   struct trax_view view = view_from(0, 0, 0, 0, 0, -1, 90, 0, 0, 0.5f);
   struct trax_frame frame = frame_of(&scene, &view, 32, 32, 1);
   struct trax_picture exact = exact_of(&frame), picture = exact_of(&frame);
@@ -264,7 +257,7 @@ static void test_kinds_of_wrong_hits(void **state) {
   trax_layers_compare(&errors, &picture, &exact);
   assert_true(errors.tied == 0 && errors.other == 1);
   trax_picture_release(&picture);
-  release(&exact, &frame, &scene, &mesh);
+  release(&exact, &frame, &scene);
 }
 
 int main(void) {

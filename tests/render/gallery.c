@@ -14,14 +14,6 @@ static struct trax_material *material_of(struct trax_mesh *mesh, uint32_t number
   return &mesh->materials[number].surface;
 }
 
-static void quad(struct trax_mesh *mesh, const float corners[4][3], uint32_t material) {
-  uint32_t first = mesh->vertex_count;
-  for (int i = 0; i < 4; i++)
-    mesh_vertex(mesh, corners[i][0], corners[i][1], corners[i][2]);
-  mesh_triangle(mesh, first, first + 1, first + 2, material);
-  mesh_triangle(mesh, first, first + 2, first + 3, material);
-}
-
 static void ball(struct trax_mesh *mesh, float x, float y, float z, float radius, uint32_t material) {
   struct trax_mesh one = {0};
   mesh_sphere(&one, radius, 3, 0);
@@ -30,15 +22,7 @@ static void ball(struct trax_mesh *mesh, float x, float y, float z, float radius
     mesh_vertex(mesh, one.vertices[i][0] + x, one.vertices[i][1] + y, one.vertices[i][2] + z);
   for (uint32_t i = 0; i < one.triangle_count; i++) {
     const uint32_t *v = one.triangles[i].vertices;
-    const float *a = one.vertices[v[0]], *b = one.vertices[v[1]], *c = one.vertices[v[2]];
-    float n[3], outwards = 0; /* the octants wind both ways */
-    for (int k = 0; k < 3; k++) {
-      int l = (k + 1) % 3, m = (k + 2) % 3;
-      n[k] = (b[l] - a[l]) * (c[m] - a[m]) - (b[m] - a[m]) * (c[l] - a[l]);
-      outwards += n[k] * a[k];
-    }
-    bool turn = outwards < 0;
-    mesh_triangle(mesh, first + v[0], first + v[1 + turn], first + v[2 - turn], material);
+    mesh_triangle(mesh, first + v[0], first + v[1], first + v[2], material);
   }
   trax_mesh_release(&one);
 }
@@ -91,17 +75,18 @@ void gallery_mesh(struct trax_mesh *mesh, unsigned parts) {
                                       {{-1.5f, 0, 1}, {1.5f, 0, 1}, {1.5f, 0, -1}, {-1.5f, 0, -1}}};
   const uint32_t walls[5] = {white, white, red, green, floor};
   for (int i = 0; i < 5; i++)
-    quad(mesh, room[i], walls[i]);
+    mesh_quad(mesh, room[i], walls[i]);
   map_quad(mesh, uvs, 3);
-  quad(mesh,
-       (const float[4][3]){{-0.35f, 1.97f, -0.3f}, {0.35f, 1.97f, -0.3f}, {0.35f, 1.97f, 0.3f}, {-0.35f, 1.97f, 0.3f}},
-       lamp);
+  mesh_quad(
+      mesh,
+      (const float[4][3]){{-0.35f, 1.97f, -0.3f}, {0.35f, 1.97f, -0.3f}, {0.35f, 1.97f, 0.3f}, {-0.35f, 1.97f, 0.3f}},
+      lamp);
   for (int i = 0; i < 3; i++) {
     float x = -1.2f + 0.35f * (float)i, z = 0.55f + 0.1f * (float)i, y = 0.75f + 0.25f * (float)i;
-    quad(mesh,
-         (const float[4][3]){
-             {x, y, z}, {x + 0.4f, y + 0.05f, z - 0.1f}, {x + 0.4f, y + 0.5f, z - 0.2f}, {x, y + 0.45f, z - 0.1f}},
-         leaf);
+    mesh_quad(mesh,
+              (const float[4][3]){
+                  {x, y, z}, {x + 0.4f, y + 0.05f, z - 0.1f}, {x + 0.4f, y + 0.5f, z - 0.2f}, {x, y + 0.45f, z - 0.1f}},
+              leaf);
     map_quad(mesh, uvs, 1);
   }
   ball(mesh, -0.85f, 0.45f, -0.4f, 0.44f, mirror);
@@ -139,6 +124,12 @@ void gallery_mesh(struct trax_mesh *mesh, unsigned parts) {
   }
   if (parts & GALLERY_LAMP)
     memcpy(material_of(mesh, lamp)->emission, (float[]){9, 8, 6}, 12);
+}
+
+struct trax_scene gallery_scene(unsigned parts) {
+  struct trax_mesh mesh = {0};
+  gallery_mesh(&mesh, parts);
+  return scene_of(&mesh, &(struct trax_build_options){.smooth = true, .crease_degrees = 40});
 }
 
 struct trax_view gallery_view(unsigned lights) {

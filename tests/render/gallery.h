@@ -17,8 +17,9 @@ enum {
 };
 
 void gallery_mesh(struct trax_mesh *mesh, unsigned parts);
-/* From its open side. lights: a point, a directional light and a rectangle, of which the first so many are there; 0:
-   the one point light of the paper. */
+struct trax_scene gallery_scene(unsigned parts);
+/* The view from its open side. lights: how many of a point, a directional light and a rectangle the view has; 0: the
+   paper's one point light. */
 struct trax_view gallery_view(unsigned lights);
 
 #endif

@@ -16,16 +16,13 @@ static const char view_text[] =
     ");\n";
 
 int main(int argc, char **argv) {
-  struct trax_mesh mesh = {0};
-  struct trax_scene scene = {0};
   trax_error error;
   char path[4096];
   if (argc < 2 || argv[1][0] == '-') {
     fprintf(stderr, "usage: render-gallery DIRECTORY [PARTS]\n");
     return 2;
   }
-  gallery_mesh(&mesh, argc > 2 ? (unsigned)atoi(argv[2]) : GALLERY_ALL);
-  build(&scene, &mesh, &(struct trax_build_options){.smooth = true, .crease_degrees = 40});
+  struct trax_scene scene = gallery_scene(argc > 2 ? (unsigned)atoi(argv[2]) : GALLERY_ALL);
   mkdir(argv[1], 0777); /* what went wrong is told where it is written to */
   snprintf(path, sizeof path, "%s/gallery.trax", argv[1]);
   trax_status status = trax_scene_write(&scene, path, &error);
@@ -35,6 +32,5 @@ int main(int argc, char **argv) {
   if (status != TRAX_OK)
     fprintf(stderr, "render-gallery: error: %s\n", error.message);
   trax_scene_release(&scene);
-  trax_mesh_release(&mesh);
   return status != TRAX_OK;
 }

@@ -1,5 +1,5 @@
 #!/bin/sh
-# holes_test.sh BIN: --id-picture shows what the picture shows: not back faces with --one-sided, and not what is cut out.
+# holes_test.sh BIN: --layers has what the picture shows: no back faces with --one-sided, and nothing that is cut out.
 . "$(dirname "$0")/head.sh"
 set -e
 export LC_ALL=C
@@ -13,19 +13,23 @@ wall() { # SIZE Z
 printf 'newmtl solid\nKd 1 1 1\nnewmtl air\nKd 1 1 1\nd 0\n' >air.mtl
 { echo 'mtllib air.mtl'; echo 'usemtl solid'; cat alone.obj; echo 'usemtl air'; wall 1 1; echo 'f -4 -3 -2 -1'; } >cut.obj
 
-# ids NAME ARGUMENTS...: the picture of triangles.
-ids() {
+# layers NAME ARGUMENTS...
+layers() {
   name=$1
   shift
-  "$bin/trax-render" "$@" --size 32x32 --eye 0,0,6 --look-at 0,0,0 --fov 50 --light 3,4,5 -q -o x.png --id-picture "$name" 2>err || fail "$name: $(cat err)"
+  "$bin/trax-render" "$@" --size 32x32 --eye 0,0,6 --look-at 0,0,0 --fov 50 --light 3,4,5 -q --layers -o "$name" 2>err || fail "$name: $(cat err)"
+}
+# wrong_pixels NAME: how many pixels show other triangles than the wall alone.
+wrong_pixels() {
+  "$bin/trax-compare" --json --at-least 0 "$1" alone.exr | sed -n 's/.*"wrong_pixels": //p'
 }
 for engine in native embree; do
-  ids alone.png alone.obj --engine $engine
-  ids whole.png turned.obj --engine $engine
-  ids turned.png turned.obj --engine $engine --one-sided
-  ids cut.png cut.obj --engine $engine
-  cmp -s alone.png whole.png && fail "$engine: the wall before the other is not seen"
-  cmp -s alone.png turned.png || fail "$engine: a back face is seen with --one-sided"
-  cmp -s alone.png cut.png || fail "$engine: what is cut out is seen"
+  layers alone.exr alone.obj --engine $engine
+  layers whole.exr turned.obj --engine $engine
+  layers turned.exr turned.obj --engine $engine --one-sided
+  layers cut.exr cut.obj --engine $engine
+  [ "$(wrong_pixels whole.exr)" = 0, ] && fail "$engine: the wall before the other is not seen"
+  [ "$(wrong_pixels turned.exr)" = 0, ] || fail "$engine: a back face is seen with --one-sided"
+  [ "$(wrong_pixels cut.exr)" = 0, ] || fail "$engine: what is cut out is seen"
 done
 exit $((failures > 0))

@@ -2,10 +2,8 @@
 """instances_light_test.py BIN: light on instances against closed forms: furnaces, a mirror, a plate of glass, each
 turned, stretched and mirrored by its transform, by the twin and with Embree's instances."""
 import math
-import os
 import pathlib
 import sys
-import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 import checking  # noqa: E402
@@ -137,16 +135,4 @@ def test_plates():
                   engine, stretch)
 
 
-def main():
-    with tempfile.TemporaryDirectory() as folder:
-        os.chdir(folder)
-        write_box("box.obj")
-        test_furnaces()
-        test_plates()
-        os.chdir("/")
-    print(f"light on instances: {checking.failures} failed")
-    return 1 if checking.failures else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+sys.exit(checking.run(lambda: write_box("box.obj"), test_furnaces, test_plates))

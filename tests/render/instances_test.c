@@ -96,13 +96,12 @@ static uint64_t same_places(const struct trax_hits *a, const struct trax_hits *b
 
 /* least: pixels that hit the nearest triangle for certain; closed: every ray hits something. */
 static void check(const char *name, struct trax_mesh *mesh, struct trax_view view, uint64_t least, bool closed) {
-  struct trax_scene scene = {0};
   struct trax_frame frame = {0};
   struct trax_hits device, embree, exact;
   struct trax_hits_difference difference;
   const struct trax_frame_options options = {.width = WIDTH, .height = HEIGHT, .samples = 1};
   trax_error error;
-  build(&scene, mesh, NULL);
+  struct trax_scene scene = scene_of(mesh, NULL);
   if (trax_scene_check(NULL, scene.bytes, scene.size, name, &error) != TRAX_OK)
     fail_msg("%s", error.message);
   normalise(&scene, &view);
@@ -134,7 +133,6 @@ static void check(const char *name, struct trax_mesh *mesh, struct trax_view vie
   trax_hits_release(&exact);
   trax_frame_release(&frame);
   trax_scene_release(&scene);
-  trax_mesh_release(mesh);
 }
 
 /* The transforms of a family; each places a sphere or a soup of radius 1 about `middle`, of size about `size`. */
@@ -266,7 +264,7 @@ static void test_lamp_nowhere(void **state) {
 /* --- damaged files --- */
 
 /* Two meshes at five places, with all that an instance may have. */
-static void build_crowd(struct trax_scene *scene) {
+static struct trax_scene crowd(void) {
   struct trax_mesh mesh = {0};
   const uint32_t glass = mesh_material(&mesh, 1, 1, 1);
   mesh.materials[glass].surface.kind = TRAX_MATERIAL_GLASS;
@@ -279,8 +277,7 @@ static void build_crowd(struct trax_scene *scene) {
     place(&mesh, i % 2, product(moved(i - 2.0, 0.5 * i, 0.2), product(turned(i, 2), scaled(1, 1, i == 4 ? -0.5 : 1))));
     mesh.instances[i].material = i == 3 ? glass : TRAX_NO_MATERIAL;
   }
-  build(scene, &mesh, &(struct trax_build_options){.smooth = true, .max_leaf = 2});
-  trax_mesh_release(&mesh);
+  return scene_of(&mesh, &(struct trax_build_options){.smooth = true, .max_leaf = 2});
 }
 
 static void change(uint32_t *words, uint32_t count, uint32_t *seed) {
@@ -344,12 +341,11 @@ static void render_changed(struct trax_scene *scene, unsigned number, bool compa
    renders. */
 static void test_sealed_changes(void **state) {
   (void)state;
-  struct trax_scene scene = {0}, changed = {0};
+  struct trax_scene scene = crowd(), changed = {0};
   const char *const asked = getenv("TRAX_TEST_DAMAGES");
   const unsigned count = asked ? (unsigned)strtoul(asked, NULL, 10) : 10000;
   unsigned accepted = 0;
   uint32_t seed = 1;
-  build_crowd(&scene);
   uint32_t *bytes = aligned_alloc(64, scene.size);
   assert_non_null(bytes);
   for (unsigned number = 0; number < count; number++) {
@@ -382,8 +378,7 @@ static void test_derived_words(void **state) {
       offsetof(struct trax_instance, root),         offsetof(struct trax_instance, stretch),
       offsetof(struct trax_instance, flags),        offsetof(struct trax_instance, spread),
       offsetof(struct trax_instance, first_number), offsetof(struct trax_instance, reserved)};
-  struct trax_scene scene = {0};
-  build_crowd(&scene);
+  struct trax_scene scene = crowd();
   struct trax_scene_header *header = scene.bytes;
   for (size_t i = 0; i < sizeof derived / sizeof *derived; i++) {
     uint32_t *word = (uint32_t *)(void *)((char *)scene.instances + derived[i]);

@@ -122,7 +122,7 @@ static void test_fresnel(void **state) {
   assert_true(fabsf(fresnel(1, 1 / 1.5f, &other) - 0.04f) < 1e-7f); /* ((n - 1) / (n + 1))^2 */
   assert_true(fabsf(fresnel(1, 1.5f, &other) - 0.04f) < 1e-7f);
   assert_true(fresnel(0.5f, 1.5f, &other) == 1 && other == 0); /* beyond the critical angle */
-  /* At Brewster's angle, whose tangent is n, only the part across the plane is reflected, ((n^2 - 1) / (n^2 + 1))^2. */
+  /* Brewster's angle, whose tangent is n, reflects only the part across the plane, ((n^2 - 1) / (n^2 + 1))^2. */
   const double n = 1.5, across = (n * n - 1) / (n * n + 1);
   assert_true(fabs(wide(fresnel((float)(1 / sqrt(1 + n * n)), (float)(1 / n), &other)) - across * across / 2) < 1e-6);
   for (int k = 0; k <= 64; k++) {

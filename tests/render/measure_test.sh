@@ -57,8 +57,8 @@ grep -q "^$line" .out && grep -q "^            $(value hits.json embree) pixels 
 [ "$(value hits.json pixels)" = 576 ] || fail "--hits: $(cat hits.json)"
 rm -f x.png
 # Any other output does without a picture, and is the same then.
-for words in '--stats x.json' '--explore x.html' '--cost-picture x.png' '--cost-values x.csv' '--memory-trace x.csv' '--id-picture x.png' '--keep x.dir' \
-  '--ray-trace x.csv' '--progress-png x.png' '--write-view x.view' '--sampled --stats x.json'; do
+for words in '--stats x.json' '--explore x.html' '--cost-picture x.png' '--cost-values x.csv' '--memory-trace x.csv' '--keep x.dir' \
+  '--ray-trace x.csv' '--write-view x.view' '--sampled --stats x.json'; do
   file=${words##* }
   rm -rf x.* with.png
   measure $words -o with.png || fail "$words: $(cat .err)"
@@ -89,7 +89,6 @@ refuse() {
 for words in -q --sampled --mark-rays "--samples 2"; do
   refuse 'no picture given' $words
 done
-refuse '--frames needs -o' --frames 2 --progress-png x.png
 refuse 'nowhere/x.json' --hits nowhere/x.json
 refuse '--error has been removed; --layers' --error x.json
 refuse '--layers needs -o FILE.exr' --layers -o x.png

@@ -35,6 +35,14 @@ uint32_t mesh_material(struct trax_mesh *mesh, float red, float green, float blu
   return mesh->material_count++;
 }
 
+void mesh_quad(struct trax_mesh *mesh, const float corners[4][3], uint32_t material) {
+  const uint32_t first = mesh->vertex_count;
+  for (int i = 0; i < 4; i++)
+    mesh_vertex(mesh, corners[i][0], corners[i][1], corners[i][2]);
+  mesh_triangle(mesh, first, first + 1, first + 2, material);
+  mesh_triangle(mesh, first, first + 2, first + 3, material);
+}
+
 void mesh_box(struct trax_mesh *mesh, const float low[3], const float high[3], uint32_t material) {
   static const unsigned char faces[12][3] = {{0, 1, 3}, {0, 3, 2}, {4, 7, 5}, {4, 6, 7}, {0, 5, 1}, {0, 4, 5},
                                              {2, 3, 7}, {2, 7, 6}, {0, 2, 6}, {0, 6, 4}, {1, 7, 3}, {1, 5, 7}};
@@ -61,16 +69,16 @@ static uint32_t middle(struct trax_mesh *mesh, float radius, uint32_t a, uint32_
 }
 
 static void divide(struct trax_mesh *mesh, float radius, unsigned levels, uint32_t a, uint32_t b, uint32_t c,
-                   uint32_t material) {
+                   uint32_t material, bool turned) {
   if (levels == 0) {
-    mesh_triangle(mesh, a, b, c, material);
+    mesh_triangle(mesh, a, turned ? c : b, turned ? b : c, material);
     return;
   }
   uint32_t ab = middle(mesh, radius, a, b), bc = middle(mesh, radius, b, c), ca = middle(mesh, radius, c, a);
-  divide(mesh, radius, levels - 1, a, ab, ca, material);
-  divide(mesh, radius, levels - 1, ab, b, bc, material);
-  divide(mesh, radius, levels - 1, ca, bc, c, material);
-  divide(mesh, radius, levels - 1, ab, bc, ca, material);
+  divide(mesh, radius, levels - 1, a, ab, ca, material, turned);
+  divide(mesh, radius, levels - 1, ab, b, bc, material, turned);
+  divide(mesh, radius, levels - 1, ca, bc, c, material, turned);
+  divide(mesh, radius, levels - 1, ab, bc, ca, material, turned);
 }
 
 void mesh_sphere(struct trax_mesh *mesh, float radius, unsigned levels, uint32_t material) {
@@ -81,7 +89,8 @@ void mesh_sphere(struct trax_mesh *mesh, float radius, unsigned levels, uint32_t
     tips[i] = mesh_vertex(mesh, p[0], p[1], p[2]);
   }
   for (int octant = 0; octant < 8; octant++)
-    divide(mesh, radius, levels, tips[octant & 1], tips[2 + (octant >> 1 & 1)], tips[4 + (octant >> 2)], material);
+    divide(mesh, radius, levels, tips[octant & 1], tips[2 + (octant >> 1 & 1)], tips[4 + (octant >> 2)], material,
+           __builtin_parity((unsigned)octant));
 }
 
 float random_unit(uint32_t *state) {
@@ -133,6 +142,13 @@ void build(struct trax_scene *scene, const struct trax_mesh *mesh, const struct 
     fprintf(stderr, "build: %s\n", error.message);
     abort();
   }
+}
+
+struct trax_scene scene_of(struct trax_mesh *mesh, const struct trax_build_options *options) {
+  struct trax_scene scene = {0};
+  build(&scene, mesh, options);
+  trax_mesh_release(mesh);
+  return scene;
 }
 
 int normalise(struct trax_scene *scene, struct trax_view *view) {

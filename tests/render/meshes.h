@@ -9,9 +9,10 @@ uint32_t mesh_vertex(struct trax_mesh *mesh, float x, float y, float z);
 void mesh_triangle(struct trax_mesh *mesh, uint32_t a, uint32_t b, uint32_t c, uint32_t material);
 uint32_t mesh_material(struct trax_mesh *mesh, float red, float green, float blue);
 
+void mesh_quad(struct trax_mesh *mesh, const float corners[4][3], uint32_t material);
 /* Twelve triangles that share eight vertices. */
 void mesh_box(struct trax_mesh *mesh, const float low[3], const float high[3], uint32_t material);
-/* A closed surface of 8 * 4^levels triangles with shared vertices; centre at the origin. */
+/* A closed surface about the origin of 8 * 4^levels triangles with shared vertices, counterclockwise from outside. */
 void mesh_sphere(struct trax_mesh *mesh, float radius, unsigned levels, uint32_t material);
 /* count triangles of random places and sizes within [-1, 1]^3. */
 void mesh_soup(struct trax_mesh *mesh, unsigned count, uint32_t seed);
@@ -29,6 +30,8 @@ struct trax_view view_from(float ex, float ey, float ez, float dx, float dy, flo
 void chain_scene(struct trax_scene *scene);
 
 void build(struct trax_scene *scene, const struct trax_mesh *mesh, const struct trax_build_options *options);
+/* Builds the scene of a mesh, which is released. */
+struct trax_scene scene_of(struct trax_mesh *mesh, const struct trax_build_options *options);
 /* Returns the exponent. */
 int normalise(struct trax_scene *scene, struct trax_view *view);
 struct trax_picture take(const struct trax_scene *scene, const struct trax_view *view, uint32_t width, uint32_t height,

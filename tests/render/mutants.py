@@ -75,7 +75,7 @@ MUTANTS = [
 
 
 def failures(program):
-    """Which tests of the program fail."""
+    """Returns which tests of the program fail."""
     run = ended(SECONDS, program)
     if run is None:
         return [f"{program.name} does not end"]
@@ -84,7 +84,7 @@ def failures(program):
 
 
 def noticed(folder, build, mutant):
-    """Which tests fail in a copy of the device program."""
+    """Returns which tests fail in a copy of the device program."""
     changed_copy(folder, "tests/render", mutant)
     failed = []
     for test, program, macros in TESTS:

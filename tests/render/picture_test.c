@@ -57,9 +57,8 @@ static const struct trax_view *room_view(void) {
 static void test_room(void **state) {
   (void)state;
   struct trax_mesh mesh = {0};
-  struct trax_scene scene = {0};
   make_room(&mesh);
-  build(&scene, &mesh, NULL);
+  struct trax_scene scene = scene_of(&mesh, NULL);
   struct trax_picture picture = agreeing(&scene, room_view(), 160, 120, 19);
   unsigned red = 0, green = 0, dark = 0, lit = 0;
   for (unsigned i = 0; i < 160 * 120; i++) {
@@ -70,15 +69,13 @@ static void test_room(void **state) {
   assert_true(red > 1000 && green > 1000 && dark > 500 && lit > 4000);
   trax_picture_release(&picture);
   trax_scene_release(&scene);
-  trax_mesh_release(&mesh);
 }
 
 static void test_any_number_of_threads(void **state) {
   (void)state;
   struct trax_mesh mesh = {0};
-  struct trax_scene scene = {0};
   make_room(&mesh);
-  build(&scene, &mesh, NULL);
+  struct trax_scene scene = scene_of(&mesh, NULL);
   struct trax_picture one = take(&scene, room_view(), 61, 33, false, 1);
   for (unsigned threads = 2; threads <= 200; threads = threads * 3 + 1) { /* more than there are rows, too */
     struct trax_picture more = take(&scene, room_view(), 61, 33, false, threads);
@@ -89,22 +86,19 @@ static void test_any_number_of_threads(void **state) {
   struct trax_picture tiny = take(&scene, room_view(), 1, 1, false, 64); /* more threads than pixels */
   trax_picture_release(&tiny);
   trax_scene_release(&scene);
-  trax_mesh_release(&mesh);
 }
 
 static void test_soup(void **state) {
   (void)state;
   for (uint32_t seed = 1; seed <= 4; seed++) {
     struct trax_mesh mesh = {0};
-    struct trax_scene scene = {0};
     mesh_soup(&mesh, 3000, seed);
-    build(&scene, &mesh, NULL);
+    struct trax_scene scene = scene_of(&mesh, NULL);
     struct trax_view view = view_from(0.3f, 0.5f, 2.6f, -0.1f, -0.2f, -1, 45, 1.5f, 2, 2);
     struct trax_picture picture = agreeing(&scene, &view, 160, 90, 14);
     assert_in_range(background_pixels(&picture), 500, 14000);
     trax_picture_release(&picture);
     trax_scene_release(&scene);
-    trax_mesh_release(&mesh);
   }
 }
 
@@ -114,10 +108,9 @@ static void test_inside_a_sphere(void **state) {
   (void)state;
   for (unsigned levels = 1; levels <= 6; levels++) {
     struct trax_mesh mesh = {0};
-    struct trax_scene scene = {0};
     mesh_sphere(&mesh, 3, levels, 0);
-    build(&scene, &mesh, NULL);
-    /* From the centre, symmetric: many rays meet vertices and edges; the light is there as well. */
+    struct trax_scene scene = scene_of(&mesh, NULL);
+    /* The view from the centre is symmetric: many rays meet vertices and edges. The light is there, too. */
     struct trax_view view = view_from(0, 0, 0, 0, 0, -1, 120, 0, 0, 0);
     struct trax_picture picture = agreeing(&scene, &view, 255, 129, 33);
     assert_int_equal(background_pixels(&picture), 0);
@@ -125,7 +118,6 @@ static void test_inside_a_sphere(void **state) {
       assert_true((picture.pixels[i] & 0xFF) > 160); /* lit: the ambient light alone gives at most 79 */
     trax_picture_release(&picture);
     trax_scene_release(&scene);
-    trax_mesh_release(&mesh);
   }
 }
 
@@ -135,10 +127,9 @@ static void test_convex_body_from_outside(void **state) {
   const float offsets[] = {0, 10, 1000};
   for (size_t i = 0; i < sizeof offsets / sizeof *offsets; i++) {
     struct trax_mesh mesh = {0};
-    struct trax_scene scene = {0};
     mesh_sphere(&mesh, 1, 4, 0);
     mesh_transform(&mesh, 1, offsets[i], -offsets[i], offsets[i]);
-    build(&scene, &mesh, NULL);
+    struct trax_scene scene = scene_of(&mesh, NULL);
     float x = offsets[i], y = -offsets[i], z = offsets[i];
     struct trax_view view = view_from(x, y, z + 3, 0, 0, -1, 45, x, y, z + 3); /* the light at the eye */
     struct trax_picture picture = take(&scene, &view, 128, 128, false, 2);
@@ -153,16 +144,14 @@ static void test_convex_body_from_outside(void **state) {
     assert_true(unlit < lit / 50);
     trax_picture_release(&picture);
     trax_scene_release(&scene);
-    trax_mesh_release(&mesh);
   }
 }
 
 static void test_shapes_of_pictures(void **state) {
   (void)state;
   struct trax_mesh mesh = {0};
-  struct trax_scene scene = {0};
   make_room(&mesh);
-  build(&scene, &mesh, NULL);
+  struct trax_scene scene = scene_of(&mesh, NULL);
   const uint32_t sizes[][2] = {{1, 1}, {1, 2}, {2, 1}, {1, 97}, {97, 1}, {7, 8}, {8, 7}, {9, 9}, {3000, 1}, {1, 3000}};
   for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
     uint32_t pixels = sizes[i][0] * sizes[i][1];
@@ -172,17 +161,15 @@ static void test_shapes_of_pictures(void **state) {
     trax_picture_release(&picture);
   }
   trax_scene_release(&scene);
-  trax_mesh_release(&mesh);
 }
 
 /* The ray of a 1 x 1 picture is the view's direction exactly: two of its components are zero. */
 static void test_axis_parallel_rays(void **state) {
   (void)state;
   struct trax_mesh mesh = {0};
-  struct trax_scene scene = {0};
   mesh_box(&mesh, (float[]){-1, -1, -1}, (float[]){1, 1, 1}, 0);
   mesh_box(&mesh, (float[]){1, 1, 1}, (float[]){2, 2, 2}, 0); /* its planes go on where the first one's end */
-  build(&scene, &mesh, NULL);
+  struct trax_scene scene = scene_of(&mesh, NULL);
   for (int axis = 0; axis < 3; axis++)
     for (int sign = -1; sign <= 1; sign += 2)
       for (int place = 0; place < 9; place++) {
@@ -199,17 +186,15 @@ static void test_axis_parallel_rays(void **state) {
         trax_picture_release(&picture);
       }
   trax_scene_release(&scene);
-  trax_mesh_release(&mesh);
 }
 
 /* Eyes inside, on planes of boxes, on surfaces' planes, on a vertex. */
 static void test_eyes_in_awkward_places(void **state) {
   (void)state;
   struct trax_mesh mesh = {0};
-  struct trax_scene scene = {0};
   mesh_box(&mesh, (float[]){-2, -2, -2}, (float[]){2, 2, 2}, 0);
   mesh_box(&mesh, (float[]){-1, -1, -1}, (float[]){0, 0, 0}, 0);
-  build(&scene, &mesh, NULL);
+  struct trax_scene scene = scene_of(&mesh, NULL);
   const float eyes[][3] = {{-0.5f, -0.5f, -0.5f}, {0, 1, 1}, {1, 0, 1}, {0, 0, 1}, {-1, 0.5f, 0}, {0.5f, 0.5f, 0.5f}};
   for (size_t i = 0; i < sizeof eyes / sizeof *eyes; i++)
     for (int axis = 0; axis < 3; axis++) {
@@ -221,32 +206,27 @@ static void test_eyes_in_awkward_places(void **state) {
       trax_picture_release(&picture);
     }
   trax_scene_release(&scene);
-  trax_mesh_release(&mesh);
 }
 
 static void test_one_triangle_and_none(void **state) {
   (void)state;
   struct trax_mesh mesh = {0};
-  struct trax_scene scene = {0};
   struct trax_view view = view_from(0.25f, 0.25f, 2, 0, 0, -1, 60, 0.2f, 0.3f, 1);
-  build(&scene, &mesh, NULL);
+  struct trax_scene scene = scene_of(&mesh, NULL);
   struct trax_picture picture = agreeing(&scene, &view, 40, 30, 0);
   assert_int_equal(background_pixels(&picture), 40 * 30);
   trax_picture_release(&picture);
   trax_scene_release(&scene);
 
   for (uint32_t turned = 0; turned < 2; turned++) { /* either side is drawn alike */
-    struct trax_mesh one = {0};
-    mesh_vertex(&one, 0, 0, 0), mesh_vertex(&one, 1, 0, 0), mesh_vertex(&one, 0, 1, 0);
-    mesh_triangle(&one, 0, 1 + turned, 2 - turned, 0);
-    build(&scene, &one, NULL);
+    mesh_vertex(&mesh, 0, 0, 0), mesh_vertex(&mesh, 1, 0, 0), mesh_vertex(&mesh, 0, 1, 0);
+    mesh_triangle(&mesh, 0, 1 + turned, 2 - turned, 0);
+    scene = scene_of(&mesh, NULL);
     picture = agreeing(&scene, &view, 160, 120, 2);
     assert_in_range(160 * 120 - background_pixels(&picture), 1300, 1400); /* 1/2 of (120 / (4 tan 30))^2 = 1350 */
     trax_picture_release(&picture);
     trax_scene_release(&scene);
-    trax_mesh_release(&one);
   }
-  trax_mesh_release(&mesh);
 }
 
 /* Triangles without area, which the importer would drop, are never hit and harm nothing. */
@@ -282,11 +262,10 @@ static void test_scale(void **state) {
   const int exponents[] = {0, -3, 9, -60, 55, -90, 25};
   for (size_t i = 0; i < sizeof exponents / sizeof *exponents; i++) {
     struct trax_mesh mesh = {0};
-    struct trax_scene scene = {0};
     float scale = ldexpf(1, exponents[i]);
     make_room(&mesh);
     mesh_transform(&mesh, scale, 0, 0, 0);
-    build(&scene, &mesh, NULL);
+    struct trax_scene scene = scene_of(&mesh, NULL);
     struct trax_view view = *room_view();
     for (int c = 0; c < 3; c++)
       view.eye[c] *= scale, view.light[c] *= scale;
@@ -300,7 +279,6 @@ static void test_scale(void **state) {
       trax_picture_release(&picture);
     }
     trax_scene_release(&scene);
-    trax_mesh_release(&mesh);
   }
   trax_picture_release(&first);
 }
@@ -309,10 +287,9 @@ static void test_scale(void **state) {
 static void test_far_offset(void **state) {
   (void)state;
   struct trax_mesh mesh = {0};
-  struct trax_scene scene = {0};
   make_room(&mesh);
   mesh_transform(&mesh, 64, 1e7f, -1e7f, 1e7f);
-  build(&scene, &mesh, NULL);
+  struct trax_scene scene = scene_of(&mesh, NULL);
   struct trax_view view = view_from(1e7f + 2, -1e7f + 3, 1e7f + 250, 0, 0, -1, 40, 1e7f + 7, -1e7f + 50, 1e7f + 12);
   assert_int_equal(normalise(&scene, &view), -3);
   /* The points that shadow rays start from are a unit apart, too: the shadows' borders are as coarse. */
@@ -320,15 +297,13 @@ static void test_far_offset(void **state) {
   assert_true(background_pixels(&picture) < 2000);
   trax_picture_release(&picture);
   trax_scene_release(&scene);
-  trax_mesh_release(&mesh);
 }
 
 static void test_light_that_is_beyond_any_scale(void **state) {
   (void)state;
   struct trax_mesh mesh = {0};
-  struct trax_scene scene = {0};
   make_room(&mesh);
-  build(&scene, &mesh, NULL);
+  struct trax_scene scene = scene_of(&mesh, NULL);
   struct trax_view view = *room_view();
   trax_error error;
   int exponent;
@@ -340,7 +315,6 @@ static void test_light_that_is_beyond_any_scale(void **state) {
   assert_int_equal(trax_normalise(&scene, &view, &exponent, &error), TRAX_ERROR);
   assert_non_null(strstr(error.message, "light"));
   trax_scene_release(&scene);
-  trax_mesh_release(&mesh);
 }
 
 /* The deepest scene there may be, where the whole stack is in use (with the sanitizers an overflow is seen). */

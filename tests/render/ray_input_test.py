@@ -2,12 +2,10 @@
 """ray_input_test.py BIN: trax-render --rays finds, for the rays of a picture, what the picture's rays hit, in every bit
 and in any order; other files are refused with their place."""
 import functools
-import os
 import pathlib
 import shutil
 import struct
 import sys
-import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 import checking  # noqa: E402
@@ -41,7 +39,7 @@ def trace(picture):
 
 
 def results(file):
-    """What each ray hit; of shadow and occlusion rays only whether they did."""
+    """Returns what each ray hit; for shadow and occlusion rays, only whether they did."""
     records = struct.iter_unpack("<8f3H2BI3f2I", pathlib.Path(file).read_bytes()[HEADER:])
     return [record[12] if record[11] in (1, 2) else record[12:17] for record in records]
 
@@ -116,25 +114,20 @@ def check_refusals(rays, file):
     check("--ray-order without --rays" in done.stderr, done.stderr)
 
 
-def main():
-    with tempfile.TemporaryDirectory() as folder:
-        os.chdir(folder)
-        shutil.copy(BIN.parent / "tests/forest.trax", "forest.trax")
-        pathlib.Path("floor.obj").write_text(FLOOR)
-        lines = [line.split() for line in FLOOR.splitlines()]
-        pathlib.Path("huge.obj").write_text("\n".join(
-            " ".join([word, *(f"{float(place) * 1e12:g}" if word == "v" else place for place in places)])
-            for word, *places in lines))
-        first = {picture: check_picture(picture) for picture in PICTURES}
-        exponents = {picture: struct.unpack_from("<i", file, 24)[0] for picture, (_, file) in first.items()}
-        check({picture for picture, exponent in exponents.items() if exponent} == {"huge"}, exponents)
-        call("trax-render", *first["binary"][0], "--prepare", "exact", "--quiet")
-        check('"exact"' in pathlib.Path("exact/manifest.json").read_text(), "hits of the floor are not exact")
-        check_orders(first["paper"][0])
-        check_refusals(*first["paper"])
-        os.chdir("/")
-    return checking.failures != 0
+def pictures():
+    shutil.copy(BIN.parent / "tests/forest.trax", "forest.trax")
+    pathlib.Path("floor.obj").write_text(FLOOR)
+    lines = [line.split() for line in FLOOR.splitlines()]
+    pathlib.Path("huge.obj").write_text("\n".join(
+        " ".join([word, *(f"{float(place) * 1e12:g}" if word == "v" else place for place in places)])
+        for word, *places in lines))
+    first = {picture: check_picture(picture) for picture in PICTURES}
+    exponents = {picture: struct.unpack_from("<i", file, 24)[0] for picture, (_, file) in first.items()}
+    check({picture for picture, exponent in exponents.items() if exponent} == {"huge"}, exponents)
+    call("trax-render", *first["binary"][0], "--prepare", "exact", "--quiet")
+    check('"exact"' in pathlib.Path("exact/manifest.json").read_text(), "hits of the floor are not exact")
+    check_orders(first["paper"][0])
+    check_refusals(*first["paper"])
 
 
-if __name__ == "__main__":
-    sys.exit(main())
+sys.exit(checking.run(pictures))

@@ -22,9 +22,8 @@ static _Bool exact; /* which hits the functions below are to find */
 static void test_slots_are_pixels(void **state) {
   (void)state;
   struct trax_mesh mesh = {0};
-  struct trax_scene scene = {0};
   struct trax_view view = view_from(0, 0, 0, 0, 0, -1, 60, 0, 1, 0);
-  build(&scene, &mesh, NULL);
+  struct trax_scene scene = scene_of(&mesh, NULL);
   unsigned char *seen = malloc(300 * 300);
   assert_non_null(seen);
   for (uint32_t width = 1; width <= 300; width += width < 12 ? 1 : width < 70 ? 7 : 43)
@@ -53,9 +52,8 @@ static void test_slots_are_pixels(void **state) {
 static void test_slots_of_large_pictures(void **state) {
   (void)state;
   struct trax_mesh mesh = {0};
-  struct trax_scene scene = {0};
   struct trax_view view = view_from(0, 0, 0, 0, 0, -1, 60, 0, 1, 0);
-  build(&scene, &mesh, NULL);
+  struct trax_scene scene = scene_of(&mesh, NULL);
   const uint32_t side = 1u << TRAX_TILE_LOG2_SIDE;
   for (uint32_t width = 1; width <= TRAX_RENDER_MAX_SIDE; width += width % side == 1 ? side - 1 : 1) {
     struct trax_frame frame;
@@ -95,7 +93,7 @@ static bool shoot(const struct trax_scene *scene, const float from[3], const flo
   return nearest;
 }
 
-/* From within a closed surface, aimed exactly at vertices, at points of edges, and anywhere: every ray hits. */
+/* Every ray from within a closed surface hits, aimed exactly at vertices, at points of edges, or anywhere. */
 static void test_no_ray_leaves_a_closed_surface(void **state) {
   struct trax_mesh mesh = {0};
   struct trax_scene scene = {0};
@@ -127,9 +125,9 @@ static void test_no_ray_leaves_a_closed_surface(void **state) {
    out: there both answers are right. */
 static void test_nearest_hit(void **state) {
   struct trax_mesh mesh = {0};
-  struct trax_scene scene = {0};
   mesh_soup(&mesh, 400, 99);
-  build(&scene, &mesh, &(struct trax_build_options){.nodes = *(const enum trax_node_layout *)*state});
+  struct trax_scene scene =
+      scene_of(&mesh, &(struct trax_build_options){.nodes = *(const enum trax_node_layout *)*state});
   uint32_t seed = 3;
   unsigned hits = 0, misses = 0;
   const int rays = exact ? 5000 : 20000;
@@ -178,7 +176,6 @@ static void test_nearest_hit(void **state) {
   }
   assert_true((int)hits > rays / 10 && (int)misses > rays / 10);
   trax_scene_release(&scene);
-  trax_mesh_release(&mesh);
 }
 
 /* The point that shadow rays start from is off the plane by enough: no ray that leads away from the plane meets the
@@ -224,7 +221,8 @@ int main(void) {
   enum trax_node_layout layouts[TRAX_NODE_LAYOUTS];
   for (unsigned i = 0; i < TRAX_NODE_LAYOUTS; i++)
     layouts[i] = (enum trax_node_layout)i;
-#define OF_LAYOUT(TEST, LAYOUT) {#TEST ", " #LAYOUT, TEST, NULL, NULL, &layouts[TRAX_NODES_##LAYOUT]}
+#define OF_LAYOUT(TEST, LAYOUT)                                                                                        \
+  { #TEST ", " #LAYOUT, TEST, NULL, NULL, &layouts[TRAX_NODES_##LAYOUT] }
   const struct CMUnitTest slots[] = {cmocka_unit_test(test_slots_are_pixels),
                                      cmocka_unit_test(test_slots_of_large_pictures)};
   const struct CMUnitTest tests[] = {

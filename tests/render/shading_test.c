@@ -65,13 +65,6 @@ static double mean_of(const struct trax_picture *picture) {
   return sum / (double)count_of(picture);
 }
 
-static void build_gallery(struct trax_scene *scene, unsigned parts) {
-  struct trax_mesh mesh = {0};
-  gallery_mesh(&mesh, parts);
-  build(scene, &mesh, &(struct trax_build_options){.smooth = true, .crease_degrees = 40});
-  trax_mesh_release(&mesh);
-}
-
 /* --- every feature with every other --- */
 
 /* Twelve rows in which any two columns have all four pairs of values (Plackett and Burman, "The Design of Optimum
@@ -95,8 +88,7 @@ static void test_combinations(void **state) {
     options.floats = design(row, 9);
     options.one_sided = row / 2 % 3 == 1;
     const struct trax_view view = gallery_view(design(row, 10) ? 3 : 0);
-    struct trax_scene scene = {0};
-    build_gallery(&scene, parts);
+    struct trax_scene scene = gallery_scene(parts);
     struct trax_picture twin = shoot(&scene, &view, &options, false, 2);
     struct trax_picture other = shoot(&scene, &view, &options, true, 0);
     struct trax_difference difference;
@@ -112,7 +104,7 @@ static void test_combinations(void **state) {
     trax_picture_release(&twin);
     trax_picture_release(&other);
 
-    /* The same with paths: of the same random numbers, so nearly all pixels are alike, too. */
+    /* Paths are alike, too: the random numbers are the same, so nearly all pixels are. */
     options.paths = 1 + row % 5;
     options.seed = row;
     options.floats = true;
@@ -135,8 +127,7 @@ static void test_combinations(void **state) {
 static void test_floats_are_the_picture(void **state) {
   (void)state;
   for (unsigned parts = 0; parts <= GALLERY_ALL; parts += GALLERY_ALL) {
-    struct trax_scene scene = {0};
-    build_gallery(&scene, parts);
+    struct trax_scene scene = gallery_scene(parts);
     const struct trax_view view = gallery_view(0);
     struct trax_frame_options options = plain;
     for (options.samples = 1; options.samples <= 4; options.samples += 3) {
@@ -162,11 +153,10 @@ static void test_scale(void **state) {
   struct trax_picture pictures[3];
   for (int i = 0; i < 3; i++) {
     struct trax_mesh mesh = {0};
-    struct trax_scene scene = {0};
     const float scale = ldexpf(1, exponents[i]);
     gallery_mesh(&mesh, GALLERY_ALL);
     mesh_transform(&mesh, scale, 0, 0, 0);
-    build(&scene, &mesh, &(struct trax_build_options){.smooth = true, .crease_degrees = 40});
+    struct trax_scene scene = scene_of(&mesh, &(struct trax_build_options){.smooth = true, .crease_degrees = 40});
     struct trax_view view = gallery_view(3);
     for (int k = 0; k < 3; k++) {
       view.eye[k] *= scale;
@@ -180,7 +170,6 @@ static void test_scale(void **state) {
     options.floats = true, options.paths = 4, options.samples = 2;
     pictures[i] = shoot(&scene, &view, &options, false, 2);
     trax_scene_release(&scene);
-    trax_mesh_release(&mesh);
   }
   for (int i = 1; i < 3; i++)
     assert_memory_equal(pictures[0].radiance, pictures[i].radiance, count_of(&pictures[0]) * sizeof(float));
@@ -190,8 +179,7 @@ static void test_scale(void **state) {
 
 static void test_paths_of_any_number_of_threads(void **state) {
   (void)state;
-  struct trax_scene scene = {0};
-  build_gallery(&scene, GALLERY_ALL);
+  struct trax_scene scene = gallery_scene(GALLERY_ALL);
   const struct trax_view view = gallery_view(3);
   struct trax_frame_options options = plain;
   options.paths = 5, options.samples = 2, options.smooth = true, options.seed = 4;
@@ -215,8 +203,7 @@ static void test_paths_of_any_number_of_threads(void **state) {
 
 static void test_lights_add_up(void **state) {
   (void)state;
-  struct trax_scene scene = {0};
-  build_gallery(&scene, GALLERY_ALL & ~GALLERY_LAMP);
+  struct trax_scene scene = gallery_scene(GALLERY_ALL & ~GALLERY_LAMP);
   struct trax_frame_options options = plain;
   options.floats = true, options.ambient = 0, options.background = 0xFF000000u;
   const struct trax_view all = gallery_view(3);
@@ -239,25 +226,11 @@ static void test_lights_add_up(void **state) {
 }
 
 /* A mesh of one sphere about the origin, all of one material. */
-static void build_sphere(struct trax_scene *scene, float radius, const struct trax_material *material) {
+static struct trax_scene sphere_scene(float radius, const struct trax_material *material) {
   struct trax_mesh whole = {0};
   mesh_sphere(&whole, radius, 4, mesh_material(&whole, 0, 0, 0));
-  for (uint32_t i = 0; i < whole.triangle_count; i++) { /* outwards: counterclockwise from outside */
-    uint32_t *v = whole.triangles[i].vertices;
-    const float *a = whole.vertices[v[0]], *b = whole.vertices[v[1]], *c = whole.vertices[v[2]];
-    float outwards = 0;
-    for (int k = 0; k < 3; k++) {
-      int l = (k + 1) % 3, m = (k + 2) % 3;
-      outwards += ((b[l] - a[l]) * (c[m] - a[m]) - (b[m] - a[m]) * (c[l] - a[l])) * a[k];
-    }
-    if (outwards < 0) {
-      const uint32_t swapped = v[1];
-      v[1] = v[2], v[2] = swapped;
-    }
-  }
   whole.materials[0].surface = *material;
-  build(scene, &whole, &(struct trax_build_options){.smooth = true});
-  trax_mesh_release(&whole);
+  return scene_of(&whole, &(struct trax_build_options){.smooth = true});
 }
 
 static const struct trax_view *dark_view(void) {
@@ -268,13 +241,12 @@ static const struct trax_view *dark_view(void) {
   return &view;
 }
 
-/* Inside of a closed surface that shines e and reflects r, light is e + e r + e r^2 + ..., as far as paths go. */
+/* The light in a closed surface that shines e and reflects r is e + e r + e r^2 + ..., up to the length of paths. */
 static void test_furnace_from_inside(void **state) {
   (void)state;
   const struct trax_material material = {
       .diffuse = {0.5f, 0.8f, 0}, .emission = {1, 0.5f, 0.25f}, .ior = 1, .opacity = 1};
-  struct trax_scene scene = {0};
-  build_sphere(&scene, 1, &material);
+  struct trax_scene scene = sphere_scene(1, &material);
   struct trax_view view = *dark_view();
   view.eye[0] = 0.3f, view.eye[2] = 0.1f;
   struct trax_frame_options options = plain;
@@ -316,8 +288,7 @@ static void test_furnace_from_outside(void **state) {
                most[] = {1.00001, 1.00001, 1.00001, 1.002, 1.002, 1.002};
   for (int i = 0; i < 6; i++)
     for (int smooth = 0; smooth < 2; smooth++) {
-      struct trax_scene scene = {0};
-      build_sphere(&scene, 1, &bodies[i]);
+      struct trax_scene scene = sphere_scene(1, &bodies[i]);
       struct trax_frame_options options = plain;
       options.floats = true, options.samples = 16, options.paths = 32, options.background = 0xFFFFFFFFu;
       options.smooth = smooth;
@@ -345,8 +316,7 @@ static void test_furnace_from_outside(void **state) {
 /* A closed body is from outside what it is without its back faces, and from inside nothing. */
 static void test_one_side(void **state) {
   (void)state;
-  struct trax_scene scene = {0};
-  build_sphere(&scene, 1, &trax_default_material);
+  struct trax_scene scene = sphere_scene(1, &trax_default_material);
   struct trax_view view = view_from(0, 0, 3, 0, 0, -1, 60, 2, 3, 4);
   struct trax_frame_options options = plain;
   struct trax_difference difference;
@@ -369,7 +339,6 @@ static void test_bent_surfaces(void **state) {
   (void)state;
   for (uint32_t kind = TRAX_MATERIAL_LAMBERT; kind < TRAX_MATERIAL_KINDS; kind++) {
     struct trax_mesh mesh = {0};
-    struct trax_scene scene = {0};
     const uint32_t body = mesh_material(&mesh, 0.5f, 0.6f, 0.7f), floor = mesh_material(&mesh, 0.7f, 0.3f, 0.2f);
     struct trax_material *material = &mesh.materials[body].surface;
     material->kind = kind, material->ior = 1.4f, material->roughness = 0.3f;
@@ -377,7 +346,7 @@ static void test_bent_surfaces(void **state) {
     mesh_box(&mesh, (float[]){-1.6f, -0.5f, -0.5f}, (float[]){-0.2f, 0.5f, 0.5f}, body);
     mesh_box(&mesh, (float[]){0.1f, -0.5f, -1.5f}, (float[]){0.9f, 0.5f, 0.8f}, body);
     mesh_box(&mesh, (float[]){-3, -0.8f, -3}, (float[]){3, -0.6f, 3}, floor);
-    build(&scene, &mesh, &(struct trax_build_options){.smooth = true, .crease_degrees = 180});
+    struct trax_scene scene = scene_of(&mesh, &(struct trax_build_options){.smooth = true, .crease_degrees = 180});
     const struct trax_view view = view_from(0.2f, 1.6f, 3, 0, -0.5f, -1, 45, 2, 3, 1);
     struct trax_frame_options options = plain;
     options.smooth = true;
@@ -391,23 +360,24 @@ static void test_bent_surfaces(void **state) {
     trax_picture_release(&twin);
     trax_picture_release(&other);
     trax_scene_release(&scene);
-    trax_mesh_release(&mesh);
   }
 }
 
 /* --- two ways to the same light --- */
 
+static void wide_floor(struct trax_mesh *mesh, float width, uint32_t material) {
+  mesh_quad(mesh, (float[][3]){{-width, 0, -width}, {width, 0, -width}, {width, 0, width}, {-width, 0, width}},
+            material);
+}
+
 static void floor_mesh(struct trax_mesh *mesh, bool lamp) {
   const uint32_t grey = mesh_material(mesh, 0.6f, 0.6f, 0.6f), bright = mesh_material(mesh, 0, 0, 0);
-  const uint32_t first = mesh_vertex(mesh, -3, 0, -3);
-  mesh_vertex(mesh, 3, 0, -3), mesh_vertex(mesh, 3, 0, 3), mesh_vertex(mesh, -3, 0, 3);
-  mesh_triangle(mesh, first, first + 1, first + 2, grey), mesh_triangle(mesh, first, first + 2, first + 3, grey);
+  wide_floor(mesh, 3, grey);
   mesh_box(mesh, (float[]){-0.3f, 0, -0.3f}, (float[]){0.3f, 0.4f, 0.3f}, grey);
   const float height = lamp ? 1 : -1; /* below the floor it does nothing */
-  const uint32_t corner = mesh_vertex(mesh, -0.8f, height, -0.5f);
-  mesh_vertex(mesh, 0.2f, height, -0.5f), mesh_vertex(mesh, 0.2f, height, 0.5f), mesh_vertex(mesh, -0.8f, height, 0.5f);
-  mesh_triangle(mesh, corner, corner + 1, corner + 2, bright);
-  mesh_triangle(mesh, corner, corner + 2, corner + 3, bright);
+  mesh_quad(mesh,
+            (float[][3]){{-0.8f, height, -0.5f}, {0.2f, height, -0.5f}, {0.2f, height, 0.5f}, {-0.8f, height, 0.5f}},
+            bright);
   for (int channel = 0; channel < 3; channel++)
     mesh->materials[bright].surface.emission[channel] = 2;
 }
@@ -419,7 +389,6 @@ static void test_rectangles_and_lamps(void **state) {
   double means[5];
   for (int way = 0; way < 5; way++) {
     struct trax_mesh mesh = {0};
-    struct trax_scene scene = {0};
     floor_mesh(&mesh, way >= 2);
     if (way == 3)
       mesh.materials[1].surface.alpha_cutoff = 0.5f; /* it has no holes, but shadow rays leave it out */
@@ -429,7 +398,7 @@ static void test_rectangles_and_lamps(void **state) {
       for (int i = 0; i < 3; i++)
         mesh_box(&mesh, (float[]){-2, 0.5f + 0.1f * (float)i, -2}, (float[]){2, 0.55f + 0.1f * (float)i, 2}, hole);
     }
-    build(&scene, &mesh, NULL);
+    struct trax_scene scene = scene_of(&mesh, NULL);
     struct trax_view view = view_from(0, 0.9f, 2.9f, 0, -0.5f, -1, 40, 0, 0, 0);
     view.light_count = 1;
     view.lights[0] = (struct trax_light){.kind = TRAX_LIGHT_RECTANGLE,
@@ -452,7 +421,6 @@ static void test_rectangles_and_lamps(void **state) {
     means[way] = sum;
     trax_picture_release(&picture);
     trax_scene_release(&scene);
-    trax_mesh_release(&mesh);
   }
   assert_true(means[0] > 10);
   for (int way = 1; way < 5; way++) {
@@ -468,14 +436,13 @@ static void test_holes_are_nothing(void **state) {
   struct trax_picture pictures[2][2]; /* without paths and with them; without leaves and with them */
   for (int leaves = 0; leaves < 2; leaves++) {
     struct trax_mesh mesh = {0};
-    struct trax_scene scene = {0};
     const uint32_t hole = mesh_material(&mesh, 1, 0, 0);
     mesh.materials[hole].surface.alpha_cutoff = 0.5f;
     mesh.materials[hole].surface.opacity = 0.25f;
     floor_mesh(&mesh, true);
     for (int i = 0; leaves && i < 5; i++)
       mesh_box(&mesh, (float[]){-1 - 0.1f * (float)i, 0.1f, -1}, (float[]){1 + 0.1f * (float)i, 0.8f, 1}, hole);
-    build(&scene, &mesh, NULL);
+    struct trax_scene scene = scene_of(&mesh, NULL);
     struct trax_view view = view_from(0, 0.9f, 2.9f, 0, -0.5f, -1, 40, 1, 2, 1);
     struct trax_frame_options options = plain;
     options.floats = true;
@@ -483,7 +450,6 @@ static void test_holes_are_nothing(void **state) {
     options.paths = 3, options.samples = 16;
     pictures[1][leaves] = shoot(&scene, &view, &options, by_embree, 2);
     trax_scene_release(&scene);
-    trax_mesh_release(&mesh);
   }
   for (int paths = 0; paths < 2; paths++) {
     struct trax_difference difference;
@@ -503,19 +469,13 @@ static void test_holes_are_nothing(void **state) {
 /* A floor so wide that shadow rays start far above it, and a lamp near it: the light is that on a small floor. */
 static struct trax_picture near_lamp(float width, int lamp, const struct trax_frame_options *options) {
   struct trax_mesh mesh = {0};
-  struct trax_scene scene = {0};
   const uint32_t grey = mesh_material(&mesh, 0.6f, 0.6f, 0.6f), bright = mesh_material(&mesh, 0, 0, 0);
-  const uint32_t first = mesh_vertex(&mesh, -width, 0, -width);
-  mesh_vertex(&mesh, width, 0, -width), mesh_vertex(&mesh, width, 0, width), mesh_vertex(&mesh, -width, 0, width);
-  mesh_triangle(&mesh, first, first + 1, first + 2, grey), mesh_triangle(&mesh, first, first + 2, first + 3, grey);
+  wide_floor(&mesh, width, grey);
   if (lamp == 3) {
-    const uint32_t corner = mesh_vertex(&mesh, -1, 1, -0.5f);
-    mesh_vertex(&mesh, 0, 1, -0.5f), mesh_vertex(&mesh, 0, 1, 0.5f), mesh_vertex(&mesh, -1, 1, 0.5f);
-    mesh_triangle(&mesh, corner, corner + 1, corner + 2, bright);
-    mesh_triangle(&mesh, corner, corner + 2, corner + 3, bright);
+    mesh_quad(&mesh, (float[][3]){{-1, 1, -0.5f}, {0, 1, -0.5f}, {0, 1, 0.5f}, {-1, 1, 0.5f}}, bright);
     mesh.materials[bright].surface.emission[0] = 2;
   }
-  build(&scene, &mesh, NULL);
+  struct trax_scene scene = scene_of(&mesh, NULL);
   struct trax_view view = view_from(0.4f, 0.9f, 0.5f, 0, -1, -0.01f, 60, 0.3f, 1, 0.2f);
   const struct trax_light lights[] = {{0},
                                       {.position = {0.3f, 1, 0.2f}, .falloff = 1, .strength = 1, .colour = {1, 1, 1}},
@@ -530,7 +490,6 @@ static struct trax_picture near_lamp(float width, int lamp, const struct trax_fr
   view.lights[0] = lights[lamp];
   struct trax_picture picture = shoot(&scene, &view, options, by_embree, 2);
   trax_scene_release(&scene);
-  trax_mesh_release(&mesh);
   return picture;
 }
 
@@ -554,16 +513,12 @@ static void test_near_lamps(void **state) {
     }
 }
 
-/* Where hits are exact, too: a floor of 2 x 10^5, the light 1 above it. */
+/* Exact hits, too: a floor of 2 x 10^5, and the light 1 above it. */
 static void test_exact_hits(void **state) {
   (void)state;
   struct trax_mesh mesh = {0};
-  struct trax_scene scene = {0};
-  const uint32_t grey = mesh_material(&mesh, 0.5625f, 0.5625f, 0.5625f);
-  const uint32_t first = mesh_vertex(&mesh, -1e5f, 0, -1e5f);
-  mesh_vertex(&mesh, 1e5f, 0, -1e5f), mesh_vertex(&mesh, 1e5f, 0, 1e5f), mesh_vertex(&mesh, -1e5f, 0, 1e5f);
-  mesh_triangle(&mesh, first, first + 1, first + 2, grey), mesh_triangle(&mesh, first, first + 2, first + 3, grey);
-  build(&scene, &mesh, NULL);
+  wide_floor(&mesh, 1e5f, mesh_material(&mesh, 0.5625f, 0.5625f, 0.5625f));
+  struct trax_scene scene = scene_of(&mesh, NULL);
   const struct trax_view view = view_from(0, 5, 0, 0, -1, -0.01f, 1, 0, 1, 0);
   struct trax_frame_options options = plain;
   options.ambient = 0;
@@ -572,14 +527,12 @@ static void test_exact_hits(void **state) {
     assert_in_range(picture.pixels[i] & 255, 190, 191); /* the root of 0.5625 */
   trax_picture_release(&picture);
   trax_scene_release(&scene);
-  trax_mesh_release(&mesh);
 }
 
 /* Embree's picture takes lights, depth, reach, seed and background from view, scene and options. */
 static void test_embree_has_its_own_parameters(void **state) {
   (void)state;
-  struct trax_scene scene = {0};
-  build_gallery(&scene, GALLERY_ALL);
+  struct trax_scene scene = gallery_scene(GALLERY_ALL);
   for (int kind = 0; kind < 3; kind++) {
     const struct trax_view view = gallery_view(3);
     struct trax_frame_options options = plain;
@@ -607,7 +560,6 @@ static void test_hostile_materials(void **state) {
   uint32_t seed = 11;
   for (int round = 0; round < 12; round++) {
     struct trax_mesh mesh = {0};
-    struct trax_scene scene = {0};
     for (uint32_t i = 0; i < 16; i++) {
       mesh_material(&mesh, 0, 0, 0);
       struct trax_material *material = &mesh.materials[i].surface;
@@ -623,7 +575,7 @@ static void test_hostile_materials(void **state) {
     for (uint32_t i = 0; i < mesh.triangle_count; i++)
       mesh.triangles[i].material = (uint32_t)(16 * random_unit(&seed));
     mesh_box(&mesh, (float[]){-1, -1, -1}, (float[]){1, 1, 1}, (uint32_t)round);
-    build(&scene, &mesh, &(struct trax_build_options){.smooth = true});
+    struct trax_scene scene = scene_of(&mesh, &(struct trax_build_options){.smooth = true});
     struct trax_view view = view_from(0.3f, 0.5f, 2.6f, -0.1f, -0.2f, -1, 45, 0, 0, 0);
     view.light_count = 4;
     for (int i = 0; i < 4; i++) /* two in corners of the box, one on a vertex, one of no area */
@@ -651,7 +603,6 @@ static void test_hostile_materials(void **state) {
     trax_picture_release(&direct);
     trax_picture_release(&picture);
     trax_scene_release(&scene);
-    trax_mesh_release(&mesh);
   }
 }
 

@@ -4,11 +4,9 @@ program's in every bit, as are its rays by kind, with several waves, with and wi
 renders."""
 import functools
 import json
-import os
 import pathlib
 import subprocess
 import sys
-import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 import checking  # noqa: E402
@@ -43,22 +41,17 @@ def render(name, *words):
     return pathlib.Path("x.pfm").read_bytes(), {key: found[key] for key in ("rays", "rays_by_kind") if key in found}
 
 
-def main():
-    with tempfile.TemporaryDirectory() as folder:
-        os.chdir(folder)
-        compile_program("sorted.elf")
-        compile_program("unsorted.elf", "-DSORTED=0")
-        for name, scene, picture in PICTURES:
-            call("trax-scene", BOX, "-q", *scene, "-o", f"{name}.trax")
-            general = render(name, *picture, "--no-specialise")
-            for program in ("sorted.elf", "unsorted.elf") if name == "paths" else ("sorted.elf",):
-                check(render(name, *picture, "--program", program) == general, name, program)
-        call("trax-scene", BOX, "-q", "-o", "plain.trax")
-        done = call("trax-render", "plain.trax", *LOOK, "--program", "sorted.elf", "-o", "x.png", status=1)
-        check("pictures with paths, materials or lights" in done.stderr, done.stderr)
-        os.chdir("/")
-    return checking.failures != 0
+def pictures():
+    compile_program("sorted.elf")
+    compile_program("unsorted.elf", "-DSORTED=0")
+    for name, scene, picture in PICTURES:
+        call("trax-scene", BOX, "-q", *scene, "-o", f"{name}.trax")
+        general = render(name, *picture, "--no-specialise")
+        for program in ("sorted.elf", "unsorted.elf") if name == "paths" else ("sorted.elf",):
+            check(render(name, *picture, "--program", program) == general, name, program)
+    call("trax-scene", BOX, "-q", "-o", "plain.trax")
+    done = call("trax-render", "plain.trax", *LOOK, "--program", "sorted.elf", "-o", "x.png", status=1)
+    check("pictures with paths, materials or lights" in done.stderr, done.stderr)
 
 
-if __name__ == "__main__":
-    sys.exit(main())
+sys.exit(checking.run(pictures))

@@ -52,7 +52,7 @@ def luminance(colour):
 
 
 def contrast(*colours):
-    """Of two colours as a style has them."""
+    """Returns the contrast of two colours as a style has them."""
     bright, dark = sorted(
         (luminance([float(part) for part in re.findall(r"[\d.]+", colour)[:3]]) for colour in colours), reverse=True)
     return (bright + 0.05) / (dark + 0.05)

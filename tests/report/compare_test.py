@@ -37,7 +37,7 @@ from command.main import main  # noqa: E402
 from compare.difference import compare, flat  # noqa: E402
 from compare.figures import SECTIONS, Figures  # noqa: E402
 from compare.page import without  # noqa: E402
-from compare.runs import HOST, Run, read_folded  # noqa: E402
+from compare.runs import HOST, Run  # noqa: E402
 from compare.text import is_empty, percent, print_comparison  # noqa: E402
 from trax_eval.pictures import png, read_png  # noqa: E402
 from trax_eval.tools import Tools  # noqa: E402
@@ -261,32 +261,19 @@ class Files(Scratch):
         super().setUp()
         self.place = pathlib.Path(self.made.name)
 
-    def folded(self, run):
-        """A file of --profile-folded with the run's functions and lines."""
-        profile = self.runs[run].profile["functions"]
-        return "".join(f"start;{name};{cause} {cycles}\n" for name, causes in profile.items()
-                       for cause, cycles in causes.items())
-
     def test_beside(self):
         shutil.copy(self.folder / "a.json", self.place / "r.json")
         bare = Run(self.place / "r.json")
         self.assertEqual((bare.profile, bare.kinds, bare.picture, bare.costs), (None,) * 4)
-        (self.place / "r.folded").write_text(self.folded("a"))
-        kinds = self.runs["a"].kinds
-        heads = list(next(iter(kinds.values())))
-        (self.place / "r.csv").write_text("\n".join([",".join(["kind", *heads]), *(
-            ",".join([name, *map(str, row.values())]) for name, row in kinds.items())]))
         shutil.copy(self.folder / "a.png", self.place / "r.png")
-        full = Run(self.place / "r.json")
-        self.assertEqual(full.profile["functions"], self.runs["a"].profile["functions"])
-        self.assertEqual((full.kinds, full.picture), (kinds, self.runs["a"].picture))
-        self.assertEqual(full.notes, [])
-        # Those of another run are not used.
-        (self.place / "r.folded").write_text(self.folded("b"))
+        drawn = Run(self.place / "r.json")
+        self.assertEqual((drawn.picture, drawn.notes), (self.runs["a"].picture, []))
+        # The page of another run is not used.
         shutil.copy(self.folder / "b.html", self.place / "r.html")
         other = Run(self.place / "r.json")
-        self.assertEqual((other.profile, len(other.notes)), (None, 2))
+        self.assertEqual((other.profile, other.kinds, other.costs, len(other.notes)), (None, None, None, 1))
         self.assertIn("page of another run", other.notes[0])
+        self.assertEqual(other.picture, self.runs["a"].picture)
 
     def test_page_alone(self):
         page = Run(self.folder / "a.html")
@@ -295,14 +282,6 @@ class Files(Scratch):
                          tuple(getattr(self.runs["a"], name) for name in ("profile", "kinds", "picture", "costs")))
         found = compare(page, self.runs["a"], FIGURES)[0]
         self.assertTrue(is_empty(found))
-
-    def test_folded(self):
-        made = read_folded("start;main;shade;shade.h:108;issued 7\nstart;main;issued 2\na;b.h:3;issued 1\n"
-                           "c.h:9;issued 4\n", "f")
-        self.assertEqual(made, {"functions": {"shade": {"issued": 7}, "main": {"issued": 2}, "a": {"issued": 1},
-                                              "c.h:9": {"issued": 4}},
-                                "lines": {"shade.h:108": {"issued": 7}, "(no line)": {"issued": 6},
-                                          "b.h:3": {"issued": 1}}})
 
     def test_every_filter_of_png(self):
         chance, width, height = random.Random(7), 13, 10
@@ -439,17 +418,8 @@ class Files(Scratch):
             self.assertIn(said, run.stderr)
             self.assertEqual((run.stdout, run.stderr.count("\n")), ("", 1))
         (self.place / "c.json").write_text(json.dumps(good))
-        for name, content in (("c.folded", "what\n"), ("c.folded", f"main;issued {'9' * 5000}\n"), ("c.png", "GIF89a")):
-            (self.place / name).write_text(content)
-            self.assertIn(name, self.command("c.json", "c.json", status=1, folder=self.place).stderr)
-            (self.place / name).unlink()
-        # Another table beside the statistics, and one with figures that no run has, are not the kinds of its rays.
-        head, cycles = "kind,rays,thread_cycles,issued\n", good["thread_cycles"]
-        for content in ("a,b\n1,2\n", f"{head}primary,1e999,{cycles},1\n", f"{head}primary,1,{cycles},{10**400}\n",
-                        f"{head}primary,1,{cycles},{'x' * 200000}\n", f"{head}primary,1,{cycles},{'9' * 5000}\n"):
-            (self.place / "c.csv").write_text(content)
-            found = json.loads(self.command("--json", "c.json", "c.json", folder=self.place).stdout)
-            self.assertNotIn("kinds", found)
+        (self.place / "c.png").write_text("GIF89a")
+        self.assertIn("c.png", self.command("c.json", "c.json", status=1, folder=self.place).stderr)
 
     def test_forged_pages(self):
         """A value of another type or size anywhere in the data of a page is an error that names the page."""
@@ -458,9 +428,12 @@ class Files(Scratch):
         page = json.loads(zlib.decompress(base64.b64decode(data)))
         last = page["instructions"][-2]  # the one behind it is no instruction
         function = last[4][0][0]
+        kinds = [f"kind,rays,thread_cycles,issued\nprimary,1,{end}"
+                 for end in ("1e999,1\n", "x" * 99999, f"{'9' * 5000},1\n")]
         for place, key, value in ((page["names"], function, 7), (last[5], 0, 10**400), (last[5], 0, "1"),
                                   (page["picture"], "width", -1), (page["picture"], "height", 0),
-                                  (page, "ray_kinds", 3), (page, "names", {})):
+                                  (page, "ray_kinds", 3), (page, "names", {}),
+                                  *((page, "ray_kinds", text) for text in (*kinds, "a,b\n1,2\n"))):
             kept, place[key] = place[key], value
             packed = base64.b64encode(zlib.compress(json.dumps(page).encode())).decode()
             (self.place / "forged.html").write_text(begin + packed + end)
@@ -482,7 +455,7 @@ class Files(Scratch):
         self.assertEqual(self.command("--help").stdout.splitlines()[0], "usage: trax-sim compare [OPTION...] A B")
 
     def test_program(self):
-        """The command as it is typed."""
+        """The command in a process of its own."""
         for words, status in (((self.folder / "a.json", self.folder / "b.json"), 0), (("none.json", "x"), 1)):
             run = subprocess.run([BIN / "trax-sim", "compare", *words], cwd=self.place, capture_output=True, text=True)
             here = self.command(*words, status=status, folder=self.place)

@@ -171,7 +171,7 @@ class DocsTest(unittest.TestCase):
         self.assertEqual(self.docs(self.folder / "page.txt")[0], 1)
 
     def test_stranger(self):
-        """What a sweep of somebody else says of its tables stands in all three, with the same figures, and each has a
+        """The tables that somebody else's sweep describes stand in all three, with the same figures, and each has a
         plot."""
         results = Results(example.stranger())
         out = io.StringIO()
@@ -206,8 +206,8 @@ class DocsTest(unittest.TestCase):
         self.assertIn("Beams: MRPS (beam, fog, 1280x720, exact)\nThey are fast.\n", text)
 
     def test_plots(self):
-        """Over a statistic variants are marks of one series, without lines; figures of many decades have a logarithmic
-        axis."""
+        """Variants are marks of one series, without lines, if x is a statistic. Figures of many decades have a
+        logarithmic axis."""
         made = example.stranger()
         for place, record in enumerate(made["runs"]):
             record["values"] = {"error.rmse": 10.0**(place - 4), "count": 1}
@@ -264,7 +264,7 @@ class DocsTest(unittest.TestCase):
                 list(tables.of_sweep(Results(made), PAPER, made["sweeps"][0]))
 
     def test_nothing_varies(self):
-        """Of a sweep over scenes alone, each is a row and a mark; of a single run there is a table without a plot."""
+        """A sweep over scenes alone has a row and a mark for each; a single run has a table without a plot."""
         made = example.stranger()
         made["runs"] = [made["runs"][0], made["runs"][4]]
         for record in made["runs"]:
@@ -302,7 +302,7 @@ class DocsTest(unittest.TestCase):
         self.assertEqual([title for title, _ in table.columns][2:3], ['pixels that differ from "as it is"'])
 
     def test_relations(self):
-        """Per cent and times instead of figures, figures beside them, and what a row has in all."""
+        """A table may have per cent and times instead of figures, figures beside them, and a row's summary."""
         made = example.stranger()
         made["sweeps"][0]["table"] = {
             "rows": "variant", "columns": "scene", "where": {"chip": "4x32"}, "relative": {"variant": "as it is"},
@@ -327,8 +327,7 @@ class DocsTest(unittest.TestCase):
         self.assertEqual(rows_of("\n".join(table.lines(False)))[2][:7], ["sorted", "-", "-", "12.5", "1.25", "-", "-"])
 
     def test_own_sweeps(self):
-        """What a page's file has of a sweep that comes with trax is its name: the tables are those of the sweep's
-        file."""
+        """A page's file has only the name of a sweep that comes with trax: the tables are those of the sweep's file."""
         made = example.complete()
         for sweep in made["sweeps"]:
             sweep["file"] = f"/anywhere/lib/trax/evaluation/sweeps/{sweep['name']}.json"

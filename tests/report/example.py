@@ -287,7 +287,7 @@ def hostile():
 
 
 def hostile_own():
-    """The same without a sweep that comes with trax: its page is that of one's own sweeps."""
+    """The hostile results without a sweep that comes with trax: the page is that of the user's sweeps."""
     made = hostile()
     made["sweeps"] = made["sweeps"][:1]
     return made

@@ -112,7 +112,7 @@ class Data(Scratch):
             for difference in columns[f"picture.{name}"]:
                 values.append(value := value + difference & 255)
             self.assertEqual(bytes(values), image[channel::4], name)
-        # The same run by trax-sim, which knows neither nodes nor triangles: a file of their own has these.
+        # trax-sim's page of the same run knows neither nodes nor triangles: a file of their own has these.
         _, others = unpack(self.folder / "q.html")
         self.assertEqual({name: values for name, values in columns.items() if not name.startswith("counts.")}, others)
         for row in csv.DictReader(io.StringIO(self.text("items.csv"))):
@@ -171,23 +171,19 @@ class Data(Scratch):
     def test_refused(self):
         (self.folder / "closed").mkdir(exist_ok=True)
         (self.folder / "kept.html").write_text("kept")
-        for words, message in ((["--explore", "none/x.html"], "none/x.html"), (["--explore", "closed"], "closed"),
-                               (["--explore", "p.png", "-o",
-                                 "p.png"], "written twice"), (["--explore",
-                                                               str(SOURCE / "tests/render/box.obj")],
-                                                              "is an input and the output of --explore"),
-                               (["--explore", "kept.html", "--engine",
-                                 "native"], "need the emulator"), (["--explore", "kept.html",
-                                                                    "--sampled"], "nothing to compare, explain"),
-                               (["--explore", "kept.html", "--frames", "2"], "pictures only")):
-            ended = render(self.folder, *(words if "-o" in words else ["-o", "new.png", *words]), check=False)
+        for words, message in ((["none/x.html"], "none/x.html"), (["closed"], "closed"),
+                               (["p.png", "-o", "p.png"], "written twice"),
+                               ([SOURCE / "tests/render/box.obj"], "is an input and the output of --explore"),
+                               (["kept.html", "--engine", "native"], "need the emulator"),
+                               (["kept.html", "--sampled"], "nothing to compare, explain")):
+            output = [] if "-o" in words else ["-o", "new.png"]
+            ended = render(self.folder, *output, "--explore", *words, check=False)
             self.assertEqual(ended.returncode, 1, words)
             self.assertRegex(ended.stderr, r"^trax-render: error: .*(" + message + ")")
-        for words, message in ((["--explore", "none/x.html"], "none/x.html"), (["--explore",
-                                                                                "run/manifest.json"], "manifest.json"),
-                               (["--explore", "kept.html", "--engine", "functional"], "a run is explained by"),
-                               (["--explore", "kept.html", "--resume", "q.json"], "cannot be explained without")):
-            ended = simulate(self.folder, *words, "run/manifest.json", check=False)
+        for words, message in ((["none/x.html"], "none/x.html"), (["run/manifest.json"], "manifest.json"),
+                               (["kept.html", "--engine", "functional"], "a run is explained by"),
+                               (["kept.html", "--resume", "q.json"], "cannot be explained without")):
+            ended = simulate(self.folder, "--explore", *words, "run/manifest.json", check=False)
             self.assertEqual(ended.returncode, 1, words)
             self.assertRegex(ended.stderr, r"^trax-sim: error: .*" + message)
         # A page that cannot be written to its end is an error, and the file that was there stays.
@@ -478,7 +474,7 @@ class Page(PageTests, Scratch):
         self.browser.call("Emulation.setEmulatedMedia", features=[])
 
     def test_no_false_zeros(self):
-        """Where there are no loads there is no share of loads that hit: a gap of the curve, no 0 %."""
+        """An interval without loads has no share of loads that hit: the curve has a gap, not 0 %."""
         rows = list(csv.DictReader(io.StringIO(unpack(self.folder / "p.html")[0]["series"])))
         self.load("whole")
         for tm in ("all", "0", "3"):
@@ -498,7 +494,7 @@ class Page(PageTests, Scratch):
         self.assertNotRegex(shown, "[0-9]")
 
     def test_rays_that_are_not_marked(self):
-        """Without --mark-rays nothing is known of a kind of ray but how many there are."""
+        """A run without --mark-rays knows only the number of rays of a kind."""
         for name, heads in (("whole", 9), ("dram", 2)):
             table = self.seen(name)["rays"]
             self.assertEqual({len(row) for row in table}, {heads}, name)

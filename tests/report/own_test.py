@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The page of sweeps of one's own: own_test.py RAYTRACER/EVALUATION"""
+"""The page of a user's sweeps: own_test.py RAYTRACER/EVALUATION"""
 
 import copy
 import html
@@ -126,7 +126,7 @@ class OwnTest(unittest.TestCase):
         self.assertIn("against the paper", self.make(example.complete()).partition('id="runs"')[2])
 
     def test_sweeps_of_trax(self):
-        """With a sweep that comes with trax the page is about the paper."""
+        """The page is about the paper if a sweep comes with trax."""
         made = example.own()
         made["sweeps"].append({"name": "bandwidth", "x": "memory.bandwidth_gbps"})
         self.assertIn(make.PAPERS_TITLE.replace("'", "&#x27;"), self.make(made))

@@ -94,7 +94,7 @@ class ReportTest(unittest.TestCase):
             (self.folder / "pictures" / f"{scene}.png").write_bytes(example.picture())
 
     def command(self, *arguments):
-        """In this process: a start of the interpreter takes longer than a page."""
+        """Makes the page in this process: a start of the interpreter takes longer than a page."""
         out, errors = io.StringIO(), io.StringIO()
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(errors):
             status = make.main([str(argument) for argument in arguments])
@@ -228,7 +228,7 @@ class ReportTest(unittest.TestCase):
             self.assertEqual(verdicts[name], ["'unknown'", "'unknown'"], name)
 
     def test_assertions(self):
-        """What the paper asserts of its choices, from the sweeps; and the reasons beside what differs."""
+        """The page has what the paper asserts about its choices, from the sweeps, and reasons beside what differs."""
         made = example.complete()
         made["runs"] = [
             record for record in made["runs"]

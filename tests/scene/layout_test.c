@@ -265,7 +265,7 @@ static void test_splits(void **state) {
   }
 }
 
-/* Without a part of a triangle a scene is refused. */
+/* A scene without a part of a triangle is refused. */
 static void test_missing_part(void **state) {
   (void)state;
   struct trax_mesh mesh = {0};
@@ -293,7 +293,7 @@ static void test_missing_part(void **state) {
   assert_true(refused * 10 > parts * 9);
   assert_contains(error.message, "is not that of its triangles");
   trax_scene_release(&scene);
-  /* By itself it splits these, and none that emit. */
+  /* The builder splits these by itself, and none that emit. */
   struct trax_build_options choice = {0};
   assert_true(trax_splits_choose("auto", &choice));
   assert_int_equal(trax_scene_build(&scene, &mesh, &choice, &error), TRAX_OK);
@@ -358,7 +358,7 @@ static void test_order_of_duplicates(void **state) {
   }
 }
 
-/* Nor do many slivers of which none is worse than the others: the tree is that without splits. */
+/* Many slivers of which none is worse than the others are not split, either: the tree is that without splits. */
 static void test_equals_do_not_call_for_splits(void **state) {
   (void)state;
   struct trax_scene_stats stats[2];

@@ -6,13 +6,11 @@ import csv
 import functools
 import json
 import math
-import os
 import pathlib
 import signal
 import struct
 import subprocess
 import sys
-import tempfile
 import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
@@ -358,24 +356,5 @@ def test_sequence_of_a_file():
     check(list(frames("missing")) == [(1, "new trees")], "the frames that are there")
 
 
-def main():
-    with tempfile.TemporaryDirectory() as folder:
-        os.chdir(folder)
-        write_waves()
-        test_refit()
-        test_lost_half()
-        test_instances()
-        test_on_the_tps()
-        test_refusals()
-        test_animation()
-        test_bad_animations()
-        test_sweep()
-        test_sequence()
-        test_sequence_of_a_file()
-        os.chdir("/")
-    print(f"motion: {checking.failures} failed")
-    return 1 if checking.failures else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+sys.exit(checking.run(write_waves, test_refit, test_lost_half, test_instances, test_on_the_tps, test_refusals,
+                      test_animation, test_bad_animations, test_sweep, test_sequence, test_sequence_of_a_file))

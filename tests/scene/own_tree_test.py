@@ -3,12 +3,10 @@
 import functools
 import json
 import math
-import os
 import pathlib
 import random
 import struct
 import sys
-import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 import checking  # noqa: E402
@@ -96,7 +94,7 @@ def widen(nodes, boxes, most, children_of):
 
 
 def whole_levels(nodes, levels):
-    """Up to so many levels of the tree as one, whole: halves of such children are the binary tree's again."""
+    """Joins so many levels of the tree into one node: halves of its children are the binary tree's again."""
     def children_of(number):
         children = [number]
         for _ in range(levels):
@@ -371,11 +369,10 @@ def refusals():
     boxed(0, [-INFINITE] + good[2][0][1:], "its box is from -inf")
     boxed(leaf, lower[3:] + lower[:3], "its box is from")
     write(*good)
-    for words, message in (([*TREE[:2]], "need each other"), (BOXES, "without --tree"), ([*TREE, "--leaf", "2"],
-                                                                                         "is a tree that is built"),
-                           ([*TREE, "--splits"], "is a tree that is built"), ([*TREE, "--passes",
-                                                                               "0"], "is a tree that is built")):
-        refuse(message, *words, place="--tree")
+    refuse("need each other", *TREE[:2], place="--tree")
+    refuse("without --tree", *BOXES, place="--tree")
+    for words in (["--leaf", "2"], ["--splits"], ["--passes", "0"]):
+        refuse("is a tree that is built", *TREE, *words, place="--tree")
     refuse("cannot", "--tree", "none.npy", *TREE[2:], place="none.npy")
     # One triangle in two leaves that leave a part of it out.
     call("trax-scene", "one.obj", "-q", "--write-triangles", "one.npy")
@@ -396,7 +393,7 @@ def refusals():
 
 
 def damaged():
-    """Files that are no such arrays."""
+    """Files that are no arrays are refused."""
     call("trax-scene", "big.obj", "-q", "--write-triangles", "t.npy")
     nodes, order, boxes = median_split(read_triangles("t.npy"), 2)
     write(nodes, order, boxes)
@@ -408,19 +405,18 @@ def damaged():
     refuse("but the file has")
     pathlib.Path("nodes.npy").write_bytes(whole[:6] + b"\x09" + whole[7:])
     refuse("version 9")
-    for header, message in (("{'descr': '>i4', 'fortran_order': False, 'shape': (%d, 3), }",
-                             "'>i4', not"), ("{'descr': '<i4', 'fortran_order': True, 'shape': (%d, 3), }", "Fortran"),
-                            ("{'descr': '<i4', 'fortran_order': False, 'shape': (3, %d), }",
-                             "(N, 3)"), ("{'descr': '<i4', 'fortran_order': 0, 'shape': (%d, 3), }",
-                                         "True or False"), ("{'descr': '<i4', 'shape': (%d, 3), }", "lacks"),
-                            ("{'descr': '<i4', 'other': (%d, 3), }",
-                             "no key 'other'"), ("{'descr': '<i4', 'descr': '<i4', 'shape': (%d, 3), }",
-                                                 "no key 'descr', or it has it once"),
-                            ("{'descr': '<i4', 'fortran_order': False, 'shape': (%d, 3, 1, 1), }",
-                             "more than 3 dimensions"),
-                            ("{'descr': '<i4', 'fortran_order': False, 'shape': (%d, 99999999999999999, 9999999), }",
-                             "2^60"), ("[%d]", "a dictionary"), ("{'descr': [('left', '<i4')], 'shape': (%d, 3)}",
-                                                                 "the type of the elements")):
+    for header, message in (
+            ("{'descr': '>i4', 'fortran_order': False, 'shape': (%d, 3), }", "'>i4', not"),
+            ("{'descr': '<i4', 'fortran_order': True, 'shape': (%d, 3), }", "Fortran"),
+            ("{'descr': '<i4', 'fortran_order': False, 'shape': (3, %d), }", "(N, 3)"),
+            ("{'descr': '<i4', 'fortran_order': 0, 'shape': (%d, 3), }", "True or False"),
+            ("{'descr': '<i4', 'shape': (%d, 3), }", "lacks"),
+            ("{'descr': '<i4', 'other': (%d, 3), }", "no key 'other'"),
+            ("{'descr': '<i4', 'descr': '<i4', 'shape': (%d, 3), }", "no key 'descr', or it has it once"),
+            ("{'descr': '<i4', 'fortran_order': False, 'shape': (%d, 3, 1, 1), }", "more than 3 dimensions"),
+            ("{'descr': '<i4', 'fortran_order': False, 'shape': (%d, 99999999999999999, 9999999), }", "2^60"),
+            ("[%d]", "a dictionary"),
+            ("{'descr': [('left', '<i4')], 'shape': (%d, 3)}", "the type of the elements")):
         npy("nodes.npy", "<i4", (), rows, header=header % len(nodes))
         refuse(message)
     npy("nodes.npy", "<f4", (len(nodes), 3), rows)
@@ -453,18 +449,4 @@ def meshes():
         f"v {i} 0 0\nv {i} 1 0\nv {i} 0 1\nf {3 * i + 1} {3 * i + 2} {3 * i + 3}\n" for i in range(41)))
 
 
-def main():
-    with tempfile.TemporaryDirectory() as folder:
-        os.chdir(folder)
-        meshes()
-        forms()
-        large_leaves()
-        refusals()
-        damaged()
-        pictures()
-        os.chdir("/")
-    return checking.failures != 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+sys.exit(checking.run(meshes, forms, large_leaves, refusals, damaged, pictures))

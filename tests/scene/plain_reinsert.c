@@ -1,8 +1,8 @@
 /* One subtree after another is removed and inserted where it costs least: the definition of scene_reinsert. */
 #include "plain_reinsert.h"
 
+#include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum { MOST_FOCI = 8, FOCUS_STEP = 4, LEAST_OF_TRIANGLES = 16 };
 
@@ -14,55 +14,41 @@ struct place {
   uint32_t node, depth;
 };
 
-/* The foci as columns, so that the compiler takes several at once. Those beyond `count` are zero. */
-struct foci {
-  int count;
-  double min[3][MOST_FOCI], max[3][MOST_FOCI];
-  double scale[MOST_FOCI]; /* the reciprocal of a box's half area */
+struct focus {
+  struct scene_box box;
+  double scale; /* the reciprocal of the box's half area */
 };
 
 struct search {
   struct scene_links *links;
-  struct foci foci;
-  struct place *heap; /* the least first */
-  size_t heap_count, heap_capacity;
+  struct focus foci[MOST_FOCI];
+  int focus_count;
+  struct place open[2 * MOST_LOOKED_AT + 1]; /* the least last */
+  size_t open_count;
 };
 
-static inline double least_of(double a, double b) {
-  return a < b ? a : b;
-}
-
 /* Expected visits to a node with this box. */
-static double visits(const struct foci *foci, const struct scene_box *box) {
-  double parts[MOST_FOCI], sum = 0;
-  /* Without branches: what does not meet a focus is multiplied by 0. */
-  for (int i = 0; i < MOST_FOCI; i++) {
+static double visits(const struct search *search, const struct scene_box *box) {
+  double sum = 0;
+  for (int i = 0; i < search->focus_count; i++) {
+    const struct focus *focus = &search->foci[i];
     double size[3];
-    for (int axis = 0; axis < 3; axis++) {
-      const double min = box->min[axis], max = box->max[axis];
-      size[axis] = least_of(max, foci->max[axis][i]) - (min > foci->min[axis][i] ? min : foci->min[axis][i]);
-    }
-    const double inside = least_of(size[0], least_of(size[1], size[2])) >= 0;
-    parts[i] = foci->scale[i] * (size[0] * size[1] + size[1] * size[2] + size[2] * size[0]) * inside;
+    for (int axis = 0; axis < 3; axis++)
+      size[axis] = fmin(box->max[axis], focus->box.max[axis]) - fmax(box->min[axis], focus->box.min[axis]);
+    if (size[0] >= 0 && size[1] >= 0 && size[2] >= 0)
+      sum += focus->scale * (size[0] * size[1] + size[1] * size[2] + size[2] * size[0]);
   }
-  for (int i = 0; i < MOST_FOCI; i++) /* in this order on every host */
-    sum += parts[i];
   return sum;
 }
 
 static void choose_foci(struct search *search) {
   const struct scene_link *nodes = search->links->nodes, *node = &nodes[search->links->root];
   const uint32_t least = node->triangles / LEAST_OF_TRIANGLES;
-  struct foci *foci = &search->foci;
   double last = __builtin_inf();
-  while (node->child[0] != SCENE_NO_LINK && node->triangles >= least && foci->count < MOST_FOCI) {
+  while (node->child[0] != SCENE_NO_LINK && node->triangles >= least && search->focus_count < MOST_FOCI) {
     const double area = scene_half_area(node->box.min, node->box.max);
     if (area > 0 && area * FOCUS_STEP <= last) {
-      for (int axis = 0; axis < 3; axis++) {
-        foci->min[axis][foci->count] = node->box.min[axis];
-        foci->max[axis][foci->count] = node->box.max[axis];
-      }
-      foci->scale[foci->count++] = 1 / area;
+      search->foci[search->focus_count++] = (struct focus){node->box, 1 / area};
       last = area;
     }
     const struct scene_link *a = &nodes[node->child[0]], *b = &nodes[node->child[1]];
@@ -76,69 +62,31 @@ static struct scene_box join(const struct scene_box *a, const struct scene_box *
   return both;
 }
 
-/* --- the heap --- */
-
 static bool comes_before(const struct place *a, const struct place *b) {
   return a->least != b->least ? a->least < b->least : a->node < b->node;
 }
 
-/* False when out of memory. */
-static bool push(struct search *search, struct place place) {
-  if (search->heap_count == search->heap_capacity) {
-    const size_t capacity = 2 * search->heap_capacity + 256;
-    struct place *heap = realloc(search->heap, capacity * sizeof *heap);
-    if (!heap)
-      return false;
-    search->heap = heap, search->heap_capacity = capacity;
-  }
-  __builtin_prefetch(&search->links->nodes[place.node]);
-  size_t at = search->heap_count++;
-  for (; at > 0 && comes_before(&place, &search->heap[(at - 1) / 2]); at = (at - 1) / 2)
-    search->heap[at] = search->heap[(at - 1) / 2];
-  search->heap[at] = place;
-  return true;
-}
-
-static struct place pop(struct search *search) {
-  const struct place least = search->heap[0], last = search->heap[--search->heap_count];
-  size_t at = 0;
-  for (size_t child; (child = 2 * at + 1) < search->heap_count; at = child) {
-    if (child + 1 < search->heap_count && comes_before(&search->heap[child + 1], &search->heap[child]))
-      child++;
-    if (!comes_before(&search->heap[child], &last))
-      break;
-    search->heap[at] = search->heap[child];
-  }
-  search->heap[at] = last;
-  return least;
+static void put(struct search *search, struct place place) {
+  size_t at = search->open_count++;
+  for (; at > 0 && comes_before(&search->open[at - 1], &place); at--)
+    search->open[at] = search->open[at - 1];
+  search->open[at] = place;
 }
 
 /* --- the tree --- */
 
-/* Refits the box and height of a node. Returns whether they changed. */
-static bool refit_node(const struct search *search, uint32_t index) {
-  struct scene_link *node = &search->links->nodes[index];
-  const struct scene_link *a = &search->links->nodes[node->child[0]], *b = &search->links->nodes[node->child[1]];
-  const struct scene_box box = join(&a->box, &b->box);
-  const uint32_t height = 1 + (a->height > b->height ? a->height : b->height);
-  const bool moved = memcmp(&box, &node->box, sizeof box) != 0;
-  if (!moved && height == node->height)
-    return false;
-  node->height = height;
-  if (moved) {
-    node->box = box;
-    node->visits = visits(&search->foci, &box);
-  }
-  return true;
-}
-
-/* Refits from here up to the root, or to the first node that stays as it is. */
+/* Refits this node and those above. */
 static void refit_from(const struct search *search, uint32_t index) {
-  while (index != SCENE_NO_LINK && refit_node(search, index))
-    index = search->links->nodes[index].parent;
+  for (; index != SCENE_NO_LINK; index = search->links->nodes[index].parent) {
+    struct scene_link *node = &search->links->nodes[index];
+    const struct scene_link *a = &search->links->nodes[node->child[0]], *b = &search->links->nodes[node->child[1]];
+    node->box = join(&a->box, &b->box);
+    node->height = 1 + (a->height > b->height ? a->height : b->height);
+    node->visits = visits(search, &node->box);
+  }
 }
 
-/* Makes `new` the child of old's parent, or the root if old is that. */
+/* Makes the node the child of old's parent, or the root if old is that. */
 static void take_place_of(struct scene_links *links, uint32_t index, uint32_t old) {
   const uint32_t parent = links->nodes[old].parent;
   links->nodes[index].parent = parent;
@@ -153,7 +101,7 @@ static void take_place_of(struct scene_links *links, uint32_t index, uint32_t ol
 static double cost_beside(const struct search *search, const struct scene_box *part, const struct scene_box *node,
                           double least) {
   const struct scene_box both = join(part, node);
-  return least + visits(&search->foci, &both);
+  return least + visits(search, &both);
 }
 
 static double cost_at(const struct search *search, const struct scene_box *part, uint32_t place) {
@@ -170,19 +118,17 @@ static double cost_at(const struct search *search, const struct scene_box *part,
   return cost_beside(search, part, &nodes[place].box, least);
 }
 
-/* Finds the node beside which the removed part costs least: `now` if no other is better; SCENE_NO_LINK when out of
-   memory. Branch and bound: below a node, the part costs at least the growth of the boxes above and a node of its own
-   size. */
+/* Finds the node beside which the removed part costs least: `now` if no other is better. Branch and bound: below
+   a node, the part costs at least the growth of the boxes above and a node of its own size. */
 static uint32_t find_place(struct search *search, const struct scene_link *part, uint32_t now) {
   const struct scene_links *links = search->links;
   const double own = part->visits;
   double best_cost = cost_at(search, &part->box, now);
   uint32_t best = now;
-  search->heap_count = 0;
-  if (!push(search, (struct place){0, links->root, 0}))
-    return SCENE_NO_LINK;
-  for (int looked_at = 0; looked_at < MOST_LOOKED_AT && search->heap_count; looked_at++) {
-    const struct place place = pop(search);
+  search->open_count = 0;
+  put(search, (struct place){0, links->root, 0});
+  for (int looked_at = 0; looked_at < MOST_LOOKED_AT && search->open_count; looked_at++) {
+    const struct place place = search->open[--search->open_count];
     if (place.least + own >= best_cost)
       break;
     const struct scene_link *node = &links->nodes[place.node];
@@ -194,29 +140,23 @@ static uint32_t find_place(struct search *search, const struct scene_link *part,
       continue;
     const double below = cost - node->visits;
     for (int i = 0; i < 2 && below + own < best_cost; i++)
-      if (!push(search, (struct place){below, node->child[i], place.depth + 1}))
-        return SCENE_NO_LINK;
+      put(search, (struct place){below, node->child[i], place.depth + 1});
   }
   return best;
 }
 
-/* Removes the part with its parent, whose other child takes the parent's place, and reinserts it. False when out of
-   memory. */
-static bool reinsert(struct search *search, uint32_t part) {
+/* Removes the part with its parent, whose other child takes the parent's place, and reinserts it. */
+static void reinsert(struct search *search, uint32_t part) {
   struct scene_links *links = search->links;
   struct scene_link *nodes = links->nodes;
   const uint32_t parent = nodes[part].parent, beside = nodes[parent].child[nodes[parent].child[0] == part];
   take_place_of(links, beside, parent);
   refit_from(search, nodes[beside].parent);
   const uint32_t place = find_place(search, &nodes[part], beside);
-  if (place == SCENE_NO_LINK)
-    return false;
   take_place_of(links, parent, place);
   nodes[parent].child[0] = place, nodes[parent].child[1] = part;
   nodes[place].parent = parent;
-  refit_node(search, parent);
-  refit_from(search, nodes[parent].parent);
-  return true;
+  refit_from(search, parent);
 }
 
 struct ranked {
@@ -234,20 +174,19 @@ static int compare_ranked(const void *a, const void *b) {
 bool plain_reinsert(struct scene_links *links, unsigned passes) {
   struct search search = {.links = links};
   struct ranked *ranked = malloc(links->count * sizeof *ranked);
+  if (!ranked)
+    return false;
   choose_foci(&search);
-  if (search.foci.count == 0)
-    passes = 0;
   for (uint32_t i = 0; i < links->count; i++)
-    links->nodes[i].visits = visits(&search.foci, &links->nodes[i].box);
-  bool good = ranked;
-  for (unsigned pass = 0; pass < passes && good; pass++) {
+    links->nodes[i].visits = visits(&search, &links->nodes[i].box);
+  for (unsigned pass = 0; pass < passes && search.focus_count; pass++) {
     for (uint32_t i = 0; i < links->count; i++)
       ranked[i] = (struct ranked){links->nodes[i].visits, i};
     qsort(ranked, links->count, sizeof *ranked, compare_ranked);
-    for (uint32_t i = 0; i < links->count && good; i++)
-      good = ranked[i].node == links->root || reinsert(&search, ranked[i].node);
+    for (uint32_t i = 0; i < links->count; i++)
+      if (ranked[i].node != links->root)
+        reinsert(&search, ranked[i].node);
   }
   free(ranked);
-  free(search.heap);
-  return good;
+  return true;
 }

@@ -3,7 +3,7 @@
 
 #include "../../raytracer/scene/internal.h"
 
-/* As scene_reinsert does, without threads. False when out of memory. */
+/* Improves a tree as scene_reinsert does, without threads. False when out of memory. */
 bool plain_reinsert(struct scene_links *links, unsigned passes);
 
 #endif

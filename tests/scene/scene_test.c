@@ -97,8 +97,8 @@ static void test_shapes(void **state) {
       }
 }
 
-/* Triangles that no plane separates, a row in which each is a fraction of the one before, and one through so many
-   octaves that surface areas alone lead to a tree far deeper than allowed. */
+/* Triangles that no plane separates; a row in which each is a fraction of the one before; a row over so many octaves
+   that surface areas alone would make a tree far deeper than allowed. */
 static void test_awkward_meshes(void **state) {
   (void)state;
   struct trax_mesh same = {0}, row = {0}, nest = {0};
@@ -261,7 +261,7 @@ static void face_normal(float normal[3], const struct trax_triangle *t) {
   }
 }
 
-/* From the pole down, `around` by `down` faces of a sphere of radius 1. */
+/* Makes `around` by `down` faces of a sphere of radius 1, from the pole down. */
 static void add_sphere(struct trax_mesh *mesh, int around, int down) {
   const double pi = acos(-1);
   for (int row = 0; row < down; row++)
@@ -514,7 +514,7 @@ static void test_empty(void **state) {
   const char *path = test_path("empty.trax");
   assert_int_equal(trax_scene_write(&scene, path, &error), TRAX_OK);
   trax_scene_release(&scene);
-  assert_int_equal(trax_scene_read(&scene, path, &error), TRAX_OK);
+  assert_int_equal(trax_scene_read(&scene, path, 0, &error), TRAX_OK);
   assert_int_equal(scene.triangle_count, 0);
   struct trax_scene_stats stats;
   trax_scene_measure(&stats, &scene);
@@ -534,7 +534,7 @@ static void test_write_and_read(void **state) {
   assert_null(scene.source_ids);
   const char *path = test_path("soup.trax");
   assert_int_equal(trax_scene_write(&scene, path, &error), TRAX_OK);
-  assert_int_equal(trax_scene_read(&read, path, &error), TRAX_OK);
+  assert_int_equal(trax_scene_read(&read, path, 0, &error), TRAX_OK);
   assert_int_equal((uintptr_t)read.bytes % TRAX_SCENE_ALIGNMENT, 0);
   assert_int_equal(read.size, scene.size);
   assert_memory_equal(read.bytes, scene.bytes, scene.size);

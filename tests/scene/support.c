@@ -61,6 +61,15 @@ void import_good(struct trax_mesh *mesh, const char *path, struct trax_import_re
     fail_msg("%s", error.message);
 }
 
+void import_bad(const char *path, const struct trax_import_options *options, const char *part) {
+  struct trax_mesh mesh;
+  trax_error error = {{0}};
+  if (trax_mesh_import(&mesh, &path, 1, options, NULL, &error) != TRAX_ERROR)
+    fail_msg("%s was imported", path);
+  assert_contains(error.message, part);
+  assert_null(mesh.vertices);
+}
+
 void build_good(struct trax_scene *scene, const struct trax_mesh *mesh, const struct trax_build_options *options) {
   trax_error error = {{0}};
   if (trax_scene_build(scene, mesh, options, &error) != TRAX_OK)

@@ -25,6 +25,8 @@ void mesh_soup(struct trax_mesh *mesh, unsigned count, float size, uint32_t seed
 
 /* Imports one file in this process, which must succeed. */
 void import_good(struct trax_mesh *mesh, const char *path, struct trax_import_report *report);
+/* Imports one file, which must be refused by a message with this part. */
+void import_bad(const char *path, const struct trax_import_options *options, const char *part);
 void build_good(struct trax_scene *scene, const struct trax_mesh *mesh, const struct trax_build_options *options);
 
 /* Makes the checksum right again after a change to the bytes. */

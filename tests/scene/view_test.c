@@ -264,7 +264,7 @@ static void make_box(struct trax_scene *scene, struct trax_scene_header *header,
   }
 }
 
-/* All of a scene is in the picture, and takes 80 % of its width or its height, in the middle. */
+/* The whole scene is in the picture, in the middle, and takes 80 % of its width or height. */
 static void check_framed(const struct trax_view *view, const struct trax_scene *scene, float aspect) {
   const float *d = view->direction, *u = view->up;
   const float right[3] = {d[1] * u[2] - d[2] * u[1], d[2] * u[0] - d[0] * u[2], d[0] * u[1] - d[1] * u[0]};

@@ -30,7 +30,7 @@ static double distance_of(uint32_t plane, int scale) {
   return ldexp(plane, scale - 149);
 }
 
-/* A number near `middle`, a few floats away or so many that they are of the order of 2^exponent. */
+/* A number near `middle`: a few floats away, or about 2^exponent away. */
 static float any_coordinate(float middle, int exponent) {
   switch (next_random(4)) {
   case 0:

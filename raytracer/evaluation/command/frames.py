@@ -123,7 +123,7 @@ class Sequence:
         return self.folder / f"{name}.png", self.folder / f"{name}.json"
 
     def write_frames(self, results):
-        """The files of each frame that is there, and a row of frames.csv for each run."""
+        """Writes the files of each finished frame, and a row of frames.csv for each run."""
         rows = []
         for run in results["runs"]:
             for point in run["points"]:

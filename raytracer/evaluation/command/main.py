@@ -84,8 +84,8 @@ def check_threads(option, value):
 
 
 def choose(options, data):
-    """The sweep files and the folder of scenes that the words name. The last of several words may name both: it is the
-    folder then."""
+    """Returns the sweep files and the folder of scenes that the words name. If the last of several words may name
+    both, it is the folder."""
     known = {path.stem: path for path in experiments(data)}
     files, folder = [path for path in known.values() if read_sweep(path).in_all] if options.all else [], None
     words = options.words
@@ -205,7 +205,7 @@ def run_one_job(arguments, tools):
 
 
 def dispatch(arguments, tools, data):
-    """What one command alone needs is imported by it: it would double the time of every start."""
+    """A command imports what it alone needs: otherwise every start would take twice as long."""
     if arguments[:1] == ["compare"]:
         from compare import main as comparison
         return comparison.main(arguments[1:], tools, data)

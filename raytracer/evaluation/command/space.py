@@ -53,7 +53,7 @@ def explore(options, files, runs_of):
     exact = read_sweep(files[0], size=options.size, mode="exact", **chosen)
     if not exact.points:
         raise Problem(f"{files[0]}: has no runs")
-    # With a size pictures are not made smaller.
+    # Pictures are not made smaller if a size is given.
     status, value, plans = runs_of(read_sweep(files[0], size=exact.points[0].size, mode="quick", **chosen))
     if options.dry_run:
         return status

@@ -21,8 +21,8 @@ usage: trax-sim compare [OPTION...] A B
 
 Compares two runs: configuration, cycles by cause, function, line and kind of ray, units, caches, energy, pictures.
 What contributes most to the difference of cycles comes first. A and B are files of --stats, pages of --explore, or
-folders with them, whose runs of equal names are compared. Files beside NAME.json are read, too: NAME.html (--explore),
-NAME.folded (--profile-folded), NAME.csv (--ray-kinds) and NAME.png.
+folders with them, whose runs of equal names are compared. Beside NAME.json, its page NAME.html (--explore) and its
+picture NAME.png are read, too.
 
   --json               print the comparison as JSON
   --html FILE          write it as a page for a browser

@@ -13,8 +13,8 @@ from trax_eval.util import FILE_LIMIT, STRICT, Problem, read_bytes, read_json
 TINIEST, LARGEST = 1e-100, 1e100  # quotients and sums of such numbers are finite
 HOST = ("host_seconds", "instructions_per_host_second")  # figures of the host, which no comparison is about
 HOW = {
-    "profile": "--explore FILE.html, or --profile-folded FILE.folded",
-    "kinds": "--explore FILE.html, or --ray-kinds FILE.csv",
+    "profile": "--explore FILE.html",
+    "kinds": "--explore FILE.html",
     "picture": "--explore FILE.html, or a PNG",
     "costs": "--explore FILE.html",
 }
@@ -81,34 +81,15 @@ class Run:
             self.take_neighbours()
 
     def take_neighbours(self):
-        """Reads the files beside the statistics that have their name with another ending."""
-        def beside(ending):
-            path = self.path.with_suffix(ending)
-            return path if path.is_file() else None
-
-        page = beside(".html")
-        if page:
+        """Reads page and picture beside the statistics that have their name."""
+        page, picture = self.path.with_suffix(".html"), self.path.with_suffix(".png")
+        if page.is_file():
             other = self.take_page(page)
             if {name: value for name, value in self.stats.items() if name not in HOST} != other:
                 self.profile = self.kinds = self.picture = self.costs = None
                 self.notes.append(f"{page}: is the page of another run, and not used")
-        if self.profile is None and beside(".folded"):
-            self.profile = self.of_this_run(beside(".folded"), read_folded(read_bytes(beside(".folded")).decode(
-                errors="replace"), beside(".folded")))
-        if self.kinds is None and beside(".csv"):
-            self.kinds = read_kinds(read_bytes(beside(".csv")).decode(errors="replace"))
-            if self.kinds and sum(row["thread_cycles"] for row in self.kinds.values()) != self.stats["thread_cycles"]:
-                self.notes.append(f"{beside('.csv')}: has the rays of another run, and is not used")
-                self.kinds = None
-        if self.picture is None and beside(".png"):
-            self.picture = read_rgb(beside(".png"))
-
-    def of_this_run(self, path, profile):
-        found = sum(sum(causes.values()) for causes in profile["functions"].values())
-        if found == self.stats["thread_cycles"]:
-            return profile
-        self.notes.append(f"{path}: has {found} thread-cycles, and the run {self.stats['thread_cycles']}: is not used")
-        return None
+        if self.picture is None and picture.is_file():
+            self.picture = read_rgb(picture)
 
     def take_page(self, path):
         """Reads a page of --explore, and returns its statistics."""
@@ -129,7 +110,7 @@ class Run:
                 self.take_picture(page["picture"], unpack(text, "pixels"))
             return page["stats"]
         except (ValueError, TypeError, KeyError, IndexError, AttributeError, ArithmeticError, RecursionError,
-                zlib.error) as error:
+                csv.Error, zlib.error) as error:
             raise Problem(f"{path}: is no page of --explore ({type(error).__name__}: {error})") from error
 
     def take_picture(self, picture, packed):
@@ -191,32 +172,15 @@ def short_line(name):
     return name.rpartition("/")[2] or "(no line)"
 
 
-def read_folded(text, path):
-    """--profile-folded: function;...;file:line;cause thread-cycles."""
-    profile = {"functions": {}, "lines": {}}
-    for number, line in enumerate(text.splitlines(), 1):
-        stack, _, cycles = line.rpartition(" ")
-        *frames, cause = stack.split(";")
-        if not re.fullmatch("[0-9]{1,18}", cycles) or not frames:
-            raise Problem(f'{path}:{number}: is not of the form "FUNCTION;...;CAUSE CYCLES"')
-        place = frames.pop() if re.fullmatch(r".+:\d+", frames[-1]) and len(frames) > 1 else "(no line)"
-        add(profile["functions"], frames[-1], cause, int(cycles))
-        add(profile["lines"], place, cause, int(cycles))
-    return profile
-
-
 def read_kinds(text):
-    """--ray-kinds: a row of each kind, without the two that are sums and remainders. None: another table."""
-    try:
-        rows = list(csv.DictReader(text.splitlines()))
-        if not rows or not {"kind", "rays", "thread_cycles"} <= rows[0].keys():
-            return None
-        kinds = {row["kind"]: {name: float(value) if "." in value or "e" in value else int(value)
-                               for name, value in row.items() if name not in ("kind", "part")}
-                 for row in rows if row["kind"] not in ("rest", "all")}
-    except (csv.Error, ValueError, TypeError):
-        return None
-    return kinds if all(is_figure(value) for row in kinds.values() for value in row.values()) else None
+    """The rows of --ray-kinds by kind, without the two that are sums and remainders. None: the page has none."""
+    rows = list(csv.DictReader(text.splitlines()))
+    kinds = {row["kind"]: {name: float(value) if "." in value or "e" in value else int(value)
+                           for name, value in row.items() if name not in ("kind", "part")}
+             for row in rows if row["kind"] not in ("rest", "all")}
+    if not all(is_figure(value) for row in kinds.values() for value in row.values()):
+        raise ValueError("a kind of rays has a figure that no run can have")
+    return kinds if rows else None
 
 
 def runs_of(folder):

@@ -1,9 +1,6 @@
-"""Downloads: by HTTP, which continue where an earlier one ended, and packages of npm by its own client."""
+"""Downloads by HTTP, and packages of npm by its own client."""
 
-import contextlib
 import http.client
-import json
-import os
 import re
 import shutil
 import socket
@@ -13,7 +10,6 @@ import urllib.parse
 import urllib.request
 
 from trax_eval.tools import run_tool
-from trax_eval.util import write_json
 
 from .problems import Failed, Missing
 
@@ -24,61 +20,22 @@ NETWORK = (OSError, http.client.HTTPException)
 
 
 class Unfinished(Exception):
-    """The connection ended early. The received part is kept."""
+    """The connection ended early."""
 
 
-class Partial:
-    """A download as far as it has arrived, beside a record of what the server calls this version of it."""
-    def __init__(self, path):
-        self.path, self.record = path, path.with_name(path.name + ".json")
-
-    def version(self):
-        """The version's name, with which the server can continue; None: from the beginning."""
-        if not self.path.exists():
-            return None
-        with contextlib.suppress(OSError, ValueError, AttributeError):
-            return json.loads(self.record.read_text()).get("version")
-        return None
-
-    def begin(self, headers):
-        tag = headers.get("ETag", "")
-        self.remove()
-        version = tag if tag.startswith('"') else headers.get("Last-Modified")  # a weak tag is of no use for ranges
-        write_json(self.record, {"version": version})
-
-    def remove(self):
-        self.path.unlink(missing_ok=True)
-        self.record.unlink(missing_ok=True)
-
-
-def requested(url, partial):
-    """The request, and the bytes that are there already."""
-    headers = {"User-Agent": "trax-eval fetch-scenes", "Accept-Encoding": "identity"}
-    version = partial.version()
-    there = partial.path.stat().st_size if version else 0
-    if there:
-        headers |= {"Range": f"bytes={there}-", "If-Range": version}
-    return urllib.request.Request(url, headers=headers), there
-
-
-def receive(url, partial, show):
+def receive(url, path, show):
     """One try. Raises Unfinished, and what urllib raises."""
-    request, there = requested(url, partial)
-    with urllib.request.urlopen(request, timeout=TIMEOUT) as answer:
-        continued = answer.status == 206 and re.match(f"bytes {there}-", answer.headers.get("Content-Range", ""))
-        if not continued:
-            partial.begin(answer.headers)
-            there = 0
+    headers = {"User-Agent": "trax-eval fetch-scenes", "Accept-Encoding": "identity"}
+    request = urllib.request.Request(url, headers=headers)
+    with urllib.request.urlopen(request, timeout=TIMEOUT) as answer, open(path, "wb") as file:
         length = answer.headers.get("Content-Length", "")
-        whole = there + int(length) if length.isdecimal() else None
-        with open(partial.path, "ab", 0) as file:
-            while data := answer.read1(CHUNK):
-                file.write(data)
-                there += len(data)
-                show(there, whole)
-                if there > LIMIT:
-                    partial.remove()
-                    raise Failed(f"more than {LIMIT} bytes")
+        there, whole = 0, int(length) if length.isdecimal() else None
+        while data := answer.read1(CHUNK):
+            file.write(data)
+            there += len(data)
+            show(there, whole)
+            if there > LIMIT:
+                raise Failed(f"more than {LIMIT} bytes")
     if whole is not None and there != whole:
         raise Unfinished(f"ended after {there:,} of {whole:,} bytes")
 
@@ -105,25 +62,20 @@ def file_name(url):
     return name if name.strip(".") else "file"
 
 
-def by_http(url, partial, folder, show):
-    """The whole file of the address, in the folder. An interrupted download is continued."""
+def by_http(url, folder, show):
+    """The file of the address, in the folder."""
+    path = folder / file_name(url)
     for attempt in range(1, TRIES + 1):
         try:
-            receive(url, partial, show)
-            break
+            receive(url, path, show)
+            return path
         except (Unfinished, *NETWORK) as error:
-            if isinstance(error, urllib.error.HTTPError) and error.code == 416:
-                partial.remove()
             if attempt == TRIES or is_final(error):
                 gone = isinstance(error, urllib.error.HTTPError) and error.code in (404, 410)
                 raise (Missing if gone else Failed)(reason(error)) from error
             time.sleep(attempt / 2)
         except ValueError as error:
             raise Failed(str(error)) from error
-    path = folder / file_name(url)
-    os.replace(partial.path, path)
-    partial.remove()
-    return path
 
 
 def npm_reason(said):

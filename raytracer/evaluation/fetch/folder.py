@@ -1,52 +1,26 @@
 """The folder of scenes: meshes appear in it whole, and none is ever replaced."""
 
 import contextlib
-import fcntl
 import os
 import pathlib
-import shutil
+import tempfile
 
 from trax_eval.util import Problem
-
-WORK = ".fetch-scenes"  # in the folder: downloads as far as they have arrived, and one process's work
-
-
-def lock(path):
-    """A lock of a folder, as a descriptor. The process that has had the lock until then may remove the folder."""
-    while True:
-        path.mkdir(parents=True, exist_ok=True)
-        descriptor = os.open(path, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
-        try:
-            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            if os.path.samestat(os.fstat(descriptor), os.stat(path)):
-                return descriptor
-        except FileNotFoundError:
-            pass
-        except OSError as error:
-            os.close(descriptor)
-            raise Problem(f"{path.parent}: another trax-eval fetch-scenes is at work there") from error
-        os.close(descriptor)
 
 
 @contextlib.contextmanager
 def work_folder(folder):
-    """Two folders, for downloads, which the next call continues, and for other files, which end with this call."""
-    path, created = folder / WORK, not folder.exists()
-    descriptor = lock(path)
-    downloads, scratch = path / "downloads", path / "scratch"
-    shutil.rmtree(scratch, ignore_errors=True)  # of a process that was killed
-    downloads.mkdir(exist_ok=True)
-    scratch.mkdir()
+    """A temporary folder in the folder of scenes, from which files are linked. A new folder of scenes is removed again
+    if it stays empty."""
+    created = not folder.exists()
+    folder.mkdir(parents=True, exist_ok=True)
     try:
-        yield downloads, scratch
+        with tempfile.TemporaryDirectory(prefix=".fetch-scenes.", dir=folder) as path:
+            yield pathlib.Path(path)
     finally:
-        shutil.rmtree(scratch, ignore_errors=True)
-        with contextlib.suppress(OSError):  # unless there is a download to continue
-            downloads.rmdir()
-            path.rmdir()
-            if created:  # and nothing has come into it
+        if created:
+            with contextlib.suppress(OSError):
                 folder.rmdir()
-        os.close(descriptor)
 
 
 def present(folder, name):

@@ -67,8 +67,8 @@ def measures(triangles):
 
 
 def differences(found, wanted):
-    """How measures differ from those of the mesh that is wanted, as texts; none if they are alike: they allow for
-    other digits of the coordinates and other diagonals of polygons."""
+    """Returns how measures differ from those of the wanted mesh, as texts. Other digits of the coordinates and other
+    diagonals of polygons make no difference."""
     said = []
     if abs(found["triangles"] - wanted["triangles"]) > wanted["triangles"] / 1000:
         said.append(f"{found['triangles']:,} triangles instead of {wanted['triangles']:,}")

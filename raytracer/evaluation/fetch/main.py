@@ -119,8 +119,8 @@ def fetch(options, meshes, tools):
     if folder.exists() and not folder.is_dir():
         raise Problem(f"{folder}: is no folder")
     mirror, screen, missing = mirror_of(options.mirror), Screen(options.quiet), 0
-    with work_folder(folder) as (downloads, scratch):
-        fetcher = Fetcher(tools, folder, downloads, scratch, mirror, options.alike, screen.line, screen.bytes)
+    with work_folder(folder) as scratch:
+        fetcher = Fetcher(tools, folder, scratch, mirror, options.alike, screen.line, screen.bytes)
         for mesh in meshes:
             try:
                 print(f"{mesh.file}: {fetcher.fetch(mesh)}", flush=True)

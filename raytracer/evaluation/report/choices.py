@@ -1,4 +1,4 @@
-"""How the verdicts on the paper's claims depend on choices that the paper leaves open: the claims, judged anew by the
+"""The verdicts on the paper's claims under choices that the paper leaves open: the claims are judged again by the
 runs with another view of the dragon, and by those of SWEEPS that make one of CHOICES."""
 
 import copy
@@ -54,7 +54,7 @@ def _cell(verdict, found):
 
 
 def _is_measured(found):
-    """On all scenes: a verdict on some of them is not comparable."""
+    """The choice must be on all scenes: a verdict on some of them is not comparable."""
     return found != NOT_MEASURED and not found.startswith("measured on")
 
 

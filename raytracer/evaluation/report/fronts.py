@@ -1,4 +1,4 @@
-"""Which of the paper's chips are on the front of rays for area, power and bandwidth: by the sweep `rays`."""
+"""The fronts of the paper's chips: rays for area, power and bandwidth, by the sweep `rays`."""
 
 from .charts import STYLES
 from .own import COSTS, LABELS, front

@@ -59,7 +59,7 @@ class Machine:
         return mean(self.best(name, per).values())
 
     def halves(self, name):
-        """By scene, half the width of the rate's interval relative to the rate; 0 for exact runs."""
+        """Returns by scene half the width of the rate's interval, relative to the rate; 0 for exact runs."""
         found = {}
         for run in self.runs.get(self.program, []):
             low, high = run.get("values.mrps_low"), run.get("values.mrps_high")
@@ -72,8 +72,8 @@ class Machine:
 
 
 def _by_size(results):
-    """By workload and size, large pictures first, the machines of the sweeps; a machine without a program measured on
-    all scenes is left out."""
+    """Returns the machines of the sweeps by workload and size, large pictures first, without those of which no
+    program was measured on all scenes."""
     runs = {run.index: run for sweep in SWEEPS for run in results.of_sweep(sweep)}
     scenes = {run.scene for run in runs.values()}
     found = {}
@@ -106,7 +106,7 @@ def papers(some):
 
 
 def times(machine, base, name, per):
-    """By scene, how many times the figure of the other machine this one has."""
+    """Returns by scene how many times the figure of the other machine this one has."""
     own, other = machine.best(name, per), base.best(name, per) if base else {}
     return [ratio(value, other.get(scene)) for scene, value in own.items()]
 

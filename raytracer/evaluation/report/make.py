@@ -126,7 +126,7 @@ def pictures(results, base):
 
 
 def linker(base, folder):
-    """Links to the runs' files, from where the page is to be."""
+    """Links to the runs' files, from the place of the page."""
     def link(path):
         return urllib.parse.quote(os.path.relpath(base / path, folder).replace(os.sep, "/")) if path else ""
 
@@ -171,7 +171,7 @@ def configurations(results):
 
 
 class Page:
-    """The page of one file of results. folder: where it is to be; base: where the results are."""
+    """The page of one file of results. folder: the page's; base: the results'."""
     def __init__(self, results, paper, base, folder):
         self.results, self.paper, self.base, self.folder = results, paper, base, folder
         self.programs = results.programs()

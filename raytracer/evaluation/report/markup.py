@@ -28,9 +28,6 @@ def el(name, /, *content, **attributes):
     return Html(f"{opened}>{join(content)}</{name}>")
 
 
-MISSING = Html('<span class="missing" title="not measured">–</span>')
-
-
 def _cell(cell, numeric):
     """A cell of a Table. Numbers have a true minus; a missing figure is shown as missing."""
     def figures(text):

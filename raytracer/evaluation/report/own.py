@@ -49,7 +49,7 @@ def title(own):
 
 
 def label(name, per=None):
-    """What a statistic is, with its unit."""
+    """Returns what a statistic is, with its unit."""
     text = LABELS.get(name) or TITLES.get(name) or name.removeprefix("values.").replace("_", " ")
     return f"{text} / {label(per)}" if per else text
 
@@ -63,7 +63,7 @@ def renamed(lines, sweep):
 
 
 def name_of(run, varying):
-    """What tells a run from the others."""
+    """Returns what tells a run from the others."""
     parts = [run.variant, *(f"{key}={value}" for key, value in run.set.items())]
     parts = [run.config, *(part for part in (run.variant or None, *parts[1:]) if part)]
     for axis in ("scene", "program", "workload"):
@@ -85,7 +85,7 @@ def design(run):
 
 
 def best_known(runs):
-    """Of each design the exact run, or its estimate until there is one."""
+    """Returns each design's exact run, or its estimate until there is one."""
     exact = {design(run) for run in runs if run.done and not run.is_estimate()}
     return [run for run in runs if not (run.is_estimate() and design(run) in exact)]
 
@@ -168,7 +168,7 @@ def in_all(some):
 
 
 def short(names):
-    """Of each name what tells it from the others, as far as it fits beside a bar: keys without their section or
+    """Returns the part of each name that tells it from the others and fits beside a bar: keys without section or
     program, and without those that every run of a variant has."""
     found = []
     parts = [re.sub(r"[\w.]+\.(\w+=)|[\w-]+ --([\w-]+=)", r"\1\2", name).split(", ") for name in names]

@@ -1,19 +1,18 @@
 """A figure as a file of SVG that stands alone, for pages of docs."""
 
+import pathlib
 import re
 
 from .markup import el
 from .plots import WIDTH, mark, shapes
 
-# The page's colours (page.css) that figures use, for a picture that stands alone; it follows the reader's light or
-# dark.
-_COLOURS = {
-    0: ("#1c1c1a", "#ecece6"), 1: ("#0072b2", "#56b4e9"), 2: ("#c85200", "#f08a4b"), 3: ("#007f5f", "#4cc9a0"),
-    4: ("#a3568a", "#d79ac2"), 5: ("#8a6d00", "#e0c040"), 6: ("#3d7f9f", "#8fc7de"), 7: ("#a8a8a0", "#6b6b65"),
-    10: ("#2a9d74", ) * 2, 11: ("#7cc0ea", ) * 2, 12: ("#0072b2", "#2a8fd0"), 13: ("#c85200", "#d5642a"),
-    14: ("#e69f00", ) * 2, 15: ("#e8d44d", ) * 2, 16: ("#b877a0", "#c58ab0"), 17: ("#8a7a6a", "#9a8a7a"),
-    18: ("#d4d4ce", "#4a4a46")
-}
+_STYLE = pathlib.Path(__file__).with_name("page.css").read_text()
+
+
+def _colour(name):
+    """A colour of the page, for light and for dark."""
+    light, dark = re.search(rf"--{name}: (?:light-dark\()?(#\w+)(?:, (#\w+))?", _STYLE).groups()
+    return light, dark or light
 
 
 def standalone(figure):
@@ -29,9 +28,10 @@ def standalone(figure):
     height = figure.height + 12 + 18 * -(-len(figure.marks()) // across)
 
     def rules(place):
+        """Colours for light (0) or dark (1); the reader's choice decides."""
         used = {int(style) for style in re.findall(r'class="s(\d+)"', "".join(elements))}
-        colours = "".join(f".s{style}{{color:{_COLOURS[style][place]}}}" for style in sorted(used))
-        ink, line, ground = (("#5f5f59", "#d9d9d3", "#ffffff"), ("#a3a39b", "#3a3a37", "#171716"))[place]
+        colours = "".join(f".s{style}{{color:{_colour(f's{style}')[place]}}}" for style in sorted(used))
+        ink, line, ground = (_colour(name)[place] for name in ("soft", "line", "ground"))
         return f"svg{{background:{ground}}}text{{fill:{ink}}}.axis{{stroke:{ink}}}.grid{{stroke:{line}}}{colours}"
 
     style = (

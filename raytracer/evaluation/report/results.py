@@ -133,7 +133,7 @@ class Run:
         return self.configured(name)
 
     def configured(self, name):
-        """The configuration's value of a key, as it is."""
+        """The configuration's value of a key, unchanged."""
         self.asked.setdefault(self.index, set()).add("configuration." + name)
         value = self.stats.get("configuration")
         for part in name.split(".", 1):
@@ -238,7 +238,7 @@ class Results:
         return run.get(name) if run else None
 
     def only(self, sweep):
-        """The same with the runs alone that a sweep asks for."""
+        """Returns results of the runs that a sweep asks for."""
         return Results(self.document, [run for run in self.runs if sweep in run.experiments])
 
     def named(self, kind):

@@ -208,7 +208,7 @@ class SweepTable:
         return math.sqrt(math.fsum(half**2 for half in known)) / len(halves) if known else None
 
     def half_of_times(self, row, column, value):
-        """The same of `times`: relative errors add up as squares."""
+        """Returns the half width of `times`: relative errors add up as squares."""
         sides = [(row, column), self.base(row, column)]
         parts = [ratio(self.half(*side, value), self.found(*side, value)) for side in sides]
         known = [part for part in parts if part is not None]

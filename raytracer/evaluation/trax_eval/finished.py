@@ -55,7 +55,7 @@ def shows(path, pixels, *stamp):
 
 
 def forget_damaged(out, keys):
-    """Removes damaged runs, so that they are made anew. Of the runs that share a damaged picture, one is enough."""
+    """Removes damaged runs, so that they are made again. One of the runs that share a damaged picture is enough."""
     pictures = set()
     for key in keys:
         try:

@@ -152,7 +152,7 @@ def keep_inputs(out, request, built, folder, only_look):
 
 
 def take_place(folder, place):
-    """Or each file that is damaged there, if the place is taken."""
+    """Moves the folder to the place. If the place is taken, damaged files there are replaced."""
     with contextlib.suppress(OSError):
         os.rename(folder, place)
         return

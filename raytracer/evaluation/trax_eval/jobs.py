@@ -34,7 +34,7 @@ from .tools import dying
 from .util import Problem, hash_bytes, hash_file, hash_value, read_json, remark, write_file, write_json, write_sealed
 
 FORMAT = 2
-# In the statistics, but not of the machine.
+# Members of the statistics that are not the machine's.
 OF_THE_HOST = ("program", "host_seconds", "instructions_per_host_second")
 
 # --- jobs
@@ -179,7 +179,7 @@ def run_process(program, command, scratch, on_start):
 
 
 def run_job(out, tools, key, threads=1, on_start=None):
-    """Makes runs/KEY.json, unless it is there. on_start receives each process that is started."""
+    """Makes runs/KEY.json, unless it exists. on_start receives each process that is started."""
     if is_done(out, key):
         return
     job = read_json(out / "jobs" / f"{key}.json")
@@ -189,7 +189,7 @@ def run_job(out, tools, key, threads=1, on_start=None):
     for program, known in ((emulator, job["emulator"]), ("trax-render", job.get("renderer")),
                            ("trax-compare", job.get("judge"))):
         if known and known != hash_file(
-                tools.path(program)):  # hashed anew: it may have been built since the command began
+                tools.path(program)):  # hashed again: it may have been built since the command began
             raise Problem(f"job {key} is for another {program} than {tools.path(program)}")
     inputs = out / "inputs" / hash_value(job["inputs"])
     check_inputs(job, inputs)

@@ -51,7 +51,7 @@ def forget_machine(folder):
 
 
 def seal(folder, more=()):
-    """Writes sizes and hashes of the files as they are now. more: buffers behind those that are there."""
+    """Writes the present sizes and hashes of the files. more: further buffers."""
     manifest = read_manifest(folder)
     manifest["buffers"] += more
     for part in (manifest["program"], *manifest["buffers"]):

@@ -20,7 +20,7 @@ def own_figures():
 
 
 class Names:
-    """What the sweep's report knows: the keys that trax-sim describes and those that the sweep sets; figures."""
+    """Returns the names that the sweep's report knows: keys of trax-sim and of the sweep, and figures."""
     def __init__(self, sweep, tools):
         self.sweep, described = sweep, tools.described("--help-config")
         keys = {key for point in sweep.points for key, _ in (*point.settings, *point.program.settings)}

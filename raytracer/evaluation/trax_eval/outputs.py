@@ -69,7 +69,7 @@ def write_all(descriptor, data):
 
 
 def temporary_name(target):
-    """Beside the target, whatever the length of its name. scratch.py removes those of processes that are no more."""
+    """Returns a name beside the target, however long the target's is. scratch.py removes those of dead processes."""
     folder, name = os.path.split(target)
     ending = f".{socket.gethostname()}.{os.getpid()}.{threading.get_native_id()}"
     return os.path.join(folder, "." + os.fsdecode(os.fsencode(name)[:254 - len(os.fsencode(ending))]) + ending)

@@ -150,7 +150,7 @@ class Planner:
         scene, program, workload = sweep.scenes[point.scene], point.program, sweep.workloads[point.workload]
         machine = point.chip_file, point.machine()
         rendered = tuple(point.options("trax-render", workload))
-        # All of an exact picture is simulated.
+        # An exact picture is simulated completely.
         sampling = tuple(word for word in rendered if word.startswith("--sample-") and point.mode == "quick")
         rendered = tuple(word for word in rendered if not word.startswith("--sample-"))
         path = self.scene_file(sweep, point)

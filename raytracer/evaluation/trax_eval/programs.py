@@ -90,7 +90,7 @@ def read_program(path):
     name = fields.name()
 
     def place(key, text):
-        """Beside the file that says it, or of the installation."""
+        """Returns the path beside the file that names it, or in the installation."""
         for candidate in (folders[key] / text, INSTALLED / text):
             if candidate.exists():
                 return candidate

@@ -132,7 +132,7 @@ def read_list(path):
 
 
 def same_statistics(statistics):
-    """Those that every import of the meshes gives: without times and memory."""
+    """Returns the statistics that every import of the meshes gives: without times and memory."""
     return {name: value for name, value in statistics.items() if not re.search(r"\.seconds$|^memory\.", name)}
 
 

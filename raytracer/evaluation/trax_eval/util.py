@@ -132,7 +132,7 @@ def write_sealed(path, value):
 
 
 def read_sealed(path):
-    """Its value without the digest; a Problem if it has not the bytes that were written."""
+    """Returns its value without the digest. A Problem: it does not have the bytes that were written."""
     data = read_bytes(path)
     text = data[:-len(SEAL % hash_bytes(b""))]
     if data != text + (SEAL % hash_bytes(text)).encode():

@@ -189,7 +189,7 @@ def halves_of_rays(result, values):
         return row["thread_cycles"] - row["halted"]
 
     def half(kind, over, below=None):
-        """Of the sum of over(part), or of its quotient by that of below(part); relative."""
+        """Returns the relative half width of the sum of over(part), or of its quotient by the sum of below(part)."""
         draws = [(over(part[kind]), below(part[kind]) if below else 0) for part in parts[1:]]
         sums = [math.fsum(side(part[kind]) for part in parts) for side in (over, below) if side]
         return ratio(half_width(draws, *sums), sums[0] / sums[1] if below else sums[0]) if all(sums) else 0

@@ -3,7 +3,7 @@
 from .fields import find_file, read_fields, unknown
 
 KEYS = ("name", "title", "render", "scene", "rays")
-# In the order of their numbers in files of rays (trax/ray_kinds.h).
+# The order is that of their numbers in files of rays (trax/ray_kinds.h).
 KINDS = ("primary", "shadow", "occlusion", "diffuse", "glossy", "mirror", "glass", "other")
 PAPER = ""  # one point light, its shadows, Lambert's law: what a sweep without workloads has
 

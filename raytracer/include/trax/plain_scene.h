@@ -21,7 +21,7 @@ struct trax_plain_node {
   uint32_t first;       /* the number of its first triangle, or of its first child; the second child follows it */
 };
 
-/* In the order of the leaves in a depth-first traversal. */
+/* Triangles stand in the order of the leaves in a depth-first traversal. */
 struct trax_plain_triangle {
   float v0[3], v1[3], v2[3];
   uint32_t material; /* number of the entry of the palette */

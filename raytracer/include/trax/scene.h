@@ -21,10 +21,6 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 /* --- meshes --- */
 
 struct trax_mesh_triangle {
@@ -72,7 +68,7 @@ struct trax_mesh {
   struct trax_mesh_texture *textures;
   uint32_t *texels;
   struct trax_mesh_camera *cameras;
-  /* For the triangles' corners, from the files: NULL if no file has any, zeros for corners without. */
+  /* Attributes of the triangles' corners, from the files. NULL: no file has any; zeros: the corner has none. */
   float (*normals)[3][3];
   float (*uvs)[3][2];
   uint32_t vertex_count, triangle_count, material_count, texture_count, texel_count, camera_count;
@@ -114,7 +110,7 @@ trax_status trax_override_material(struct trax_material_override *override, char
 /* The default limit of bytes of a packed file, or one without a size (a pipe): docs/scene-file.md, "Limits". */
 #define TRAX_DEFAULT_UNPACK_LIMIT ((size_t)1 << 30)
 
-/* Parses "700M", "2G", "65536": bytes; K, M and G are powers of 1024; 1 to 4 GiB. False: text is no such size. */
+/* Parses "700M", "2G", "65536": bytes; K, M and G are powers of 1024; 1 to 4 GiB. False: text is no size. */
 bool trax_parse_size(const char *text, size_t *bytes);
 
 struct trax_import_options {
@@ -173,8 +169,8 @@ trax_status trax_mesh_import(struct trax_mesh *mesh, const char *const *paths, s
                              trax_error *error);
 void trax_mesh_release(struct trax_mesh *mesh);
 
-/* From now on, lists each file that an import or a build reads in the file of this descriptor: a line as of `xxhsum
-   -H2`, or one that begins with "-" for a file that cannot be read. 0 ends the list. */
+/* Lists each file that an import or a build reads from now on, in the file of this descriptor. A line is as that of
+   `xxhsum -H2`, or begins with "-" if the file cannot be read. 0 ends the list. */
 void trax_scene_list_files(int descriptor);
 
 /* --- scenes --- */
@@ -251,8 +247,7 @@ bool trax_splits_choose(const char *text, struct trax_build_options *build);
 trax_status trax_scene_build(struct trax_scene *scene, const struct trax_mesh *mesh,
                              const struct trax_build_options *options, trax_error *error);
 
-/* Writes the triangles of a mesh as a tree of one's own numbers them: an array of floats (.npy) of the shape (n, 3, 3).
- */
+/* Writes the triangles of a mesh as a user's tree numbers them: an array of floats (.npy) of the shape (n, 3, 3). */
 trax_status trax_mesh_write_triangles(const struct trax_mesh *mesh, const char *path, trax_error *error);
 
 /* path is replaced at once or stays as it was (trax/output.h). */
@@ -260,12 +255,10 @@ trax_status trax_scene_write(const struct trax_scene *scene, const char *path, t
 
 /* Reads a file and checks it completely: header, checksum, sections, and the BVH as a tree in which every box is exact
    and every triangle within its leaf's, or those of several leaves together. An accepted scene cannot lead a traversal
-   astray. */
-trax_status trax_scene_read(struct trax_scene *scene, const char *path, trax_error *error);
-/* unpack_limit: as of an import. */
-trax_status trax_scene_read_within(struct trax_scene *scene, const char *path, size_t unpack_limit, trax_error *error);
+   astray. unpack_limit: as of an import. */
+trax_status trax_scene_read(struct trax_scene *scene, const char *path, size_t unpack_limit, trax_error *error);
 
-/* The same checks on bytes in memory, which the caller keeps; messages contain name. On success *scene, if not NULL,
+/* Checks bytes in memory, which the caller keeps, likewise; messages contain name. On success *scene, if not NULL,
    views the bytes, and need not be released. bytes must be 64-byte aligned. */
 trax_status trax_scene_check(struct trax_scene *scene, const void *bytes, size_t size, const char *name,
                              trax_error *error);
@@ -281,9 +274,5 @@ struct trax_scene_stats {
 };
 
 void trax_scene_measure(struct trax_scene_stats *stats, const struct trax_scene *scene);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -48,9 +48,9 @@ enum trax_scene_section_kind {
   TRAX_SCENE_TRIANGLES = 1,  /* struct trax_triangle, in the order of a depth-first traversal, without gaps */
   TRAX_SCENE_MATERIALS = 2,  /* struct trax_material; at least one if there are triangles */
   TRAX_SCENE_SOURCE_IDS = 3, /* uint32_t per triangle: its number in the imported mesh; for the host only */
-  /* Per triangle, in their order, for smooth shading: struct trax_triangle_normals, right behind the triangles. */
+  /* struct trax_triangle_normals of each triangle, for smooth shading, right behind the triangles. */
   TRAX_SCENE_NORMALS = 4,
-  /* Per triangle: struct trax_triangle_uvs, right behind the normals, or behind the triangles if there are none. */
+  /* struct trax_triangle_uvs of each triangle, right behind the normals, or the triangles if there are none. */
   TRAX_SCENE_UVS = 5,
   TRAX_SCENE_TEXTURES = 6, /* struct trax_texture; only with UVs */
   TRAX_SCENE_TEXELS = 7,   /* uint32_t, of all textures, one behind the other */
@@ -135,7 +135,7 @@ struct trax_triangle {
   uint32_t material;         /* index into the materials */
 };
 
-/* As large as a triangle, so that the distance from a triangle to its normals is constant. */
+/* The record is as large as a triangle, so the distance from a triangle to its normals is constant. */
 struct trax_triangle_normals {
   float corner[3][3]; /* of length 1, on the side of v0, v1, v2 counterclockwise */
   uint32_t reserved;  /* zero */

@@ -23,10 +23,6 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 #define TRAX_VIEW_MAX_LIGHTS 16
 #define TRAX_VIEW_MAX_STRENGTH 1e6f
 
@@ -37,19 +33,16 @@ enum trax_light_kind {
 };
 
 /* A light. Its effect is in linear RGB, in units in which a white surface that reflects 1 is as bright as the picture
-   can be: - point and directional lights: a white Lambert surface that faces the light reflects colour * strength, at
-   any
-     distance d if falloff is 0, else times (falloff / d)^2;
-   - a rectangle has the radiance colour * strength. */
+   can be. A white Lambert surface that faces a point or directional light reflects colour * strength, at any distance
+   d if falloff is 0, else times (falloff / d)^2. A rectangle has the radiance colour * strength. */
 struct trax_light {
   enum trax_light_kind kind;
-  float position[3]; /* of a point light, or of a corner of the rectangle */
-  float
-      direction[3];  /* unit length: from a directional light, or the way that a rectangle faces, edges[0] x edges[1] */
-  float edges[2][3]; /* of a rectangle, perpendicular to each other */
-  float colour[3];   /* linear RGB, 0 to 1 */
-  float strength;    /* 0 to TRAX_VIEW_MAX_STRENGTH */
-  float falloff;     /* of a point light: the distance at which strength applies, scene units; 0: everywhere */
+  float position[3];  /* of a point light, or of a corner of the rectangle */
+  float direction[3]; /* unit length: from a directional light, or the way a rectangle faces, edges[0] x edges[1] */
+  float edges[2][3];  /* of a rectangle, perpendicular to each other */
+  float colour[3];    /* linear RGB, 0 to 1 */
+  float strength;     /* 0 to TRAX_VIEW_MAX_STRENGTH */
+  float falloff;      /* of a point light: the distance at which strength applies, scene units; 0: everywhere */
 };
 
 struct trax_view {
@@ -59,8 +52,7 @@ struct trax_view {
   float direction[3]; /* unit length */
   float up[3];        /* unit length, perpendicular to direction */
   float fov;          /* vertical, degrees */
-  float
-      light[3]; /* if light_count is 0: the one light, a white point light of the strength that ambient light leaves */
+  float light[3];     /* if light_count is 0: a white point light of the strength that ambient light leaves */
   uint32_t light_count;
   struct trax_light lights[TRAX_VIEW_MAX_LIGHTS];
 };
@@ -89,9 +81,5 @@ void trax_view_orbit(struct trax_view *view, const float centre[3], float angle,
 
 /* Writes a view file that reads back as this view. It is written under a temporary name and renamed. */
 trax_status trax_view_write(const struct trax_view *view, const char *path, trax_error *error);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -1,4 +1,4 @@
-/* The same boxes as numbers of planes: the smallest boxes on the grid that contain them. Aligned to 32 bytes. */
+/* Planes are numbers: a box is the smallest one on the grid that contains the child's. Aligned to 32 bytes. */
 struct trax_quantised_node {
   struct {
     uint16_t min[3], max[3];

@@ -1,4 +1,4 @@
-/* A ray caster of one's own: the scene's plain arrays, no order of children, grey by the light alone. */
+/* A user's ray caster: it reads the scene's plain arrays, orders no children, and is grey by the light alone. */
 #include "trax/plain_scene.h"
 #include "trax/render_params.h"
 

@@ -27,16 +27,9 @@ static void make_offset(struct setup *setup, uint32_t rays) {
   globe_with_rays(setup, 12, 1e7f, -1e7f, 1e7f, 64, 0, rays);
 }
 
-static void make_small_scale(struct setup *setup, uint32_t rays) {
-  globe_with_rays(setup, 12, 0, 0, 0, 0x1p-60f, 0.1f, rays);
-}
-
-static void make_large_scale(struct setup *setup, uint32_t rays) {
-  globe_with_rays(setup, 12, 0, 0, 0, 0x1p60f, 0.1f, rays);
-}
-
-static void make_subnormal_coordinates(struct setup *setup, uint32_t rays) {
-  globe_with_rays(setup, 12, 0, 0, 0, 0x1p-137f, 0.1f, rays);
+/* numbers: the radius. */
+static void make_scaled_globe(struct setup *setup, uint32_t rays) {
+  globe_with_rays(setup, 12, 0, 0, 0, (float)setup->numbers[0], 0.1f, rays);
 }
 
 static void make_far_origins(struct setup *setup, uint32_t rays) {
@@ -60,30 +53,12 @@ static void make_origins_on_surfaces(struct setup *setup, uint32_t rays) {
 
 /* --- directions --- */
 
-static void scale_directions(struct setup *setup, float factor) {
+/* numbers: the directions' length. */
+static void make_scaled_directions(struct setup *setup, uint32_t rays) {
+  make_globe(setup, rays);
   for (uint32_t i = 0; i < setup->ray_count; i++)
     for (int axis = 0; axis < 3; axis++)
-      setup->rays[i].direction[axis] *= factor;
-}
-
-static void make_short_directions(struct setup *setup, uint32_t rays) {
-  make_globe(setup, rays);
-  scale_directions(setup, 1e-20f);
-}
-
-static void make_long_directions(struct setup *setup, uint32_t rays) {
-  make_globe(setup, rays);
-  scale_directions(setup, 1e20f);
-}
-
-static void make_subnormal_directions(struct setup *setup, uint32_t rays) {
-  make_globe(setup, rays);
-  scale_directions(setup, 0x1p-140f);
-}
-
-static void make_longest_directions(struct setup *setup, uint32_t rays) {
-  make_globe(setup, rays);
-  scale_directions(setup, 0x1p125f);
+      setup->rays[i].direction[axis] *= (float)setup->numbers[0];
 }
 
 static void make_subnormal_components(struct setup *setup, uint32_t rays) {
@@ -96,7 +71,9 @@ static void make_subnormal_components(struct setup *setup, uint32_t rays) {
   }
 }
 
-static void axis_parallel(struct setup *setup, uint32_t rays, float zero) {
+/* numbers: the zero of the other components. */
+static void make_axis_parallel(struct setup *setup, uint32_t rays) {
+  const float zero = (float)setup->numbers[0];
   add_blocks(setup);
   for (uint32_t i = 0; i < rays; i++) {
     float from[3], direction[3] = {zero, zero, zero};
@@ -105,14 +82,6 @@ static void axis_parallel(struct setup *setup, uint32_t rays, float zero) {
     direction[i % 3] = i & 4 ? -1 : 1;
     add_ray(setup, from, direction);
   }
-}
-
-static void make_axis_parallel(struct setup *setup, uint32_t rays) {
-  axis_parallel(setup, rays, 0);
-}
-
-static void make_axis_parallel_negative(struct setup *setup, uint32_t rays) {
-  axis_parallel(setup, rays, -0.0f);
 }
 
 /* Origins on planes of boxes, ways within the planes or not. */
@@ -340,7 +309,7 @@ static void make_vanishing_determinants(struct setup *setup, uint32_t rays) {
 
 /* --- the same place twice --- */
 
-static void duplicates(struct setup *setup, uint32_t rays) {
+static void make_duplicates(struct setup *setup, uint32_t rays) {
   add_globe(setup, 5, &(struct globe){{0, 0, 0}, 1, 0.1f});
   uint32_t once = setup->mesh.triangle_count;
   for (uint32_t copy = 0; copy < 6; copy++)
@@ -354,30 +323,26 @@ static void duplicates(struct setup *setup, uint32_t rays) {
   }
 }
 
-static void make_duplicates(struct setup *setup, uint32_t rays) {
-  duplicates(setup, rays);
-}
-
 /* Traversed the other way round. */
 static void make_duplicates_turned(struct setup *setup, uint32_t rays) {
-  duplicates(setup, rays);
+  make_duplicates(setup, rays);
   setup->turned = true;
 }
 
 static void make_duplicates_alone(struct setup *setup, uint32_t rays) {
-  duplicates(setup, rays);
+  make_duplicates(setup, rays);
   setup->build.max_leaf = 1;
   setup->build.traversal_cost = 3;
 }
 
-/* Squares one behind the other, so many units in the last place apart, at right angles to no axis. */
-static void layers(struct setup *setup, uint32_t rays, int apart) {
+/* Squares one behind the other, seen at right angles to no axis. numbers: how many units in the last place apart. */
+static void make_layers(struct setup *setup, uint32_t rays) {
   for (int layer = 0; layer < 12; layer++) {
     float corner[4][3];
     for (int c = 0; c < 4; c++) {
       corner[c][0] = c == 1 || c == 2 ? 1 : -1;
       corner[c][1] = c >= 2 ? 1 : -1;
-      corner[c][2] = 1.5f + (float)(apart * layer) * 0x1p-23f;
+      corner[c][2] = 1.5f + (float)setup->numbers[0] * (float)layer * 0x1p-23f;
     }
     triangle_at(setup, corner[0], corner[1], corner[2]);
     triangle_at(setup, corner[0], corner[2], corner[3]);
@@ -386,19 +351,6 @@ static void layers(struct setup *setup, uint32_t rays, int apart) {
     float from[3] = {any(setup), any(setup), i & 1 ? 0 : 3}, at[3] = {0.9f * any(setup), 0.9f * any(setup), 1.5f};
     aim(setup, from, at);
   }
-}
-
-static void make_layers_1(struct setup *setup, uint32_t rays) {
-  layers(setup, rays, 1);
-}
-static void make_layers_2(struct setup *setup, uint32_t rays) {
-  layers(setup, rays, 2);
-}
-static void make_layers_3(struct setup *setup, uint32_t rays) {
-  layers(setup, rays, 3);
-}
-static void make_layers_4(struct setup *setup, uint32_t rays) {
-  layers(setup, rays, 4);
 }
 
 /* --- depth --- */
@@ -419,11 +371,11 @@ static void make_deep(struct setup *setup, uint32_t rays) {
   }
 }
 
-/* The triangle at `turned` fills the other half of its box: half of the rays go down through all nodes, miss
-   everything, and must find it on the way back. */
-static void chain(struct setup *setup, uint32_t rays, uint32_t turned) {
+/* One triangle, whose number is given, fills the other half of its box: half of the rays go down through all nodes,
+   miss everything, and must find it on the way back. */
+static void make_chain(struct setup *setup, uint32_t rays) {
   chain_scene(&setup->premade);
-  struct trax_triangle *triangle = (struct trax_triangle *)setup->premade.triangles + turned;
+  struct trax_triangle *triangle = (struct trax_triangle *)setup->premade.triangles + (uint32_t)setup->numbers[0];
   const float z = triangle->v0[2];
   *triangle = (struct trax_triangle){{3, 3, z}, {-1, 3, z}, {3, -1, z}, 0};
   for (uint32_t i = 0; i < rays; i++) {
@@ -433,13 +385,6 @@ static void chain(struct setup *setup, uint32_t rays, uint32_t turned) {
         from[axis] = 2.2f + 0.5f * any(setup), at[axis] = from[axis];
     aim(setup, from, at);
   }
-}
-
-static void make_chain(struct setup *setup, uint32_t rays) {
-  chain(setup, rays, 5);
-}
-static void make_chain_below(struct setup *setup, uint32_t rays) {
-  chain(setup, rays, 40);
 }
 
 /* --- vertices that are no points --- */
@@ -494,46 +439,47 @@ static void make_nonfinite(struct setup *setup, uint32_t rays) {
 }
 
 static const struct extreme_case cases[] = {
-    {"closed-globe", "edges and vertices of a closed surface, from inside", make_globe, CASE_CLOSED},
-    {"closed-100k", "the same, 100,352 triangles of a rough surface", make_rough_globe, CASE_CLOSED | CASE_MANY_RAYS},
-    {"axis-plus-zero", "parallel to an axis, other components +0", make_axis_parallel, CASE_CLOSED},
-    {"axis-minus-zero", "parallel to an axis, other components -0", make_axis_parallel_negative, CASE_CLOSED},
-    {"on-box-planes", "origins on planes of boxes, half of the ways within them", make_box_planes, CASE_CLOSED},
-    {"flat-boxes", "boxes without thickness, half of the rays in their planes", make_flat_boxes, 0},
-    {"in-planes", "rays in the planes of triangles", make_rays_in_planes, 0},
-    {"needles", "triangles 10^8 times as long as wide", make_needles, 0},
-    {"closed-tube", "inside a closed tube 10^8 times as long as wide", make_tube, CASE_CLOSED},
-    {"tiny-details", "rocks of 10^-6 in a scene of 10^6", make_tiny_details, CASE_CLOSED},
-    {"offset", "a closed surface of 64 at 10^7 from the origin", make_offset, CASE_CLOSED},
-    {"scale-small", "the unit is 2^-60", make_small_scale, CASE_CLOSED},
-    {"scale-large", "the unit is 2^60", make_large_scale, CASE_CLOSED},
-    {"subnormal-vertices", "coordinates of some 2^10 units of 2^-149", make_subnormal_coordinates, CASE_CLOSED},
-    {"subnormal-components", "direction components below 2^-126", make_subnormal_components, CASE_CLOSED},
-    {"directions-10^-20", "directions of length 10^-20", make_short_directions, CASE_CLOSED},
-    {"directions-10^20", "directions of length 10^20", make_long_directions, CASE_CLOSED},
-    {"directions-least", "directions of length 2^-140", make_subnormal_directions, CASE_CLOSED},
-    {"directions-greatest", "directions of length 2^125", make_longest_directions, CASE_CLOSED},
-    {"far-origins", "rays from 10^6 times a globe's size away", make_far_origins, 0},
-    {"origins-on-surface", "rays that start on edges and vertices", make_origins_on_surfaces, 0},
-    {"grazing-ground", "a ground met at an angle of 10^-6", make_grazing_ground, 0},
-    {"stadium", "a globe of 0.1 in a stadium of 200", make_stadium, CASE_CLOSED},
-    {"soup", "random triangles of sizes 1 to 2^-8", make_soup, 0},
-    {"one-triangle", "a scene of one triangle", make_one_triangle, 0},
-    {"empty", "a scene of no triangle", make_nothing, 0},
-    {"degenerate", "points, lines and slivers in a closed surface", make_degenerate, CASE_CLOSED},
-    {"vanishing", "triangles of 10^-21 in a scene of 1", make_vanishing_determinants, CASE_CLOSED},
-    {"nonfinite", "NaN and infinity in vertices, left out when asked for", make_nonfinite, CASE_CLOSED},
-    {"duplicates", "every triangle seven times", make_duplicates, CASE_CLOSED | CASE_DUPLICATES},
-    {"duplicates-alone", "the same, one triangle a leaf", make_duplicates_alone, CASE_CLOSED | CASE_DUPLICATES},
-    {"duplicates-turned", "the same, children in the other order", make_duplicates_turned,
+    {"closed-globe", "edges and vertices of a closed surface, from inside", BY(make_globe), CASE_CLOSED},
+    {"closed-100k", "the same, 100,352 triangles of a rough surface", BY(make_rough_globe),
+     CASE_CLOSED | CASE_MANY_RAYS},
+    {"axis-plus-zero", "parallel to an axis, other components +0", BY(make_axis_parallel), CASE_CLOSED},
+    {"axis-minus-zero", "parallel to an axis, other components -0", BY(make_axis_parallel, -0.0), CASE_CLOSED},
+    {"on-box-planes", "origins on planes of boxes, half of the ways within them", BY(make_box_planes), CASE_CLOSED},
+    {"flat-boxes", "boxes without thickness, half of the rays in their planes", BY(make_flat_boxes), 0},
+    {"in-planes", "rays in the planes of triangles", BY(make_rays_in_planes), 0},
+    {"needles", "triangles 10^8 times as long as wide", BY(make_needles), 0},
+    {"closed-tube", "inside a closed tube 10^8 times as long as wide", BY(make_tube), CASE_CLOSED},
+    {"tiny-details", "rocks of 10^-6 in a scene of 10^6", BY(make_tiny_details), CASE_CLOSED},
+    {"offset", "a closed surface of 64 at 10^7 from the origin", BY(make_offset), CASE_CLOSED},
+    {"scale-small", "the unit is 2^-60", BY(make_scaled_globe, 0x1p-60), CASE_CLOSED},
+    {"scale-large", "the unit is 2^60", BY(make_scaled_globe, 0x1p60), CASE_CLOSED},
+    {"subnormal-vertices", "coordinates of some 2^10 units of 2^-149", BY(make_scaled_globe, 0x1p-137), CASE_CLOSED},
+    {"subnormal-components", "direction components below 2^-126", BY(make_subnormal_components), CASE_CLOSED},
+    {"directions-10^-20", "directions of length 10^-20", BY(make_scaled_directions, 1e-20), CASE_CLOSED},
+    {"directions-10^20", "directions of length 10^20", BY(make_scaled_directions, 1e20), CASE_CLOSED},
+    {"directions-least", "directions of length 2^-140", BY(make_scaled_directions, 0x1p-140), CASE_CLOSED},
+    {"directions-greatest", "directions of length 2^125", BY(make_scaled_directions, 0x1p125), CASE_CLOSED},
+    {"far-origins", "rays from 10^6 times a globe's size away", BY(make_far_origins), 0},
+    {"origins-on-surface", "rays that start on edges and vertices", BY(make_origins_on_surfaces), 0},
+    {"grazing-ground", "a ground met at an angle of 10^-6", BY(make_grazing_ground), 0},
+    {"stadium", "a globe of 0.1 in a stadium of 200", BY(make_stadium), CASE_CLOSED},
+    {"soup", "random triangles of sizes 1 to 2^-8", BY(make_soup), 0},
+    {"one-triangle", "a scene of one triangle", BY(make_one_triangle), 0},
+    {"empty", "a scene of no triangle", BY(make_nothing), 0},
+    {"degenerate", "points, lines and slivers in a closed surface", BY(make_degenerate), CASE_CLOSED},
+    {"vanishing", "triangles of 10^-21 in a scene of 1", BY(make_vanishing_determinants), CASE_CLOSED},
+    {"nonfinite", "NaN and infinity in vertices, left out when asked for", BY(make_nonfinite), CASE_CLOSED},
+    {"duplicates", "every triangle seven times", BY(make_duplicates), CASE_CLOSED | CASE_DUPLICATES},
+    {"duplicates-alone", "the same, one triangle a leaf", BY(make_duplicates_alone), CASE_CLOSED | CASE_DUPLICATES},
+    {"duplicates-turned", "the same, children in the other order", BY(make_duplicates_turned),
      CASE_CLOSED | CASE_DUPLICATES},
-    {"layers-1", "layers 1 ulp apart", make_layers_1, 0},
-    {"layers-2", "layers 2 ulp apart", make_layers_2, 0},
-    {"layers-3", "layers 3 ulp apart", make_layers_3, 0},
-    {"layers-4", "layers 4 ulp apart", make_layers_4, 0},
-    {"deep", "5,000 triangles through 179 octaves: as deep a tree as there may be", make_deep, 0},
-    {"deepest", "a chain of as many nodes as there may be", make_chain, 0},
-    {"deepest-below", "the same, what is hit is among the lower half", make_chain_below, 0},
+    {"layers-1", "layers 1 ulp apart", BY(make_layers, 1), 0},
+    {"layers-2", "layers 2 ulp apart", BY(make_layers, 2), 0},
+    {"layers-3", "layers 3 ulp apart", BY(make_layers, 3), 0},
+    {"layers-4", "layers 4 ulp apart", BY(make_layers, 4), 0},
+    {"deep", "5,000 triangles through 179 octaves: as deep a tree as there may be", BY(make_deep), 0},
+    {"deepest", "a chain of as many nodes as there may be", BY(make_chain, 5), 0},
+    {"deepest-below", "the same, what is hit is among the lower half", BY(make_chain, 40), 0},
 };
 
 const struct extreme_case *extreme_case(unsigned number) {

@@ -19,8 +19,15 @@ enum case_flags {
 struct extreme_case {
   const char *name, *what;
   void (*make)(struct setup *setup, uint32_t rays);
+  double numbers[3]; /* what tells it from other cases of this function */
   unsigned flags;
 };
+
+/* make and numbers */
+#define BY(function, ...)                                                                                              \
+  (function), {                                                                                                        \
+    __VA_ARGS__                                                                                                        \
+  }
 
 /* From 0; NULL behind the last one. */
 const struct extreme_case *extreme_case(unsigned number);

@@ -107,7 +107,7 @@ static bool must_be_found(const struct bounds *bounds) {
   return true;
 }
 
-/* It may find one. */
+/* A test within the bounds may find a hit at this distance. */
 static bool may_be_found(const struct bounds *bounds, double distance) {
   bool above = true, below = true;
   for (int i = 0; i < 3; i++) {

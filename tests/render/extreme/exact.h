@@ -9,7 +9,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Where an instance has its mesh: the point p is at matrix (p, 1). */
+/* The place of an instance's mesh: the point p is at matrix (p, 1). */
 struct exact_place {
   float matrix[3][4];
   double inverse[3][3]; /* rounded, of the first three columns */

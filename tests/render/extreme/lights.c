@@ -43,14 +43,14 @@ static bool hides_nearby(struct exact_pair *pair, vector inward) {
   subtract(edge[1], pair->vertex[2], pair->vertex[0]);
   cross(normal, edge[0], edge[1]);
   bool hides = dot_of(rise, normal, inward) * dot_of(fall, normal, pair->direction) < 0;
-  /* Where the way comes through the triangle's plane. */
+  /* The place where the segment comes through the triangle's plane. */
   for (int i = 0; i < 3; i++) {
     mpz_mul(place[i], inward[i], fall);
     mpz_submul(place[i], pair->direction[i], rise);
     if (mpz_sgn(fall) < 0)
       mpz_neg(place[i], place[i]);
   }
-  /* It is within all edges that the point lies on. */
+  /* The segment is within all edges that the point lies on. */
   for (int i = 0; i < 3 && hides; i++) {
     mpz_t *a = pair->vertex[(i + 1) % 3], *b = pair->vertex[(i + 2) % 3];
     cross(edge[0], a, b);

@@ -57,7 +57,7 @@ trax_status machine_trace(const char *program, const struct trax_scene *scene, c
   return status;
 }
 
-/* Where everything waits for everything. */
+/* A machine on which everything waits for everything. */
 static const struct {
   const char *preset;
   const char *settings[8][2];

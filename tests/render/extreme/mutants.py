@@ -73,7 +73,7 @@ def make(folder, build, mutant):
 
 
 def noticed(folder, build, mutant):
-    """What the suite says of the mutant's case, with as many rays as the test takes."""
+    """Returns what the suite says of the mutant's case, with as many rays as the test takes."""
     if folder not in MADE:
         make(folder, build, mutant)
         MADE.add(folder)

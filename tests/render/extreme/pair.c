@@ -133,7 +133,7 @@ enum side exact_evaluate_ray(struct exact_pair *pair, const struct query_ray *ra
 
 /* --- in binary64 --- */
 
-/* With components of b and c that are off by `off` besides some rounding. */
+/* The determinant. Components of b and c are off by `off` besides some rounding. */
 static double determinant(const triple a, const triple b, const triple c, double off, double *error) {
   double sum = 0, size = 0, far = 0;
   for (int i = 0; i < 3; i++) {

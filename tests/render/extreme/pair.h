@@ -19,13 +19,13 @@ void exact_pair_clear(struct exact_pair *pair);
 /* value = number * 2^EXACT_BITS: exact for every finite binary32 number, and for a product of two. */
 #define EXACT_BITS 298
 void exact_set_float(mpz_t value, float number);
-/* The same of a coordinate of a triangle's corner, in the scene. */
+/* Sets a coordinate of a triangle's corner, in the scene. */
 void exact_set_corner(struct exact_pair *pair, mpz_t value, const struct exact_triangle *triangle, int corner,
                       int axis);
 
 enum side { OUTSIDE, HIT, BEHIND_ORIGIN, NO_AREA };
 
-/* From pair->direction and pair->vertex. The distance is that of the triangle's plane, inside or not. */
+/* Evaluates pair->direction and pair->vertex. The distance is that of the triangle's plane, inside or not. */
 enum side exact_evaluate(struct exact_pair *pair);
 enum side exact_evaluate_ray(struct exact_pair *pair, const struct query_ray *ray,
                              const struct exact_triangle *triangle);

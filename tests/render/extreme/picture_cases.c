@@ -7,8 +7,9 @@
 /* --- shadows --- */
 
 /* Rays from around at a globe; the light low over its horizon: half of the points are within a degree of the border
-   between day and night. */
-static void grazing_globe(struct setup *setup, uint32_t rays, float offset) {
+   between day and night. numbers: each coordinate of the globe's middle. */
+static void make_grazing_globe(struct setup *setup, uint32_t rays) {
+  const float offset = (float)setup->numbers[0];
   add_globe(setup, 20, &(struct globe){{offset, offset, offset}, 1, 0});
   setup->light[0] = offset + 50, setup->light[1] = setup->light[2] = offset;
   for (uint32_t i = 0; i < rays; i++) {
@@ -34,16 +35,10 @@ static void grazing_globe(struct setup *setup, uint32_t rays, float offset) {
   }
 }
 
-static void make_grazing_globe(struct setup *setup, uint32_t rays) {
-  grazing_globe(setup, rays, 0);
-}
-
-static void make_grazing_globe_away(struct setup *setup, uint32_t rays) {
-  grazing_globe(setup, rays, 1000);
-}
-
-/* At edges and corners of a room, exactly and close by, from inside. */
-static void corners(struct setup *setup, uint32_t rays) {
+/* The eye looks from inside at edges and corners of a room, or close by. numbers: the light. */
+static void make_corners(struct setup *setup, uint32_t rays) {
+  for (int axis = 0; axis < 3; axis++)
+    setup->light[axis] = (float)setup->numbers[axis];
   mesh_box(&setup->mesh, (float[]){-2, -1, -3}, (float[]){2, 1, 3}, 0);
   const float half[3] = {2, 1, 3};
   for (uint32_t i = 0; i < rays; i++) {
@@ -61,25 +56,9 @@ static void corners(struct setup *setup, uint32_t rays) {
   }
 }
 
-static void make_corners_dark(struct setup *setup, uint32_t rays) {
-  corners(setup, rays);
-  setup->light[0] = 5, setup->light[1] = 4, setup->light[2] = 7;
-}
-
-static void make_corners_lit(struct setup *setup, uint32_t rays) {
-  corners(setup, rays);
-  setup->light[0] = 0.3f, setup->light[1] = 0.4f, setup->light[2] = -0.2f;
-}
-
-/* A light on a vertex of a room, and in the planes of its walls. */
-static void make_light_on_surface(struct setup *setup, uint32_t rays) {
-  corners(setup, rays);
-  setup->light[0] = 2, setup->light[1] = 1, setup->light[2] = 3;
-}
-
-/* A needle of width 2^-149 that shadow rays pass behind the light. A needle has a point before the light, too, so no box
-   rejects it. Its determinants have so few bits that UNITS_OF_DOUBT are a multiple of them. All rays are in the plane
-   y = 0, and the ground is symmetric about it: only there does a ray meet the needle. */
+/* A needle of width 2^-149 that shadow rays pass behind the light. A needle has a point before the light, too, so no
+   box rejects it. Its determinants have so few bits that UNITS_OF_DOUBT are a multiple of them. All rays are in the
+   plane y = 0, and the ground is symmetric about it: only there does a ray meet the needle. */
 static void make_needle_behind_light(struct setup *setup, uint32_t rays) {
   triangle_at(setup, (float[]){-8, 0, 0}, (float[]){8, 8, 0}, (float[]){8, -8, 0});
   triangle_at(setup, (float[]){-1, 0, 1.9f}, (float[]){1, 0, 4}, (float[]){-1, 0x1p-149f, 1.9f});
@@ -101,33 +80,19 @@ static void make_picture_empty(struct setup *setup, uint32_t rays) {
   picture(setup, 24, 16, view_from(0, 0, 0, 0, 0, -1, 60, 0, 1, 0));
 }
 
-static void make_picture_room(struct setup *setup, uint32_t width, uint32_t height) {
+static void room(struct setup *setup, uint32_t width, uint32_t height) {
   add_blocks(setup);
   picture(setup, width, height, view_from(-0.7f, 0.6f, 0.8f, 0.6f, -0.6f, -1, 70, 0.3f, 0.8f, 0.7f));
 }
 
-static void make_picture_1x1(struct setup *setup, uint32_t rays) {
+/* numbers: width and height. */
+static void make_picture_room(struct setup *setup, uint32_t rays) {
   (void)rays;
-  make_picture_room(setup, 1, 1);
-}
-
-static void make_picture_1xN(struct setup *setup, uint32_t rays) {
-  (void)rays;
-  make_picture_room(setup, 1, 333);
-}
-
-static void make_picture_Nx1(struct setup *setup, uint32_t rays) {
-  (void)rays;
-  make_picture_room(setup, 333, 1);
-}
-
-static void make_picture_small(struct setup *setup, uint32_t rays) {
-  (void)rays;
-  make_picture_room(setup, 5, 3);
+  room(setup, (uint32_t)setup->numbers[0], (uint32_t)setup->numbers[1]);
 }
 
 static void make_picture_hardware(struct setup *setup, uint32_t rays) {
-  make_picture_room(setup, 24, rays < 1000 ? 8 : 16);
+  room(setup, 24, rays < 1000 ? 8 : 16);
 }
 
 /* The room at 10^7, where floats are a unit apart: it is 128 of them wide. */
@@ -139,7 +104,7 @@ static void make_picture_offset(struct setup *setup, uint32_t rays) {
           view_from(1e7f - 45, -1e7f + 38, 1e7f + 51, 0.6f, -0.6f, -1, 70, 1e7f + 19, -1e7f + 51, 1e7f + 45));
 }
 
-/* How much smaller a picture is in the short form of the suite. */
+/* Pictures are so many times smaller in the short form of the suite. */
 static uint32_t part_of(uint32_t rays) {
   return rays < 1000 ? 3 : 1;
 }
@@ -157,20 +122,23 @@ static void make_picture_on_vertex(struct setup *setup, uint32_t rays) {
 }
 
 const struct extreme_case picture_cases[] = {
-    {"grazing-shadows", "a globe of 3,200 triangles in grazing light", make_grazing_globe, CASE_SHADOWS},
-    {"grazing-shadows-away", "the same, 1000 radii from the origin", make_grazing_globe_away, CASE_SHADOWS},
-    {"corners-dark", "edges and corners of a room, light outside", make_corners_dark, CASE_CLOSED | CASE_SHADOWS},
-    {"corners-lit", "edges and corners of a room, light inside", make_corners_lit, CASE_CLOSED | CASE_SHADOWS},
-    {"light-on-surface", "the light on a corner of the room", make_light_on_surface, CASE_CLOSED | CASE_SHADOWS},
-    {"needle-behind-light", "a triangle of width 2^-149 behind the light", make_needle_behind_light, CASE_SHADOWS},
-    {"picture-empty", "a picture of nothing", make_picture_empty, 0},
-    {"picture-1x1", "one pixel", make_picture_1x1, CASE_CLOSED},
-    {"picture-1xN", "1 x 333 pixels", make_picture_1xN, CASE_CLOSED},
-    {"picture-Nx1", "333 x 1 pixels", make_picture_Nx1, CASE_CLOSED},
-    {"picture-few", "15 pixels, more threads", make_picture_small, CASE_CLOSED},
-    {"picture-hardware", "saturated hardware, 12 machines", make_picture_hardware, CASE_CLOSED | CASE_HARDWARE},
-    {"picture-offset", "a room of 128 at 10^7 from the origin", make_picture_offset, CASE_CLOSED | CASE_BELOW_ROUNDING},
-    {"eye-within", "the eye inside of geometry", make_picture_within, CASE_CLOSED},
-    {"eye-on-vertex", "the eye on a vertex", make_picture_on_vertex, CASE_CLOSED},
+    {"grazing-shadows", "a globe of 3,200 triangles in grazing light", BY(make_grazing_globe), CASE_SHADOWS},
+    {"grazing-shadows-away", "the same, 1000 radii from the origin", BY(make_grazing_globe, 1000), CASE_SHADOWS},
+    {"corners-dark", "edges and corners of a room, light outside", BY(make_corners, 5, 4, 7),
+     CASE_CLOSED | CASE_SHADOWS},
+    {"corners-lit", "edges and corners of a room, light inside", BY(make_corners, 0.3, 0.4, -0.2),
+     CASE_CLOSED | CASE_SHADOWS},
+    {"light-on-surface", "the light on a corner of the room", BY(make_corners, 2, 1, 3), CASE_CLOSED | CASE_SHADOWS},
+    {"needle-behind-light", "a triangle of width 2^-149 behind the light", BY(make_needle_behind_light), CASE_SHADOWS},
+    {"picture-empty", "a picture of nothing", BY(make_picture_empty), 0},
+    {"picture-1x1", "one pixel", BY(make_picture_room, 1, 1), CASE_CLOSED},
+    {"picture-1xN", "1 x 333 pixels", BY(make_picture_room, 1, 333), CASE_CLOSED},
+    {"picture-Nx1", "333 x 1 pixels", BY(make_picture_room, 333, 1), CASE_CLOSED},
+    {"picture-few", "15 pixels, more threads", BY(make_picture_room, 5, 3), CASE_CLOSED},
+    {"picture-hardware", "saturated hardware, 12 machines", BY(make_picture_hardware), CASE_CLOSED | CASE_HARDWARE},
+    {"picture-offset", "a room of 128 at 10^7 from the origin", BY(make_picture_offset),
+     CASE_CLOSED | CASE_BELOW_ROUNDING},
+    {"eye-within", "the eye inside of geometry", BY(make_picture_within), CASE_CLOSED},
+    {"eye-on-vertex", "the eye on a vertex", BY(make_picture_on_vertex), CASE_CLOSED},
 };
 const unsigned picture_case_count = sizeof picture_cases / sizeof *picture_cases;

@@ -32,7 +32,7 @@ struct query_answer {
   float origin[3]; /* where the shadow ray started */
 };
 
-/* On the host: answers[first .. last - 1]. */
+/* Answers answers[first .. last - 1] on the host. */
 typedef void query_function(const void *scene, const struct query_params *params, const struct query_ray *rays,
                             struct query_answer *answers, uint32_t first, uint32_t last);
 query_function query_exact, query_watertight, query_moller_trumbore, query_instances, query_instances_moller_trumbore;

@@ -30,7 +30,7 @@ static void turn_and_move(struct setup *setup, const float by[3]) {
 
 /* --- large faces --- */
 
-/* From within half a unit of 0, in all directions, most of them close to the horizon. */
+/* Rays start within half a unit of 0 and go in all directions, most of them close to the horizon. */
 static void look_around(struct setup *setup, uint32_t rays, float size) {
   for (uint32_t i = 0; i < rays; i++) {
     float from[3] = {0.5f * size * any(setup), 0.5f * size * any(setup), 0.5f * size * any(setup)};
@@ -43,24 +43,15 @@ static void look_around(struct setup *setup, uint32_t rays, float size) {
   }
 }
 
-/* A room from -L to L whose floor is near. */
-static void room(struct setup *setup, uint32_t rays, float length, float height) {
+/* A room from -L to L whose floor is near. numbers: L, and how far below the eye the floor is. */
+static void make_room(struct setup *setup, uint32_t rays) {
+  const float length = (float)setup->numbers[0], height = (float)setup->numbers[1];
   mesh_box(&setup->mesh, (float[]){-length, -height, -length}, (float[]){length, length, length}, 0);
   look_around(setup, rays, height);
 }
 
-static void make_room_3e7(struct setup *setup, uint32_t rays) {
-  room(setup, rays, 3e7f, 2);
-}
-static void make_room_1e9(struct setup *setup, uint32_t rays) {
-  room(setup, rays, 1e9f, 2);
-}
-static void make_room_1e18(struct setup *setup, uint32_t rays) {
-  room(setup, rays, 1.7e18f, 1e-3f);
-}
-
 static void make_room_turned(struct setup *setup, uint32_t rays) {
-  room(setup, rays, 1e9f, 500);
+  make_room(setup, rays);
   turn_and_move(setup, (float[]){1e3f, -2e3f, 3e3f});
 }
 
@@ -102,7 +93,7 @@ static void rocks(struct setup *setup, float distance, float size, float height)
   }
 }
 
-/* At vertices, edges and faces of the first triangles. */
+/* Rays aim at vertices, edges and faces of the first triangles. */
 static void aim_at_first(struct setup *setup, uint32_t rays, uint32_t triangles, float radius) {
   const uint32_t all = setup->mesh.triangle_count;
   for (uint32_t i = 0; i < rays; i++) {
@@ -114,7 +105,9 @@ static void aim_at_first(struct setup *setup, uint32_t rays, uint32_t triangles,
   setup->mesh.triangle_count = all;
 }
 
-static void rocks_in_globe(struct setup *setup, uint32_t rays, float radius, float size) {
+/* numbers: the globe's radius, and the size of a rock. */
+static void make_tiny(struct setup *setup, uint32_t rays) {
+  const float radius = (float)setup->numbers[0], size = (float)setup->numbers[1];
   rocks(setup, 8 * size, size, 0);
   const uint32_t first = setup->mesh.triangle_count;
   mesh_box(&setup->mesh, (float[]){-size, -size, -4 * size}, (float[]){0, 0, -3 * size}, 0);
@@ -122,14 +115,8 @@ static void rocks_in_globe(struct setup *setup, uint32_t rays, float radius, flo
   aim_at_first(setup, rays, first, size);
 }
 
-static void make_tiny_1e16(struct setup *setup, uint32_t rays) {
-  rocks_in_globe(setup, rays, 1e16f, 1);
-}
-static void make_tiny_1e18(struct setup *setup, uint32_t rays) {
-  rocks_in_globe(setup, rays, 1.5e18f, 1e-9f);
-}
 static void make_tiny_turned(struct setup *setup, uint32_t rays) {
-  rocks_in_globe(setup, rays, 1e17f, 1e-6f);
+  make_tiny(setup, rays);
   turn_and_move(setup, (float[]){1e-3f, -2e-3f, 3e-3f});
 }
 
@@ -166,7 +153,7 @@ static void make_low_step(struct setup *setup, uint32_t rays) {
 
 /* Rays to rocks that end at the light: 2^-60 of the scene away from it. */
 static void make_tiny_lit(struct setup *setup, uint32_t rays) {
-  rocks_in_globe(setup, rays, 1e17f, 1e-3f);
+  make_tiny(setup, rays);
   setup->light[0] = 0.002f, setup->light[1] = 0.004f, setup->light[2] = 0.001f;
 }
 
@@ -184,23 +171,28 @@ static void make_picture_both(struct setup *setup, uint32_t rays) {
 }
 
 const struct extreme_case range_cases[] = {
-    {"room-3e7", "a room of 3e7 whose floor is 2 below the eye", make_room_3e7, CASE_CLOSED | CASE_BEYOND_BINARY32},
-    {"room-1e9", "the same of 1e9", make_room_1e9, CASE_CLOSED | CASE_BEYOND_BINARY32},
-    {"room-1e18", "the same of 1.7e18, the floor 0.001 below", make_room_1e18, CASE_CLOSED | CASE_BEYOND_BINARY32},
-    {"room-turned", "a room of 1e9, moved and turned", make_room_turned, CASE_CLOSED | CASE_BEYOND_BINARY32},
-    {"ground", "two triangles of 1e8, 1.7 below the eye", make_ground, CASE_BEYOND_BINARY32},
-    {"oblique", "a ground of 1e9, the eye within 2 of it", make_oblique,
-     CASE_SHADOWS | CASE_BEYOND_BINARY32 | CASE_BELOW_OFFSET},
-    {"tiny-1e16", "rocks of 1 in a globe of 1e16", make_tiny_1e16, CASE_CLOSED},
-    {"tiny-1e18", "rocks of 1e-9 in a globe of 1.5e18", make_tiny_1e18, CASE_CLOSED | CASE_BEYOND_BINARY32},
-    {"tiny-turned", "rocks of 1e-6 in a globe of 1e17, moved and turned", make_tiny_turned,
+    {"room-3e7", "a room of 3e7 whose floor is 2 below the eye", BY(make_room, 3e7, 2),
      CASE_CLOSED | CASE_BEYOND_BINARY32},
-    {"both", "rocks of 0.01 on a floor of 1e9", make_both,
+    {"room-1e9", "the same of 1e9", BY(make_room, 1e9, 2), CASE_CLOSED | CASE_BEYOND_BINARY32},
+    {"room-1e18", "the same of 1.7e18, the floor 0.001 below", BY(make_room, 1.7e18, 1e-3),
+     CASE_CLOSED | CASE_BEYOND_BINARY32},
+    {"room-turned", "a room of 1e9, moved and turned", BY(make_room_turned, 1e9, 500),
+     CASE_CLOSED | CASE_BEYOND_BINARY32},
+    {"ground", "two triangles of 1e8, 1.7 below the eye", BY(make_ground), CASE_BEYOND_BINARY32},
+    {"oblique", "a ground of 1e9, the eye within 2 of it", BY(make_oblique),
+     CASE_SHADOWS | CASE_BEYOND_BINARY32 | CASE_BELOW_OFFSET},
+    {"tiny-1e16", "rocks of 1 in a globe of 1e16", BY(make_tiny, 1e16, 1), CASE_CLOSED},
+    {"tiny-1e18", "rocks of 1e-9 in a globe of 1.5e18", BY(make_tiny, 1.5e18, 1e-9),
+     CASE_CLOSED | CASE_BEYOND_BINARY32},
+    {"tiny-turned", "rocks of 1e-6 in a globe of 1e17, moved and turned", BY(make_tiny_turned, 1e17, 1e-6),
+     CASE_CLOSED | CASE_BEYOND_BINARY32},
+    {"both", "rocks of 0.01 on a floor of 1e9", BY(make_both),
      CASE_CLOSED | CASE_SHADOWS | CASE_BEYOND_BINARY32 | CASE_BELOW_OFFSET},
-    {"both-turned", "rocks of 4 on a floor of 1e9, moved and turned", make_both_turned,
+    {"both-turned", "rocks of 4 on a floor of 1e9, moved and turned", BY(make_both_turned),
      CASE_CLOSED | CASE_SHADOWS | CASE_BEYOND_BINARY32 | CASE_BELOW_OFFSET},
-    {"low-step", "the shadow of a step of 0.0002 on a floor of 1e9", make_low_step, CASE_CLOSED | CASE_SHADOWS},
-    {"tiny-lit", "rocks of 0.001 and a light in a globe of 1e17", make_tiny_lit, CASE_CLOSED | CASE_SHADOWS},
-    {"picture-both", "boxes of 1 on a floor of 1e17", make_picture_both, CASE_CLOSED | CASE_BEYOND_BINARY32},
+    {"low-step", "the shadow of a step of 0.0002 on a floor of 1e9", BY(make_low_step), CASE_CLOSED | CASE_SHADOWS},
+    {"tiny-lit", "rocks of 0.001 and a light in a globe of 1e17", BY(make_tiny_lit, 1e17, 1e-3),
+     CASE_CLOSED | CASE_SHADOWS},
+    {"picture-both", "boxes of 1 on a floor of 1e17", BY(make_picture_both), CASE_CLOSED | CASE_BEYOND_BINARY32},
 };
 const unsigned range_case_count = sizeof range_cases / sizeof *range_cases;

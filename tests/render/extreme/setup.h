@@ -8,8 +8,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* The result of make(), all of it zero before. */
+/* The result of make(), all of it zero before, but for the seed and the case's numbers. */
 struct setup {
+  const double *numbers;
   struct trax_mesh mesh;
   struct trax_scene premade; /* instead of the mesh */
   struct trax_build_options build;
@@ -34,7 +35,7 @@ void aim(struct setup *setup, const float from[3], const float at[3]);
 /* A vertex, a point of an edge, or one inside, of a triangle by chance. */
 void random_target(struct setup *setup, float at[3]);
 
-/* From near `centre`, within `radius` of it along each axis, at targets on the mesh. */
+/* Rays from within `radius` of `centre` along each axis, at targets on the mesh. */
 void aim_from_within(struct setup *setup, const float centre[3], float radius, uint32_t rays);
 
 void triangle_at(struct setup *setup, const float a[3], const float b[3], const float c[3]);

@@ -126,7 +126,7 @@ static void make_variants(struct prepared *prepared, const struct trax_view *vie
   }
 }
 
-/* In scenes of many triangles, the first rays decide. */
+/* The first rays decide in scenes of many triangles. */
 static bool needs_exact(const struct prepared *prepared) {
   const double most = JUDGED_PAIRS / fmax(1, prepared->scene.triangle_count);
   for (uint32_t i = 0; i < prepared->params.count && i < most; i++)
@@ -143,6 +143,7 @@ static void prepare(struct prepared *prepared, const struct extreme_case *extrem
   prepared->short_form = short_form;
   struct setup *setup = &prepared->setup;
   setup->seed = seed;
+  setup->numbers = extreme->numbers;
   extreme->make(setup, rays);
   setup->build.allow_empty = true;
   if (setup->premade.bytes) {
@@ -282,8 +283,7 @@ static bool emulation_is_long(const struct prepared *prepared) {
   return prepared->short_form && prepared->exact_hits && prepared->scene.triangle_count > MANY_EXACT;
 }
 
-/* In the short form the engine with time, which takes ten times as long, emulates the first method alone, unless hits
-   are exact. */
+/* The short form emulates with time only the first method, unless hits are exact: it takes ten times as long. */
 static bool is_timed(const struct prepared *prepared, int m) {
   return !prepared->short_form || (m == 0 && !prepared->exact_hits);
 }
