@@ -266,12 +266,22 @@ def dispatch(arguments, tools, data):
     return evaluate(parse(arguments), tools, data, shlex.join(["trax-eval", *arguments]))
 
 
+def drop_output():
+    """Python flushes standard output again at its end, and would tell its reader of the second failure."""
+    try:
+        sys.stdout.flush()
+    except OSError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
 def main(arguments, folder, data):
     catch_interrupts()
     # Another program starts this one for these words.
     program = {"compare": "trax-sim", "frames": "trax-render"}.get("".join(arguments[:1]), "trax-eval")
     try:
-        return dispatch(arguments, Tools(folder), data)
+        status = dispatch(arguments, Tools(folder), data)
+        sys.stdout.flush()
+        return status
     except Problem as problem:
         complain(program, problem)
         return 1
@@ -279,8 +289,9 @@ def main(arguments, folder, data):
         goes_on = "" if program == "trax-sim" else "; the same command goes on"
         end_by_signal(*interrupted.args, f"{program}: interrupted{goes_on}")
     except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        drop_output()
         return 1
     except OSError as error:  # of a folder or file that cannot be used, as of -o on a full disk
         complain(program, f"{f'{error.filename}: ' if error.filename else ''}{error.strerror}")
+        drop_output()
         return 1
