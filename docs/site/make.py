@@ -21,6 +21,7 @@ import pathlib
 import re
 import shlex
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -248,10 +249,21 @@ def build(out, repository, runs):
         wrong = list(faults(folder / "site"))
         if wrong:
             raise Failure("\n".join(wrong))
+        put(folder / "site", out)
+
+
+def put(site, out):
+    """Replaces `out` once the whole site is beside it: on a full disk the earlier one stays."""
+    out.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(dir=out.parent, prefix=f".{out.name}-") as name:
+        beside = pathlib.Path(name)
+        try:
+            shutil.copytree(site, beside / "new")
+        except shutil.Error as error:  # one triple for each file: source, target, reason
+            raise Failure(f"{out}: {error.args[0][0][2]}") from error
         if out.exists():
-            shutil.rmtree(out)
-        out.parent.mkdir(parents=True, exist_ok=True)
-        shutil.move(folder / "site", out)
+            out.rename(beside / "old")
+        (beside / "new").rename(out)
 
 
 def is_replaceable(out):
@@ -290,6 +302,10 @@ def main():
     except (Failure, OSError, subprocess.CalledProcessError) as failure:
         print(f"make.py: error: {failure}", file=sys.stderr)
         return 1
+    except KeyboardInterrupt:  # ends by the signal, so that a shell's loop ends, too
+        print("make.py: interrupted", file=sys.stderr)
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+        os.kill(os.getpid(), signal.SIGINT)
     return 0
 
 

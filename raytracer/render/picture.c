@@ -74,8 +74,13 @@ static void png_warned(png_structp png, png_const_charp message) {
   (void)message;
 }
 
+/* A failure is remembered by the file until the end, with its reason, which libpng does not tell. */
+static void put_bytes(png_structp png, png_bytep bytes, size_t count) {
+  fwrite(bytes, 1, count, png_get_io_ptr(png));
+}
+
 static void encode(png_structp png, png_infop info, FILE *file, const struct trax_picture *picture, png_bytep row) {
-  png_init_io(png, file);
+  png_set_write_fn(png, file, put_bytes, NULL);
   png_set_user_limits(png, TRAX_RENDER_MAX_SIDE, TRAX_RENDER_MAX_SIDE);
   png_set_IHDR(png, info, picture->width, picture->height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);

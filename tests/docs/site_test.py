@@ -4,6 +4,7 @@ The site is built; mkdocs has no warning, every link and picture of the finished
 docs/index.md stands in the left column, and files of the sources are copied or led to a repository. What is broken on
 purpose is noticed. Skipped without Debian's packages mkdocs and mkdocs-material."""
 
+import os
 import pathlib
 import subprocess
 import sys
@@ -48,6 +49,24 @@ def check_runs(folder):
     return failed + check((folder / "docs/runs/a.html").exists(), "the page of a run is not copied")
 
 
+def check_uncopied(folder):
+    """A site that cannot be copied whole, as on a full disk, leaves the earlier one and gives one reason."""
+    site, out = folder / "new", folder / "out/site"
+    for path, text in ((site / "a.html", "new"), (out / "a.html", "earlier")):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    for name in ("b", "c"):
+        os.mkfifo(site / name)  # no file, which is an error of each
+    try:
+        make.put(site, out)
+        said = ""
+    except make.Failure as failure:
+        said = str(failure)
+    left = [path.read_text() for path in out.parent.rglob("*") if path.is_file()]
+    return (check(said.count("named pipe") == 1, f"two files that cannot be copied: {said or 'no failure'}") +
+            check(left == ["earlier"] and list(out.parent.iterdir()) == [out], f"a failure left {left}"))
+
+
 def main():
     if not make.is_installed():
         print("skipped: Debian's packages mkdocs and mkdocs-material are not installed")
@@ -84,6 +103,7 @@ def main():
             done = subprocess.run([sys.executable, "-B", MAKE, "-o", folder / out], capture_output=True, text=True)
             kept = done.returncode == 1 and "is not a site" in done.stderr and (folder / "mine/search/file").exists()
             failed += check(kept, f"{out} is replaced: {done.stderr}")
+        failed += check_uncopied(folder / "uncopied")
     return 1 if failed else 0
 
 

@@ -464,6 +464,11 @@ REFUSED_WORDS = (
     (["new-sweep"], "copy "),
     (["table2", "--runner=slurm"], "--runner is no longer there; GNU parallel, Slurm"),
     (["no.json"], "no.json: No such"),
+    (["spce", "no.json"], "did you mean space?"),
+    (["--quiet", "space", "no.json"], "space is a command, and comes first: trax-eval space"),
+    (["space"], "space: expected a sweep"),
+    (["--all", "no.json"], "no.json: --all is the paper's experiments"),
+    (["table2", "/usr", "/tmp"], "/tmp: /usr is the folder of scenes already"),
 )
 
 

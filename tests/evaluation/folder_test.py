@@ -234,10 +234,24 @@ def descendants(pid, name):
     return found
 
 
+def test_standard_output(quad):
+    """A reader that is gone is no message, and a full disk is one; also of a text that Python holds until its end."""
+    environment = {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}
+    reader, closed = os.pipe()
+    os.close(reader)
+    with os.fdopen(closed, "w") as gone, open("/dev/full", "w", encoding="utf-8") as full:
+        for words in (["--version"], ["--help"]):
+            for out, said in ((gone, ""), (full, "trax-eval: error: No space left on device\n")):
+                run = subprocess.run([quad.programs / "trax-eval", *words], stdout=out, stderr=subprocess.PIPE,
+                                     text=True, env=environment)
+                check((run.returncode, run.stderr) == (1, said), f"{words}: status {run.returncode}: {run.stderr}")
+
+
 def tests(options, scratch):
     inside = Inside(options.bin)
     return {test.__name__: lambda test=test: test(Folder(inside, scratch / test.__name__))
-            for test in (test_read, test_own_tree, test_scene_file, test_damage, test_shared_inputs, test_killed)}
+            for test in (test_read, test_own_tree, test_scene_file, test_damage, test_shared_inputs, test_killed,
+                         test_standard_output)}
 
 
 if __name__ == "__main__":

@@ -182,7 +182,7 @@ def test_example(program, data, scratch):
     check(run.returncode == 0, f"the example: {run.stderr}")
     results = json.loads((scratch / "copied-out/results.json").read_text())
     seen = sorted((one["variant"], one["config"]) for one in results["runs"])
-    names = ["as it is", "bandwidth", "bandwidth", "binary nodes", "small leaves"]
+    names = ["as it is", "bandwidth", "bandwidth", "small leaves", "wide nodes"]
     check(seen == sorted(itertools.product(names, ("4x32", "8x64"))), f"runs of the example: {seen}")
     run = command(program, mine, "new-sweep", "mine.json")
     check(run.returncode == 1 and str(data / "example.json") in run.stderr,

@@ -5,6 +5,8 @@ import os
 import pathlib
 import subprocess
 import sys
+import threading
+import time
 import weakref
 
 import numpy
@@ -59,6 +61,44 @@ def test_sweep_keeps_no_machine(programs):
 
     trax.sweep(programs["triple"], settings={"memory.latency_cycles": [50, 60, 70, 80]}, jobs=1, setup=setup)
     assert alive == [0, 0, 0, 0]
+
+
+@pytest.mark.parametrize("chips, settings", [("4x32", {}), (trax.Config(), {}), ((None, ), {"memory.bytes": 100})])
+def test_sweep_of_one_value(programs, chips, settings):
+    """A word would be a list of letters."""
+    with pytest.raises(trax.TraxError, match="expected a list of values"):
+        trax.sweep(programs["triple"], chips, settings)
+
+
+def test_sweep_ends_a_machine_that_was_being_made(programs, monkeypatch):
+    """It is made while another one fails, and would run on."""
+    begun, failed, ends = threading.Event(), threading.Event(), []
+
+    class Slow(trax.Machine):
+        def __init__(self, program, chip, settings):
+            super().__init__(program, chip, settings)
+            if chip == "2x32":
+                begun.set()
+                failed.wait()
+                time.sleep(0.5)  # the sweep learns of the failure
+
+        def run(self, **options):
+            try:
+                return super().run(**options)
+            except trax.TraxError as error:
+                ends.append(type(error))
+                raise
+
+    def setup(machine):
+        if machine.config["chip.tms"] == 1:
+            begun.wait()
+            failed.set()
+            raise ValueError
+
+    monkeypatch.setattr(sys.modules["trax.sweep"], "Machine", Slow)
+    with pytest.raises(ValueError):
+        trax.sweep(programs["loop"], ["1x32", "2x32"], jobs=2, setup=setup, max_cycles=1_000_000)
+    assert ends == [trax.Interrupted]
 
 
 def test_tables_of_a_run(programs):

@@ -356,6 +356,19 @@ static void test_nested_sizes(void **state) {
   trax_mesh_release(&mesh);
 }
 
+/* More pixels than a buffer of the C library has: libpng meets the failure, and must not hide its reason. */
+static void test_full_disk(void **state) {
+  (void)state;
+  struct trax_picture picture;
+  trax_error error;
+  assert_int_equal(trax_picture_init(&picture, 128, 128, &error), TRAX_OK);
+  for (uint32_t i = 0; i < 128 * 128; i++)
+    picture.pixels[i] = i * 2654435761u; /* packs badly */
+  assert_int_equal(trax_picture_write(&picture, "/dev/full", &error), TRAX_ERROR);
+  assert_string_equal(error.message, "/dev/full: cannot be written: No space left on device");
+  trax_picture_release(&picture);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_room),
@@ -373,6 +386,7 @@ int main(void) {
       cmocka_unit_test(test_light_that_is_beyond_any_scale),
       cmocka_unit_test(test_deepest_scene),
       cmocka_unit_test(test_nested_sizes),
+      cmocka_unit_test(test_full_disk),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -181,7 +181,7 @@ class Properties(Scratch):
         self.assertEqual(found["pictures"]["different"], 0)
         self.assertGreater(found["pictures"]["cost"]["pixels_less"], 0)
         self.assertEqual(len(found["warnings"]), 1)  # they are compiled for their numbers of TMs
-        self.assertIn("the runs have different programs: ", found["warnings"][0])
+        self.assertIn("different programs: trax-render compiles one for each", found["warnings"][0])
         energies = {row["name"]: row["difference"] for row in found["sections"]["energy"]}
         whole = energies.pop("energy.total")
         parts = sum(value for name, value in energies.items()
@@ -387,7 +387,7 @@ class Files(Scratch):
         stats = copy.deepcopy(self.runs["a"].stats) | {"trax_sim": "0.1", "program": "x/other", "items": 3,
                                                        "status": "limit"}
         found = compare(self.runs["a"], self.run_of(stats), FIGURES)[0]["warnings"]
-        for word in ("versions of trax-sim: ", "different programs: ", "numbers of items: ", "did not finish (limit)"):
+        for word in ("versions of trax-sim: ", ".elf and other", "numbers of items: ", "did not finish (limit)"):
             self.assertEqual(sum(word in one for one in found), 1, (word, found))
         stats["causes"]["issued"] += 1000
         made = compare(self.runs["a"], self.run_of(stats), FIGURES)[0]
@@ -507,7 +507,11 @@ class Page(PageTests, Scratch):
                            stdout=subprocess.DEVNULL)
         shutil.copy(cls.folder / "b.html", folder / "against.html")
         subprocess.run([BIN / "trax-sim", "compare", "--add", "../a.json", "against.html"], cwd=folder, check=True)
-        cls.pages = {name: folder / f"{name}.html" for name in ("two", "folders", "against")}
+        timeless = json.loads((cls.folder / "a.json").read_text()) | {"cycles": 0, "thread_cycles": 0, "causes": {}}
+        (folder / "timeless.json").write_text(json.dumps(timeless))
+        subprocess.run([BIN / "trax-sim", "compare", "timeless.json", "../a.json", "--html", "timeless.html"],
+                       cwd=folder, check=True, stdout=subprocess.DEVNULL)
+        cls.pages = {name: folder / f"{name}.html" for name in ("two", "folders", "against", "timeless")}
         cls.browser = Browser(find_chromium())
         cls.addClassCleanup(cls.browser.close)
 
@@ -570,6 +574,8 @@ class Page(PageTests, Scratch):
         self.browser.run("document.querySelectorAll('#runs-table tbody button')[1].click()")
         self.assertEqual(self.cells("causes-table"), [])
         self.is_quiet()
+        self.load("timeless")
+        self.assertEqual({row[5] for row in self.cells("causes-table")}, {""})  # no share of 0 cycles
 
 
 unittest.main()

@@ -4,8 +4,10 @@ import concurrent.futures
 import itertools
 import json
 import os
+import threading
 
 from ._library import TraxError
+from .config import Config
 from .machine import Machine, flat
 
 
@@ -17,13 +19,18 @@ def sweep(program, chips=(None, ), settings=None, jobs=None, setup=None, **run):
     run: further arguments of Machine.run. Returns a pandas.DataFrame, a row for each run in the order of the
     combinations: chip, the settings, then every figure by its name. Errors: the first one of any run."""
     axes = {"chip": chips, **(settings or {})}
+    for name, values in axes.items():
+        if isinstance(values, (str, Config)) or not hasattr(values, "__iter__"):
+            raise TraxError(f"sweep: {name}: expected a list of values, not {values!r}")
     points = [dict(zip(axes, values)) for values in itertools.product(*axes.values())]
 
-    running = set()
+    running, ended = set(), threading.Event()
 
     def work(point):
         machine = Machine(program, point["chip"], {key: value for key, value in point.items() if key != "chip"})
         running.add(machine)
+        if ended.is_set():  # while the machine was made
+            machine.interrupt()
         try:
             if setup is not None:
                 setup(machine)
@@ -36,6 +43,7 @@ def sweep(program, chips=(None, ), settings=None, jobs=None, setup=None, **run):
         try:
             return pandas.DataFrame(list(pool.map(work, points)))
         except BaseException:  # what is under way ends, and nothing else begins
+            ended.set()
             pool.shutdown(wait=False, cancel_futures=True)
             for machine in list(running):
                 machine.interrupt()

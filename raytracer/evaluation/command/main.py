@@ -26,6 +26,7 @@ from trax_eval.values import Areas
 
 from .options import OPTIONS, described, job_parser, new_parser
 
+COMMANDS = ("space", "report", "docs", "fetch-scenes")  # the first word
 HELP = """\
 usage: trax-eval [OPTION...] EXPERIMENT... [SCENES]
        trax-eval [OPTION...] --all [SCENES]
@@ -100,11 +101,22 @@ def choose(options, data):
         elif pathlib.Path(word).is_dir() and folder is None:
             folder = pathlib.Path(word)
         else:
-            raise Problem(f'"{word}" is neither an experiment (trax-eval --help lists them), nor a sweep file '
-                          f'(NAME.json), nor a folder of scenes{nearest(word, known)}')
+            raise Problem(unfit(word, known, options.all, folder))
     if not files:
         raise Problem("no experiment was named; trax-eval --help lists them, --all is all of them")
     return files, folder or pathlib.Path(os.environ.get("TRAX_SCENES", "scenes"))
+
+
+def unfit(word, known, everything, folder):
+    """Why a word is none of those that a command takes."""
+    if pathlib.Path(word).is_dir():
+        return f"{word}: {folder} is the folder of scenes already"
+    if everything and (word in known or word.endswith(".json")):
+        return f"{word}: --all is the paper's experiments, and takes no other"
+    if word in COMMANDS:
+        return f"{word} is a command, and comes first: trax-eval {word} ..."
+    return (f'"{word}" is neither an experiment (trax-eval --help lists them), nor a sweep file (NAME.json), nor a '
+            f'folder of scenes{nearest(word, [*known, *COMMANDS])}')
 
 
 def evaluate(options, tools, data, command):
@@ -184,6 +196,8 @@ def make_runs(options, tools, data, command, begin, files, folder, sweeps):
 def explore_space(arguments, tools, data):
     from . import space
     begin, options = time.monotonic(), parse(arguments)
+    if not options.words:
+        raise Problem("space: expected a sweep, NAME.json (trax-eval space --help)")
     files, folder = choose(options, data)
     command = shlex.join(["trax-eval", "space", *arguments])
     return space.explore(options, files, lambda sweep: make_runs(options, tools, data, command, begin, files, folder,
@@ -252,12 +266,22 @@ def dispatch(arguments, tools, data):
     return evaluate(parse(arguments), tools, data, shlex.join(["trax-eval", *arguments]))
 
 
+def drop_output():
+    """Python flushes standard output again at its end, and would tell its reader of the second failure."""
+    try:
+        sys.stdout.flush()
+    except OSError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
 def main(arguments, folder, data):
     catch_interrupts()
     # Another program starts this one for these words.
     program = {"compare": "trax-sim", "frames": "trax-render"}.get("".join(arguments[:1]), "trax-eval")
     try:
-        return dispatch(arguments, Tools(folder), data)
+        status = dispatch(arguments, Tools(folder), data)
+        sys.stdout.flush()
+        return status
     except Problem as problem:
         complain(program, problem)
         return 1
@@ -265,8 +289,9 @@ def main(arguments, folder, data):
         goes_on = "" if program == "trax-sim" else "; the same command goes on"
         end_by_signal(*interrupted.args, f"{program}: interrupted{goes_on}")
     except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        drop_output()
         return 1
     except OSError as error:  # of a folder or file that cannot be used, as of -o on a full disk
         complain(program, f"{f'{error.filename}: ' if error.filename else ''}{error.strerror}")
+        drop_output()
         return 1

@@ -31,7 +31,7 @@ function drawContributions(id, title, rows, run, named) {
                                changeBar(row.difference / most, named       ? colourOf(row.name)
                                                                 : row.cause ? colourOf(row.cause)
                                                                             : "var(--bar)"),
-                               [ shareText(row.difference / run.cycles.a), row.difference ],
+                               [ shareText(run.cycles.a ? row.difference / run.cycles.a : undefined), row.difference ],
                                (Math.abs(row.difference) < limit ? "within the noise; " : "") +
                                    (row.meaning ??
                                     (row.cause ? `${row.cause} ${signed(row.cause_difference, cyclesText)}` : ""))]));
