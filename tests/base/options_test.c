@@ -272,9 +272,9 @@ static void test_closed_folder(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_values),     cmocka_unit_test(test_names),
-                                     cmocka_unit_test(test_refusals),   cmocka_unit_test(test_help),
-                                     cmocka_unit_test(test_completion), cmocka_unit_test(test_files),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_values),       cmocka_unit_test(test_names),
+                                     cmocka_unit_test(test_refusals),     cmocka_unit_test(test_help),
+                                     cmocka_unit_test(test_completion),   cmocka_unit_test(test_files),
                                      cmocka_unit_test(test_closed_folder)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
