@@ -54,6 +54,12 @@ static bool find_folder(struct trax_file_use *use, const char *path) {
       links++;
       continue;
     }
+    if (!*folder) { /* not even the current folder can be searched: no file is opened by this path */
+      use->kind = ANY_NUMBER;
+      use->rest = rest;
+      free(folder);
+      return true;
+    }
     char *slash = strrchr(folder, '/'), *name = slash ? slash + 1 : folder;
     char *longer = strcmp(name, ".") == 0 ? strdup(rest) : joined(name, strlen(name), rest);
     free(rest);

@@ -1,5 +1,6 @@
 /* Tables of options: what a command line becomes, what is refused and how, what --help prints, which files are used. */
 #include "trax/options.h"
+#include "trax/output.h"
 
 #include "temporary.h"
 
@@ -7,6 +8,9 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
@@ -237,9 +241,40 @@ static void test_files(void **state) {
   assert_non_null(strstr(error.message, "there is no writer for .jpeg, only for .png"));
 }
 
+/* A current folder that may not be searched: the search for the file that a path names ends there, with an error. */
+static int use_closed_folder(const char *folder) {
+  trax_files files = {0};
+  if (chdir(folder) != 0 || chmod(".", 0) != 0 || (geteuid() == 0 && seteuid(65534) != 0))
+    return 2;
+  trax_files_output(&files, NULL, "x");
+  const bool good = trax_files_check(&files, &error) == TRAX_OK && trax_output_check("x", &error) == TRAX_ERROR &&
+                    strstr(error.message, "x: cannot be written: Permission denied");
+  trax_files_release(&files);
+  return !good;
+}
+
+static void test_closed_folder(void **state) {
+  (void)state;
+  const char *folder = test_path("closed");
+  int status;
+  assert_int_equal(mkdir(folder, 0700), 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    alarm(10);
+    const int result = use_closed_folder(folder);
+    if (getuid() == 0)
+      (void)!seteuid(0); /* the files of gcov are root's */
+    _exit(result);
+  }
+  assert_int_equal(waitpid(child, &status, 0), child);
+  assert_int_equal(status, 0);
+  assert_int_equal(rmdir(folder), 0);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_values),     cmocka_unit_test(test_names),
-                                     cmocka_unit_test(test_refusals),   cmocka_unit_test(test_help),
-                                     cmocka_unit_test(test_completion), cmocka_unit_test(test_files)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_values),       cmocka_unit_test(test_names),
+                                     cmocka_unit_test(test_refusals),     cmocka_unit_test(test_help),
+                                     cmocka_unit_test(test_completion),   cmocka_unit_test(test_files),
+                                     cmocka_unit_test(test_closed_folder)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

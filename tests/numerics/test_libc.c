@@ -25,7 +25,7 @@
   X(strcat) X(strncat) X(strchr) X(strrchr) X(strstr) X(strspn) X(strcspn) X(strpbrk) X(strtok_r) X(strtok) \
   X(memrchr) X(memccpy) X(memmem) X(mempcpy) X(stpcpy) X(stpncpy) X(strcasecmp) X(strncasecmp) X(strcoll) X(strxfrm) \
   X(strerror) X(strndup) X(rand) X(rand_r) X(srand) X(strtol) X(strtoul) X(strtoll) X(strtoull) X(atoi) X(strtod) \
-  X(strtof) X(qsort) X(bsearch) X(free) X(strdup)
+  X(strtof) X(qsort) X(qsort_r) X(bsearch) X(free) X(strdup) X(at_quick_exit)
 /* clang-format on */
 LIKE_THE_HOST(RUNTIME_FUNCTION)
 /* The host's have attributes that this test contradicts. */
@@ -34,6 +34,7 @@ void *rt_calloc(size_t, size_t);
 void *rt_realloc(void *, size_t);
 void *rt_aligned_alloc(size_t, size_t);
 long long rt_clock(void);
+void rt_quick_exit(int);
 extern _Thread_local int rt_errno;
 extern uintptr_t rt___trax_heap, rt___trax_heap_end;
 int rt_printf(const char *, ...);
@@ -275,6 +276,11 @@ static int compare_keys(const void *a, const void *b) {
   return *(const unsigned char *)a - *(const unsigned char *)b;
 }
 
+static int compare_in_context(const void *a, const void *b, void *count) {
+  ++*(int *)count;
+  return *(const unsigned char *)a - *(const unsigned char *)b;
+}
+
 /* The same bits, end and, where both libraries have to set it, errno. */
 static void check_text_to_double(const char *text) {
   char *end, *host_end;
@@ -458,7 +464,10 @@ static void sorting(void **unused) {
     }
     data[count * size] = 0xEE;
     compare_count = 0;
-    rt_qsort(data, count, size, compare_keys);
+    if (round % 4)
+      rt_qsort(data, count, size, compare_keys);
+    else
+      rt_qsort_r(data, count, size, compare_in_context, &compare_count);
     assert_true(compare_count <= 2 * (double)count * (log2((double)count + 2) + 1));
     assert_int_equal(data[count * size], 0xEE);
     for (size_t i = 0; i < count; i++) {
@@ -697,6 +706,34 @@ static void stored_counts(void **unused) {
   assert_int_equal(n.a, 300 - 256);
 }
 
+static char letters[40];
+static unsigned letter_count;
+
+static void add_letter(void) {
+  letters[letter_count] = (char)('a' + letter_count % 26);
+  letter_count++;
+}
+
+static void add_dot(void) {
+  letters[letter_count++] = '.';
+}
+
+/* As many functions as C promises, the latest first; one more is refused. */
+static void quick_exits(void **unused) {
+  (void)unused;
+  assert_int_equal(rt_at_quick_exit(add_dot), 0);
+  for (int i = 1; i < 32; i++)
+    assert_int_equal(rt_at_quick_exit(add_letter), 0);
+  assert_int_not_equal(rt_at_quick_exit(add_dot), 0);
+  const int ended = setjmp(host_abort_target);
+  if (!ended) {
+    rt_quick_exit(7);
+    fail_msg("the program goes on");
+  }
+  assert_int_equal(ended, 7 + 2);
+  assert_string_equal(letters, "abcdefghijklmnopqrstuvwxyzabcde.");
+}
+
 /* A conversion that is unknown stops the program: its argument, and those behind it, cannot be found. */
 static void refused(const char *format, const char *message) {
   char got[64];
@@ -826,6 +863,7 @@ int main(void) {
       cmocka_unit_test(text_to_integer),
       cmocka_unit_test(text_to_double),
       cmocka_unit_test(sorting),
+      cmocka_unit_test(quick_exits),
       cmocka_unit_test(heap),
       cmocka_unit_test(formatted_integers),
       cmocka_unit_test(formatted_wide),

@@ -8,7 +8,7 @@
 #include <stddef.h>
 
 /* As openat, for a path that stays beneath the folder; -1 with errno. A link that stays beneath is followed, if the
-   host has openat2; else ELOOP. */
+   host has openat2; else ELOOP, or ENOTDIR for a link to a folder on the way. */
 int trax_beneath_open(int folder, const char *path, int flags);
 
 /* Writes a whole file, under a temporary name that does not depend on `path`, and renames it. An error leaves the
