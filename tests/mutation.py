@@ -7,12 +7,15 @@ Needs a finished build, which is not changed. Exit status 0 if every mutant is n
 """
 
 import argparse
+import collections
 import concurrent.futures
+import functools
 import itertools
 import os
 import pathlib
 import re
 import shlex
+import shutil
 import signal
 import subprocess
 import sys
@@ -38,10 +41,11 @@ class Mutant(NamedTuple):
 
 
 def command(build, output):
-    """How ninja makes the output, as words."""
+    """How ninja makes the output, as words, without a cache of the compiler: it would only be filled."""
     last = subprocess.run(["ninja", "-C", str(build), "-t", "commands", output], check=True, capture_output=True,
                           text=True).stdout.splitlines()[-1]
-    return shlex.split(next(part for part in last.split(" && ") if part.split()[0] not in ("cd", ":")))
+    words = shlex.split(next(part for part in last.split(" && ") if part.split()[0] not in ("cd", ":")))
+    return words[os.path.basename(words[0]) == "ccache":]
 
 
 def compile_as(build, output, source, other, made, *options):
@@ -62,22 +66,48 @@ def link_as(build, output, made, objects, without=()):
     subprocess.run([*words[:at], *objects, *words[at:]], check=True, cwd=build)
 
 
-def relinked(folder, build, target, source, text, tests):
-    """Programs like these tests, with the text in the place of the source of the target's library, or of a header of
-    some of its sources."""
-    (folder / source.name).write_text(text)
-    units, made = [source], []
-    if source.suffix == ".h":
-        units = [unit for unit in source.parent.glob("*.c") if f'#include "{source.name}"' in unit.read_text()]
-    for unit in units:
-        changed = folder / unit.name  # beside a changed header
-        if unit != source:
-            changed.write_text(unit.read_text())
-        made.append(folder / f"{unit.name}.o")
-        compile_as(build, f"{target}/{unit.name}.o", unit, changed, made[-1], f"-I{source.parent}")
+@functools.cache
+def dependents(build):
+    """The outputs that ninja has compiled from each source or header."""
+    found = collections.defaultdict(list)
+    for line in subprocess.run(["ninja", "-C", str(build), "-t", "deps"], check=True, capture_output=True,
+                               text=True).stdout.splitlines():
+        if not line.startswith(" "):
+            output = line.split(":")[0]
+        elif line.strip():
+            found[os.path.normpath(build / line.strip())].append(output)
+    return found
+
+
+def relinked(folder, build, objects, source, text, tests, *options):
+    """Links one test after the other with the text in the place of a source or header: with what is compiled from it
+    to the folder `objects` of the build. The rest of its part of the project is linked to from a copy, so that headers
+    find one another."""
+    part = ROOT / source.relative_to(ROOT).parts[0]
+    shutil.rmtree(folder)
+    folder.mkdir()
+    subprocess.run(["cp", "-rs", part, folder], check=True)
+    changed = folder / source.relative_to(ROOT)
+    changed.unlink()
+    changed.write_text(text)
+    made = []
+    for output in filter(re.compile(objects).match, dependents(build)[str(source)]):
+        words = [word.replace(str(part), str(folder / part.name)) for word in command(build, output)]
+        words[words.index("-MF") + 1] = os.devnull
+        made.append(folder / f"{len(made)}.o")
+        words[words.index("-o") + 1] = made[-1]
+        subprocess.run([*words, *options, "-w"], check=True, cwd=build)
+    if not made:
+        sys.exit(f"{source}: nothing in {objects} is compiled from it")
+    yield from linked(folder, build, tests, made)
+
+
+def linked(folder, build, tests, made):
+    """Links one test after the other with these objects."""
     for test in tests:
-        link_as(build, f"tests/bin/{test}", folder / test, made)
-    return [folder / test for test in tests]
+        if not (folder / test).exists():
+            link_as(build, f"tests/bin/{test}", folder / test, made)
+        yield folder / test
 
 
 def ended(seconds, program, *words, **options):
@@ -98,10 +128,20 @@ def failure(seconds, program, *words, **options):
 
 
 def list_stale(sources, mutants):
-    stale = [(one, count) for one in mutants if (count := (sources / one.file).read_text().count(one.text)) != 1]
-    for one, count in stale:
-        print(f"{one}: {one.file}: {count} times there: {one.text}")
-    print(f"{len(stale)} of {len(mutants)} mutants are stale")
+    """Prints mutants whose text is not exactly once in its file, and those that make the same change as another one."""
+    stale, known = 0, {}
+    for one in mutants:
+        key = one.file, one.changed(sources)
+        if (count := (sources / one.file).read_text().count(one.text)) != 1:
+            why = f"{count} times there: {one.text}"
+        elif key in known:
+            why = f"the same as {known[key]}"
+        else:
+            known[key] = one
+            continue
+        stale += 1
+        print(f"{one}: {one.file}: {why}")
+    print(f"{stale} of {len(mutants)} mutants are stale")
     return bool(stale)
 
 
@@ -127,7 +167,10 @@ def main(description, sources, mutants, noticed, unchanged=lambda mutant: "", to
         def said(number, one):
             folder = scratch / str(number)
             folder.mkdir(parents=True, exist_ok=True)
-            return noticed(folder, options.build.resolve(), one)
+            found = noticed(folder, options.build.resolve(), one)
+            if not options.scratch and number != "unchanged":
+                shutil.rmtree(folder)
+            return found
 
         for key, one in {unchanged(one): one for one in chosen}.items():
             if failed := said("unchanged", one._replace(other=one.text)):

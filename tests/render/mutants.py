@@ -8,10 +8,11 @@ Embree's pictures stay as they are.
 """
 
 import pathlib
+import subprocess
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
-from mutation import ROOT, Mutant, compile_as, ended, link_as, main  # noqa: E402
+from mutation import ROOT, Mutant, compile_as, link_as, main  # noqa: E402
 from device_copy import DEVICE, changed_copy, first_in  # noqa: E402
 
 COMPILED = "tests/render/CMakeFiles/render-light-test.dir/light_test.c.o"
@@ -74,26 +75,28 @@ MUTANTS = [
 ]
 
 
-def failures(program):
-    """Returns which tests of the program fail."""
-    run = ended(SECONDS, program)
-    if run is None:
-        return [f"{program.name} does not end"]
-    failed = [line.split("] ")[1] for line in run.stdout.splitlines() if line.startswith("[  FAILED  ]")]
-    return failed + ([f"{program.name} ends by signal {-run.returncode}"] if run.returncode < 0 else [])
+def first_failure(program):
+    """Returns the first test of the program that fails, of which no more is run."""
+    with subprocess.Popen(["prlimit", f"--cpu={SECONDS}", program], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          text=True, errors="replace") as run:
+        for line in run.stdout:
+            if line.startswith("[  FAILED  ]"):
+                run.kill()
+                return line.split("] ")[1].strip()
+    return f"{program.name} ends with status {run.returncode}" if run.returncode else None
 
 
 def noticed(folder, build, mutant):
-    """Returns which tests fail in a copy of the device program."""
+    """Returns the first test that fails in a copy of the device program."""
     changed_copy(folder, "tests/render", mutant)
-    failed = []
     for test, program, macros in TESTS:
         made = folder / f"{test}.o"
         compile_as(build, COMPILED, ROOT / "tests/render/light_test.c", folder / program, made, *macros,
                    *first_in(folder), "-ffp-contract=off", "-fcommon", "-O1")  # the twin takes long to optimise
         link_as(build, f"tests/bin/{test}", folder / test, [made], without=["light_test.c.o"])
-        failed += failures(folder / test)
-    return failed
+        if found := first_failure(folder / test):
+            return [found]
+    return []
 
 
 if __name__ == "__main__":

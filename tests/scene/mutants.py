@@ -117,8 +117,7 @@ MUTANTS = [
 
 def noticed(folder, build, mutant):
     """The first test that fails."""
-    target = f"raytracer/scene/CMakeFiles/traxscene.dir/{mutant.file.replace('..', '__')}"
-    programs = relinked(folder, build, str(pathlib.Path(target).parent), (SOURCE / mutant.file).resolve(),
+    programs = relinked(folder, build, "raytracer/scene/CMakeFiles/traxscene.dir", (SOURCE / mutant.file).resolve(),
                         mutant.changed(SOURCE), TESTS[mutant.file])
     failures = (failure(SECONDS, program) for program in programs)
     return list(itertools.islice(filter(None, failures), 1))

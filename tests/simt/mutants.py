@@ -82,7 +82,7 @@ MUTANTS = [
 
 def noticed(folder, build, mutant):
     """The first test that fails."""
-    programs = relinked(folder, build, "emulator/CMakeFiles/traxemu.dir/simt", SOURCE / mutant.file,
+    programs = relinked(folder, build, "emulator/CMakeFiles/traxemu.dir/simt/", SOURCE / mutant.file,
                         mutant.changed(SOURCE), TESTS)
     failures = (failure(SECONDS, program, *TESTS[program.name]) for program in programs)
     return list(itertools.islice(filter(None, failures), 1))

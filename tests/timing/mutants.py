@@ -1,100 +1,84 @@
 #!/usr/bin/env python3
 """Do the tests of time notice a wrong engine?
 
-    mutants.py [SCRATCH] [--jobs N] [--only EXPRESSION]
+    mutants.py [SCRATCH] [--build build] [--jobs N] [--only EXPRESSION]
     mutants.py --stale             only lists texts that are not there
 
-Each mutant is one changed line of an engine. A copy of the tree is changed, built and tested until a test fails.
+Each mutant is one changed line of an engine. The tests are linked with it, one after the other, until one fails.
 """
 
-import itertools
 import os
 import pathlib
-import shutil
+import re
 import subprocess
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 from mutants_list import MUTANTS  # noqa: E402
-from mutation import ROOT, Mutant, failure, main  # noqa: E402
+from mutation import ROOT, Mutant, compile_as, failure, linked, main, relinked  # noqa: E402
 
 SOURCE = ROOT / "emulator"
-ENGINES = ["timing-engines-test", "--jobs", "1", "--stop", "--engine"]
-MANY = "200"
-# The quickest first, since it decides about most mutants.
-TESTS = [(["timing-rules-test", "docs/timing-rules.md"], {}), (["timing-dram-test"], {})]
-TESTS += [([f"timing-{name}-test"], {"TRAX_ENGINE": engine})
-          for engine in ("fast", "reference") for name in ("runs", "faults")]
-TESTS += [([*ENGINES, "fast-translated", "--count", "15"], {}), (["timing-bandwidth-test"], {}),
-          (["timing-translated-test"], {}), (["timing-epochs-test"], {}), (["timing-checkpoint-test"], {}),
-          (["timing-state-test"], {})]
-TESTS += [([*ENGINES, engine, "--count", MANY], {}) for engine in ("fast-translated", "fast")]
+# Of the two variants of cycle.c, the one that this host runs.
+AVX2 = "traxfast_v3" if "avx2" in pathlib.Path("/proc/cpuinfo").read_text() else "traxfast"
+ENGINES = ["--jobs", "1", "--stop", "--engine"]
+# The quickest first, since it decides about most mutants. Seconds of a processor, some five times as many as without a
+# mutant; the only part that is tested; test and words.
+TESTS = [(3, "", "timing-rules-test", "docs/timing-rules.md"), (3, "dram", "timing-dram-test")]
+TESTS += [(3, engine, f"timing-{name}-test") for engine in ("fast", "reference") for name in ("runs", "faults")]
+TESTS += [(10, "", "timing-engines-test", *ENGINES, "fast-translated", "--count", "15"),
+          *((15, "fast", f"timing-{name}-test")
+            for name in ("bandwidth", "translated", "epochs", "checkpoint", "state")),
+          (15, "reference", "timing-bandwidth-test")]
+TESTS += [(120, "", "timing-engines-test", *ENGINES, engine, "--count", "200")
+          for engine in ("fast-translated", "fast")]
+PARTS = {"fast": "fast", "translate": "fast", "reference": "reference"}  # the others are parts of both engines
+BY_COMPARISON = ("timing-engines", "timing-state", "timing-epochs", "timing-checkpoint", "timing-translated")
 
 
-def copy_sources(tree):
-    files = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, check=True, capture_output=True).stdout.split(b"\0")
-    for name in filter(None, map(os.fsdecode, files)):
-        source, target = ROOT / name, tree / name
-        if not source.is_file() or (target.exists() and target.read_bytes() == source.read_bytes()):
-            continue
-        target.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy(source, target)
+def tests_of(mutant):
+    """Those of its part; first the one that is known to notice it."""
+    part = PARTS.get(mutant.file.split("/")[0], "")
+    return sorted((test for test in TESTS if not test[1] or not part or test[1] == part),
+                  key=lambda test: test[2] != mutant.case)
 
 
-class Tree:
-    """A copy of the sources, with a build. The fast engine is compiled once, not also for newer processors."""
-
-    def __init__(self, folder):
-        self.folder, self.changed = folder, None
-        self.environment = os.environ | {"CCACHE_BASEDIR": str(folder)}  # one tree's objects serve the others
-        copy_sources(folder)
-        if not (folder / "build/build.ninja").exists():
-            launcher = ["-DCMAKE_C_COMPILER_LAUNCHER=ccache",
-                        "-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
-            subprocess.run(["cmake", "--preset", "release", "-DTRAX_FAST_VARIANTS=OFF", *launcher], cwd=folder,
-                           env=self.environment, check=True, stdout=subprocess.DEVNULL)
-
-    def change(self, mutant):
-        """Makes the mutant's change the only one."""
-        if self.changed not in (None, mutant.file):
-            shutil.copy(SOURCE / self.changed, self.folder / "emulator" / self.changed)
-        (self.folder / "emulator" / mutant.file).write_text(mutant.changed(SOURCE))
-        self.changed = mutant.file
-
-    def first_failure(self, mutant):
-        """What notices first. Tests are linked when their turn comes."""
-        for words, environment in TESTS:
-            if subprocess.run(["ninja", "-C", self.folder / "build", "-j1", words[0]], capture_output=True,
-                              env=self.environment, check=False).returncode:
-                return "does not compile" if mutant.text == mutant.other else sys.exit(f"does not compile: {mutant}")
-            program = self.folder / "build/tests/bin" / words[0]
-            seconds = 120 if MANY in words else 20  # of a processor: some five times as many as without a mutant
-            if why := failure(seconds, program, *words[1:], cwd=self.folder, env=os.environ | environment):
-                return f"{' '.join(environment.values())} {why}".strip()
-        return None
+def with_templates(folder, build, source, text, tests):
+    """The same as relinked for the file of which the build extracts templates."""
+    changed, generated = folder / source.name, str(build / "emulator/templates")
+    changed.write_text(text)
+    recipe = subprocess.run(["ninja", "-C", str(build), "-t", "commands", "emulator/templates.c"], check=True,
+                            capture_output=True, text=True).stdout.splitlines()[-1].rsplit(" && ", 1)[0]
+    subprocess.run(recipe.replace(str(source), str(changed)).replace(generated, str(folder / "extracted")), check=True,
+                   shell=True)
+    compile_as(build, "emulator/CMakeFiles/traxemu.dir/templates.c.o", f"{generated}.c", folder / "extracted.c",
+               folder / "extracted.c.o", "-O1")
+    yield from linked(folder, build, tests, [folder / "extracted.c.o"])
 
 
-NUMBERS = itertools.count()
-IDLE = []  # trees
-
-
-def noticed(folder, _, mutant):
-    """The first test that fails in a tree that no other mutant uses, beside the folder."""
-    tree = IDLE.pop() if IDLE else Tree(folder.parent / f"tree{next(NUMBERS)}")
-    tree.change(mutant)
-    found = tree.first_failure(mutant)
-    IDLE.append(tree)
-    return [found] if found else []
+def noticed(folder, build, mutant):
+    """The first test that fails."""
+    tests = tests_of(mutant)
+    words = [SOURCE / mutant.file, mutant.changed(SOURCE), [name for _, _, name, *_ in tests]]
+    if mutant.file == "translate/templates.c":
+        programs = with_templates(folder, build, *words)
+    else:  # a header is changed for its own part of the engine: what else includes it does not use the line
+        part = re.match("fast/time/|[a-z]+/", mutant.file)[0]
+        programs = relinked(folder, build, fr"emulator/CMakeFiles/({AVX2}|traxemu)\.dir/{part}", *words, "-O1")
+    for program, (seconds, engine, _, *words) in zip(programs, tests):
+        environment = os.environ | ({"TRAX_ENGINE": engine} if engine else {})
+        if why := failure(seconds, program, *words, cwd=ROOT, env=environment):
+            return [f"{engine} {why}".strip()]
+    return []
 
 
 def print_totals(results):
     """Of each engine: by counts derived by hand, not by comparison with another engine."""
-    by_comparison = ("timing-engines", "timing-state", "timing-epochs", "timing-checkpoint")
     for kind in sorted({mutant.file.split("/")[0] for mutant, _ in results}):
         found = [said for mutant, said in results if mutant.file.startswith(kind + "/")]
-        by_hand = sum(bool(said) and not said[0].startswith(by_comparison) for said in found)
+        by_hand = sum(bool(said) and not any(name in said[0] for name in BY_COMPARISON) for said in found)
         print(f"{kind}: {sum(map(bool, found))} of {len(found)} caught, {by_hand} by counts derived by hand")
 
 
 if __name__ == "__main__":
-    sys.exit(main(__doc__, SOURCE, [Mutant(*row) for row in MUTANTS], noticed, totals=print_totals))
+    LIST = [Mutant(*row[:3], case="".join(row[3:])) for row in MUTANTS]
+    sys.exit(main(__doc__, SOURCE, LIST, noticed, totals=print_totals))

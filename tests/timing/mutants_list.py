@@ -130,9 +130,6 @@ MUTANTS = [
 
     # --- the fast engine: arbiters ---
     ("fast/time/masks.h",
-     "units->rr_masks = (units->rr_masks & ~requested_groups) | (requested_groups & ~(winners | (winners - first)));",
-     "units->rr_masks = (units->rr_masks & ~requested_groups) | (requested_groups & ~(winners - first));"),
-    ("fast/time/masks.h",
      "const trax_fast_pair among = preferred | (requesters & ~((have - (have >> to_first)) | have));",
      "const trax_fast_pair among = (preferred & ~have) | requesters;"),
     ("fast/time/grant.h", "trax_arbiter_grant(&unit->arbiter[group], all, kind->per_group)",
@@ -179,8 +176,6 @@ MUTANTS = [
     ("fast/tm/tm.c", "trax_arbiter_to_back(&tm->queue_arbiter, tp);",
      "trax_arbiter_to_back(&tm->queue_arbiter, tp - 1);"),
     ("fast/tm/tm.c", "if (tm->tp[tp].asleep_until > t)", "if (tm->tp[tp].asleep_until > t + 64)"),
-    ("fast/tm/tp.c", "address <= tp->run_end && address + bytes >= tp->run_begin",
-     "address <= tp->run_end && address + bytes > tp->run_begin"),
     ("fast/tm/dcache.c", "trax_arbiter_to_back(&tm->queue_arbiter, number);", ""),
     ("fast/time/grant.h", "trax_fast_head_timing(tm, trax_first(winner))->decoded->op",
      "trax_fast_head_timing(tm, trax_first(all))->decoded->op"),

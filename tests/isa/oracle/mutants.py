@@ -95,8 +95,8 @@ REQUIRED = list(TESTS)[:2]
 
 def noticed(folder, build, mutant):
     """Returns the tests that notice the mutant; an empty list unless all of REQUIRED do."""
-    relinked(folder, build, "tests/isa/oracle/CMakeFiles/isa_oracle.dir", HERE / mutant.file, mutant.changed(HERE),
-             ("isa-exhaustive", "isa-oracle-test"))
+    list(relinked(folder, build, "tests/isa/oracle/CMakeFiles/isa_oracle.dir", HERE / mutant.file,
+                  mutant.changed(HERE), ("isa-exhaustive", "isa-oracle-test")))
     found = [by for by, (program, *words) in TESTS.items() if failure(SECONDS, folder / program, *words)]
     return found if mutant.text == mutant.other or set(REQUIRED) <= set(found) else []
 
