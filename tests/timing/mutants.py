@@ -51,7 +51,7 @@ class Tree:
         if not (folder / "build/build.ninja").exists():
             launcher = ["-DCMAKE_C_COMPILER_LAUNCHER=ccache",
                         "-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
-            subprocess.run(["cmake", "--preset", "release", "-DTRAX_FAST_VARIANTS=OFF", *launcher], cwd=folder,
+            subprocess.run(["cmake", "--preset", "release", "-DTRAX_FAST_AVX2=OFF", *launcher], cwd=folder,
                            env=self.environment, check=True, stdout=subprocess.DEVNULL)
 
     def change(self, mutant):

@@ -499,8 +499,8 @@ MUTANTS = [
     ("fast/store_buffer.c", "  buffer->side = &buffer->sides[side];",
      "  buffer->read_count = 0;\n  buffer->side = &buffer->sides[side];"),
     # A quantum ahead is of half a latency.
-    ("fast/quanta.c", "quantum * quanta->latency / (quanta->ahead + 1)", "quantum * quanta->latency"),
-    ("fast/quanta.c", "quantum <= served + quanta->ahead", "quantum <= served + quanta->ahead + 1"),
+    ("fast/epochs.c", "quantum * epochs->latency / epochs->sides", "quantum * epochs->latency"),
+    ("base/pool.c", "round - finished <= 1;", "round - finished <= 2;"),
     # A TM receives what was served, in its quantum, and at the end of the epoch, and wakes for it.
     ("fast/merge.c", "  trax_store_buffer_begin_quantum(tm->buffer, side);\n  trax_tm_receive(tm, side);",
      "  trax_store_buffer_begin_quantum(tm->buffer, side);\n  trax_tm_receive(tm, 0);"),
