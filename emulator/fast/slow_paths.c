@@ -21,11 +21,11 @@ void trax_fast_report(const struct trax_chip *chip, uint64_t cycles) {
   const struct trax_tm *first = &chip->tm[0]; /* all TMs are configured alike */
   struct trax_slow_paths *paths = &chip->machine->slow_paths;
   struct trax_slow_path *path = paths->path;
-  uint64_t looked_up = 0, single_hits = 0, at_issue = 0;
+  uint64_t looked_up = 0, hits = 0, at_issue = 0;
   char conflicts[160];
   for (uint32_t i = 0; i < chip->tms; i++) {
     looked_up += chip->tm[i].looked_up;
-    single_hits += chip->tm[i].single_hits;
+    hits += chip->tm[i].stats->dcache_hits;
     at_issue += chip->tm[i].at_issue;
   }
   snprintf(conflicts, sizeof conflicts,
@@ -43,13 +43,13 @@ void trax_fast_report(const struct trax_chip *chip, uint64_t cycles) {
   ROW("fetches bank by bank", first->simple_fetch ? 0 : cycles, TRAX_OF_CYCLES, fetch_reason(config));
   ROW("adders group by group", first->fp.even ? 0 : cycles, TRAX_OF_CYCLES,
       "the groups do not have one adder and one multiplier each, or differ in size");
-  ROW("data banks one by one", first->dcache.banks > 2 * TRAX_FAST_LANES ? cycles : 0, TRAX_OF_CYCLES,
+  ROW("data banks one by one", first->dcache.banks > TRAX_FAST_BANKS ? cycles : 0, TRAX_OF_CYCLES,
       "dcache.tps_per_bank makes more than 8 banks");
   ROW("lines looked up", looked_up, TRAX_OF_FETCHES,
       chip->program.lines == TRAX_FAST_LINES
           ? "the program has more than 1023 lines of instructions"
           : "a line of the burst was not resident when the burst began, or a line was evicted");
-  ROW("hits one by one", single_hits, TRAX_OF_HITS,
+  ROW("hits one by one", first->serial_hits ? hits : 0, TRAX_OF_HITS,
       config->dcache.hit_latency_cycles > 1 ? "dcache.hit_latency_cycles is above 1" : "dcache.replacement");
   ROW("executed at issue", at_issue, TRAX_OF_INSTRUCTIONS,
       "stores, increments, traps, loads past the cache, loads of words that TMs share");

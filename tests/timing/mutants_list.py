@@ -179,8 +179,7 @@ MUTANTS = [
     ("fast/tm/tm.c", "trax_arbiter_to_back(&tm->queue_arbiter, tp);",
      "trax_arbiter_to_back(&tm->queue_arbiter, tp - 1);"),
     ("fast/tm/tm.c", "if (tm->tp[tp].asleep_until > t)", "if (tm->tp[tp].asleep_until > t + 64)"),
-    ("fast/tm/tp.c", "address <= tp->run_end && address + bytes >= tp->run_begin",
-     "address <= tp->run_end && address + bytes > tp->run_begin"),
+    ("fast/tm/tm.c", "begin <= tp->run_end && end >= tp->run_begin", "begin <= tp->run_end && end > tp->run_begin"),
     ("fast/tm/dcache.c", "trax_arbiter_to_back(&tm->queue_arbiter, number);", ""),
     ("fast/time/grant.h", "trax_fast_head_timing(tm, trax_first(winner))->decoded->op",
      "trax_fast_head_timing(tm, trax_first(all))->decoded->op"),
@@ -206,14 +205,14 @@ MUTANTS = [
     ("fast/time/cycle.c", " || inst->resource == TRAX_RESOURCE_FENCE)\n", ")\n"),
     # --- More of the fast engine, by rule ---
     # Stores combine within a block of 64 bytes.
-    ("fast/tm/tp.c", "address / COMBINING_BLOCK == tp->run_begin / COMBINING_BLOCK &&",
-     "(address / COMBINING_BLOCK | 1) == (tp->run_begin / COMBINING_BLOCK | 1) &&"),
+    ("fast/tm/tm.c", "begin / COMBINING_BLOCK == tp->run_begin / COMBINING_BLOCK &&",
+     "(begin / COMBINING_BLOCK | 1) == (tp->run_begin / COMBINING_BLOCK | 1) &&"),
     # A store that touches the run's end combines.
-    ("fast/tm/tp.c", "address <= tp->run_end &&",
-     "address < tp->run_end &&"),
+    ("fast/tm/tm.c", "begin <= tp->run_end &&",
+     "begin < tp->run_end &&"),
     # A store that touches the run's begin combines.
-    ("fast/tm/tp.c", "address + bytes >= tp->run_begin;",
-     "address + bytes > tp->run_begin;"),
+    ("fast/tm/tm.c", "end >= tp->run_begin;",
+     "end > tp->run_begin;"),
     # The first unusable register gives the cause.
     ("fast/tm/tp.c", "{tp->inst->wait_ra, tp->inst->more_ra + 1u}, {tp->inst->wait_rb, tp->inst->more_rb + 1u}",
      "{tp->inst->wait_rb, tp->inst->more_rb + 1u}, {tp->inst->wait_ra, tp->inst->more_ra + 1u}"),

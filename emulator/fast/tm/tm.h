@@ -32,8 +32,8 @@ struct trax_fast_outlook {
   X(S, uint64_t, wheel, [TRAX_WHEEL]) /* [cycle % 64]: mask of the TPs that wake */                                    \
   X(S, uint64_t, progressed, )        /* the cycle after the latest trap or halt; 0: there was none */                 \
   X(S, trax_arbiter, queue_arbiter, )                                                                                  \
-  X(S, trax_fast_lanes, data_bank_rr_masks, [TRAX_MAX_TPS_PER_TM / TRAX_FAST_LANES])                                   \
-  X(S, struct trax_fast_banks16, fetch_rr_masks16, ) /* as the next ones */
+  X(S, _Alignas(64) uint64_t, data_bank_rr_masks, [TRAX_MAX_TPS_PER_TM])                                               \
+  X(S, _Alignas(64) uint16_t, fetch_rr_masks16, [16 * 4]) /* [bank][instruction cache], 2 caches if not `wide` */
 struct trax_tm {
   _Alignas(64) uint32_t number; /* host threads run neighbouring TMs: none shares a cache line */
   uint32_t tps;
@@ -93,7 +93,7 @@ struct trax_tm {
   /* [TP]: the places in WRITTEN blocks from which its burst has loaded, as bits trax_fast_line_hash % 64; 0: none.
      [trax_fast_line_hash]: the TPs with bursts that have loaded from there, and perhaps others. */
   _Alignas(64) uint64_t watched[TRAX_MAX_TPS_PER_TM], readers[256];
-  uint64_t looked_up, single_hits, at_issue; /* fetches, hits and instructions that were slow */
+  uint64_t looked_up, at_issue; /* fetches and instructions that were slow */
   struct trax_fast_refusal_counts refusal_counts;
   struct trax_shared_unit unit[TRAX_SHARED_COUNT];
   struct trax_fault fault;          /* of the current cycle, of the lowest TP with one */
