@@ -39,7 +39,7 @@ struct trax_epochs {
   bool has_snapshot;
   uint64_t snapshot_cycle;
   unsigned snapshot_interval; /* in latencies */
-  struct piece *pieces;       /* [piece_count]: none is within another one */
+  struct piece *pieces;       /* [piece_count] */
   size_t piece_count, snapshot_size;
   uint8_t *snapshot; /* what is in the pieces; merge has the words of global memory */
 
@@ -49,26 +49,15 @@ struct trax_epochs {
 
 /* --- snapshots --- */
 
-/* Whether a listed piece contains this section, as a structure contains another: threads that copy parts of the list
-   must not meet in the same bytes. */
-static bool is_listed(const struct trax_epochs *epochs, const uint8_t *bytes, size_t size) {
-  for (size_t i = epochs->piece_count; i-- > 0;) {
-    const uintptr_t begin = (uintptr_t)epochs->pieces[i].bytes, end = begin + epochs->pieces[i].size;
-    if (begin <= (uintptr_t)bytes && (uintptr_t)bytes + size <= end)
-      return true;
-  }
-  return false;
-}
-
-/* Counts the section, or lists it if there is a list. */
+/* Counts the section, or lists it if there is a list. No piece is within another one: threads that copy parts of the
+   list must not meet in the same bytes. */
 static void add_section(void *context, const struct trax_section *section) {
   struct trax_epochs *epochs = context;
   const size_t size = section->size * section->count;
-  if (epochs->pieces) {
-    if (!size || is_listed(epochs, section->bytes, size))
-      return;
+  if (!size || section->within)
+    return;
+  if (epochs->pieces)
     epochs->pieces[epochs->piece_count] = (struct piece){section->bytes, size, epochs->snapshot_size};
-  }
   epochs->piece_count++;
   epochs->snapshot_size += size;
 }
