@@ -16,6 +16,16 @@
 #include "fast/tm/tm.h"
 #include "translate/translate.h"
 
+/* The part of the engine that works on vectors of TPs, time/cycle.c. It is compiled for every host and for x86-64-v3.
+   x86-64-v4 gains nothing (docs/results/performance.md). */
+struct trax_fast_variant {
+  /* Simulates a cycle of a TM, arrivals included, and sets its next_cycle. */
+  void (*cycle)(struct trax_tm *tm, uint64_t t);
+  /* Simulates a quantum of a TM (epochs.h): all cycles before `end`, or up to one in which it stops or faults. */
+  void (*run_quantum)(struct trax_tm *tm, uint64_t end);
+};
+extern const struct trax_fast_variant trax_fast_variant, trax_fast_variant_v3; /* _v3: if TRAX_FAST_HAVE_AVX2 */
+
 struct trax_chip {
   struct trax_machine *machine;
   const struct trax_text *text; /* the run's */
@@ -54,8 +64,6 @@ void trax_chip_destroy(void *chip); /* may be NULL */
 void trax_fast_collect(void *chip);
 /* Completes statistics and charges for the cycles that are over. */
 void trax_fast_settle(struct trax_chip *chip);
-/* Reports how often the run of so many cycles left the fast path. */
-void trax_fast_report(const struct trax_chip *chip, uint64_t cycles);
 /* Charges the refusals that have been counted, and begins counting them anew. */
 void trax_fast_charge_refusals(struct trax_tm *tm);
 /* Sets charges, [TRAX_CAUSE_COUNT], to those of a TP that is awake or has been settled, for the cycles that are over.

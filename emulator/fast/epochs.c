@@ -2,7 +2,6 @@
 
 #include "fast/chip.h"
 #include "fast/merge.h"
-#include "fast/time/variant.h"
 #include "trax/pool.h"
 
 #include <assert.h>

@@ -1,7 +1,6 @@
 /* Export and import of the engine's state (docs/fast-engine.md): between cycles, watches and checkpoints find no
    bursts. While it simulates, the engine also has data that follow from the rest. */
 #include "fast/time/head.h"
-#include "fast/time/variant.h"
 
 #include <string.h>
 

@@ -3,7 +3,6 @@
 #include "fast/time/issue.h"
 #include "fast/time/prefetch.h"
 #include "fast/time/refusals.h"
-#include "fast/time/variant.h"
 
 /* --- arrivals and wake-ups --- */
 

@@ -118,7 +118,7 @@ static ALWAYS_INLINE bool trax_fast_count(struct trax_fast_refusal_counts *count
 }
 
 /* The adders and multipliers. `even`: both kinds have the same groups, one unit for each, and the groups' size divides
-   64. Then all groups are arbitrated at once; otherwise their units are like those of other kinds (tm/unit.h). */
+   64. Then all groups are arbitrated at once; otherwise their units are like those of other kinds (tm/tm.h). */
 typedef uint64_t trax_fast_pair __attribute__((vector_size(16)));
 
 #define TRAX_FAST_UNITS_STATE(X, S) X(S, trax_fast_pair, rr_masks, ) /* of all groups; only if `even` */

@@ -9,9 +9,25 @@
 #include "fast/tm/observed.h"
 #include "fast/tm/queue.h"
 #include "fast/tm/tp.h"
-#include "fast/tm/unit.h"
 #include "machine/machine.h"
 #include "machine/ray_cycles.h"
+#include "machine/timing.h"
+
+/* Units that TPs share (docs/timing.md, "Units"). Adders and multipliers have masks instead of arbiters if these give
+   the same (time/masks.h). */
+#define TRAX_SHARED_UNIT_STATE(X, S) X(S, trax_arbiter, arbiter, [64]) /* [groups] */
+
+/* All units of a kind in a TM. */
+struct trax_shared_unit {
+  struct trax_shared_kind kind;
+  uint64_t *free_from; /* [group][unit]: a cycle; NULL if they are always free */
+  TRAX_SHARED_UNIT_STATE(TRAX_FIELD, )
+};
+
+/* The number of elements of free_from. */
+static inline size_t trax_shared_unit_count(const struct trax_shared_unit *unit) {
+  return unit->free_from ? (size_t)unit->kind.groups * unit->kind.per_group : 0;
+}
 
 #define TRAX_WHEEL 64 /* slots of the timer wheel, one for each cycle; they are the bits of wheel_occupied */
 
