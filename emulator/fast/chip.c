@@ -1,7 +1,5 @@
 #include "fast/chip.h"
 
-#include "fast/epochs.h"
-
 static trax_status create(struct trax_run *run, trax_error *error) {
 #ifdef TRAX_FAST_HAVE_AVX2
   if (run->engine != &trax_fast_any_engine && __builtin_cpu_supports("x86-64-v3"))

@@ -21,7 +21,7 @@
 struct trax_fast_variant {
   /* Simulates a cycle of a TM, arrivals included, and sets its next_cycle. */
   void (*cycle)(struct trax_tm *tm, uint64_t t);
-  /* Simulates a quantum of a TM (epochs.h): all cycles before `end`, or up to one in which it stops or faults. */
+  /* Simulates a quantum of a TM (epochs.c): all cycles before `end`, or up to one in which it stops or faults. */
   void (*run_quantum)(struct trax_tm *tm, uint64_t end);
 };
 extern const struct trax_fast_variant trax_fast_variant, trax_fast_variant_v3; /* _v3: if TRAX_FAST_HAVE_AVX2 */
@@ -101,6 +101,16 @@ bool trax_fast_run_alone(struct trax_tm *tm, uint64_t t, uint64_t end);
 
 /* Continues the run before cycle t, after a roll back of all TPs (blocks.h), with the state in the structures. */
 void trax_fast_import(struct trax_chip *chip, uint64_t t);
+
+/* Creates chip->epochs (epochs.c), which stays NULL for one TM, with an observer that cannot go back, and if epochs
+   would be too short. threads: of the host; 0: trax_host_processors. */
+trax_status trax_epochs_create(struct trax_chip *chip, unsigned threads, trax_error *error);
+void trax_epochs_destroy(struct trax_epochs *epochs);
+/* Simulates an epoch from cycle *t on that ends in cycle `until` at the latest. Sets *t to the next cycle, which is an
+   earlier one after a roll back. False: the next cycle must be simulated without an epoch. */
+bool trax_epochs_advance(struct trax_epochs *epochs, uint64_t *t, uint64_t until);
+/* Gives up the snapshot: the chip never rolls back beyond the current cycle, whose state a watch has seen. */
+void trax_epochs_commit(struct trax_epochs *epochs);
 
 /* Visits all that changes during a run, except global memory, as sections (machine/section.h), for rollback and for
    checkpoints, in an order that depends on the configuration alone. What follows from the rest between cycles

@@ -1,7 +1,6 @@
 /* The creation of a chip and its TMs. */
 #define _DEFAULT_SOURCE /* madvise */
 #include "fast/chip.h"
-#include "fast/epochs.h"
 #include "fast/time/head.h"
 
 #include <stdlib.h>
@@ -98,7 +97,7 @@ static trax_status create_tm(struct trax_tm *tm, uint32_t number, struct trax_ch
   tm->running = tps;
   tm->heads.steps = tm->tp->burst.step;
   for (unsigned i = 0; i < TRAX_MAX_TPS_PER_TM; i++) /* TPs that do not exist have TP 0's steps: vectors read them */
-    trax_fast_begin_heads(&tm->heads, i, i < tps ? i * (uint32_t)(sizeof *tm->tp / sizeof(uint16_t)) : 0);
+    tm->heads.begin[i / 32 * 4 + i % 4][i % 32 / 4] = i < tps ? i * (uint32_t)(sizeof *tm->tp / sizeof(uint16_t)) : 0;
   for (unsigned i = 0; i < tps; i++) {
     struct trax_tp *tp = &tm->tp[i];
     tp->pc = tp->resume_pc = trax_machine_entry_of(machine, number * tps + i);

@@ -6,7 +6,6 @@
 #include "fast/time/masks.h"
 #include "fast/tm/dcache.h"
 #include "fast/tm/icache.h"
-#include "fast/tm/observed.h"
 #include "fast/tm/queue.h"
 #include "fast/tm/tp.h"
 #include "machine/machine.h"
@@ -36,6 +35,21 @@ struct trax_chip;
 /* Some of trax_fast_heads at the end of a quantum, a byte for each TP (time/prefetch.h). */
 struct trax_fast_outlook {
   uint64_t at[TRAX_MAX_TPS_PER_TM / 8], last[TRAX_MAX_TPS_PER_TM / 8], load[TRAX_MAX_TPS_PER_TM / 8];
+};
+
+/* A TM's record for an observer of stretches (machine/observer.h). */
+enum { TRAX_FAST_NO_OUTCOME = 0xFF /* a load that hit */ };
+
+struct trax_fast_observed {
+  uint8_t told[TRAX_MAX_TPS_PER_TM];       /* steps of the burst of which the observer knows */
+  uint8_t told_loads[TRAX_MAX_TPS_PER_TM]; /* the accesses to global memory among them */
+  /* The refusals of the head, and the TPs with some. They go to `refused` when the head of a burst issues, and
+     otherwise to the log. */
+  uint64_t tps;
+  _Alignas(64) uint8_t of_head[TRAX_MAX_TPS_PER_TM]; /* trax_stretch.refused */
+  uint8_t refused[TRAX_MAX_TPS_PER_TM][TRAX_BURST];  /* the same, of each step */
+  /* Of each access to global memory of the burst; they are read by eight. */
+  uint8_t outcomes[TRAX_MAX_TPS_PER_TM][TRAX_BURST + 8];
 };
 
 /* A TP is awake; or it sleeps until a cycle (in the wheel), until an arrival (in `awaiting`, or in the list of an
