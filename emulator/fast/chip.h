@@ -1,12 +1,7 @@
 /* The fast engine (docs/fast-engine.md has its words): it gives the cycles, counts and bytes of emulator/reference.
-
-   Instructions are executed before their time: a TP executes a burst at once, up to the first instruction whose effect
-   or result depends on time, and the timing of the burst's steps follows one by one (function/). Timing works on masks
-   of a TM's TPs: the resources that an instruction needs are recorded when it becomes its TP's head (time/).
-
-   Rare events are simulated one by one in plain structures (tm/, memory/): arrivals, misses, requests, faults, traps,
-   and instructions that execute at issue. A TM accesses data of another TM only through blocks.c and the memory
-   controller. Epochs and threads are above these folders. */
+   function/ executes instructions before their time, time/ simulates their timing on masks of a TM's TPs, tm/ and
+   memory/ the rare events one by one. A TM accesses data of another TM only through blocks.c and the memory controller.
+   Epochs and threads are above these folders. */
 #ifndef TRAX_FAST_CHIP_H
 #define TRAX_FAST_CHIP_H
 

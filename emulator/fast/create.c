@@ -28,7 +28,6 @@ static void prepare_units(struct trax_fast_units *unit, const struct trax_shared
                second->per_group == 1;
   for (uint32_t i = unit->group_size - 1; unit->even && i < 64; i += unit->group_size)
     unit->top |= (uint64_t)1 << i;
-  unit->below_top = ~unit->top;
 }
 
 static bool create_fetch(struct trax_tm *tm) {
@@ -44,13 +43,6 @@ static bool create_fetch(struct trax_tm *tm) {
   for (uint32_t i = 0; complete && i < tm->icaches; i++)
     complete = trax_icache_create(&tm->icache[i], tm);
   return complete;
-}
-
-static bool create_data(struct trax_tm *tm) {
-  if (!trax_queue_create(&tm->queue, tm->config->memory.queue_depth) || !trax_dcache_create(&tm->dcache, tm))
-    return false;
-  tm->serial_hits = tm->config->dcache.hit_latency_cycles > 1 || tm->dcache.tags.by_use;
-  return true;
 }
 
 static bool create_units(struct trax_tm *tm) {
@@ -91,8 +83,10 @@ static trax_status create_tm(struct trax_tm *tm, uint32_t number, struct trax_ch
   }
   tm->tp = chip->tp + (size_t)number * tps;
   tm->count_deltas = calloc(chip->program.inst_count + 1, sizeof *tm->count_deltas);
-  if (!tm->count_deltas || !create_fetch(tm) || !create_data(tm) || !create_units(tm))
+  if (!tm->count_deltas || !trax_queue_create(&tm->queue, tm->config->memory.queue_depth) || !create_fetch(tm) ||
+      !trax_dcache_create(&tm->dcache, tm) || !create_units(tm))
     return trax_fail(error, "out of memory");
+  tm->serial_hits = tm->config->dcache.hit_latency_cycles > 1 || tm->dcache.tags.by_use;
   tm->awake = trax_group_mask(0, tps);
   tm->running = tps;
   tm->heads.steps = tm->tp->burst.step;

@@ -1,12 +1,6 @@
-/* Epochs: each TM simulates some cycles alone, so that the TMs can run on several threads of the host. On one thread,
-   too, this is faster, since the host's caches hold the data of one TM at a time. An epoch consists of quanta. They are
-   so short that no request made in one can complete before the quantum that may begin without its result. The TM's
-   stores and requests go to its store buffer (fast/store_buffer.h). When all TMs have simulated a quantum, any thread
-   serves its requests cycle by cycle (fast/merge.h), while others are a quantum ahead. At the end of the epoch the
-   stores take effect. The result is that of simulating the TMs cycle by cycle, unless there is a conflict: a TM has
-   read what another one wrote in the epoch, or has done something that a store buffer cannot hold. Then the chip rolls
-   back to the snapshot, repeats the epochs up to this one with the same results, and simulates the cycles of this one
-   one by one. */
+/* Epochs (docs/fast-engine.md, "Why it equals the reference", 3 to 5): each TM simulates some cycles alone, so that the
+   TMs can run on several threads of the host. On one thread, too, this is faster, since the host's caches hold the data
+   of one TM at a time. */
 #include "fast/chip.h"
 #include "fast/merge.h"
 #include "trax/pool.h"

@@ -125,19 +125,17 @@ typedef uint64_t trax_fast_pair __attribute__((vector_size(16)));
 struct trax_fast_units {
   uint32_t group_size;
   bool even;
-  uint64_t top, below_top; /* if `even`: the last bit of each group, and the other bits */
+  uint64_t top; /* if `even`: the last bit of each group */
   TRAX_FAST_UNITS_STATE(TRAX_FIELD, )
 };
 
 /* Returns the last bits of the groups in which x has a bit. */
 static inline trax_fast_pair trax_fast_groups_of(const struct trax_fast_units *units, trax_fast_pair x) {
-  return (((x & units->below_top) + units->below_top) | x) & units->top;
+  return (((x & ~units->top) + ~units->top) | x) & units->top;
 }
 
 /* Returns the winner of each group, by TRAX_FAST_ARBITRATE for all groups at once. Requires `even`. */
 static ALWAYS_INLINE trax_fast_pair trax_fast_grant_units(struct trax_fast_units *units, trax_fast_pair requesters) {
-  if (units->group_size == 1)
-    return requesters;
   if (units->group_size == 8) {
     typedef uint8_t groups __attribute__((vector_size(16), may_alias));
     groups winners;
