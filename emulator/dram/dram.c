@@ -1,4 +1,6 @@
 #include "dram/dram.h"
+
+#include "machine/section.h"
 #include "trax/gcd.h"
 
 #include <stdlib.h>
@@ -323,4 +325,18 @@ bool trax_dram_check(const struct trax_dram *dram, uint32_t number, uint64_t t, 
     good = bank->activate_from <= last && bank->access_from <= last && bank->precharge_from <= last;
   }
   return good;
+}
+
+/* --- the state --- */
+
+void trax_dram_visit(const struct trax_dram *dram, const struct trax_visitor *visitor) {
+  const struct trax_config *config = dram->config;
+  TRAX_VISIT_ALL(trax_dram_channel, TRAX_DRAM_CHANNEL_STATE, dram->channel, config->memory.channels);
+  for (uint32_t i = 0; i < config->memory.channels; i++) {
+    struct trax_dram_channel *channel = &dram->channel[i];
+    for (unsigned queue = 0; queue < TRAX_DRAM_QUEUES; queue++)
+      TRAX_VISIT_ALL(trax_dram_request, TRAX_DRAM_REQUEST_STATE, channel->request[queue], dram->capacity[queue]);
+    TRAX_VISIT_ALL(trax_dram_rank, TRAX_DRAM_RANK_STATE, channel->rank, config->dram.ranks);
+    TRAX_VISIT_ALL(trax_dram_bank, TRAX_DRAM_BANK_STATE, channel->bank, config->dram.ranks * config->dram.banks);
+  }
 }

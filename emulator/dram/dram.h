@@ -1,6 +1,6 @@
-/* DRAM behind the memory controller (docs/timing-memory.md, "DRAM"): which of the requests that a channel holds is served
-   next, and when its data are over. Both timed engines use it: they bring requests in the same order and ask for the
-   same cycles. Time is counted in ticks, cycles of the DRAM's clock. */
+/* DRAM behind the memory controller (docs/timing-memory.md, "DRAM"): which of the requests that a channel holds is
+   served next, and when its data are over. Both timed engines use it: they bring requests in the same order and ask for
+   the same cycles. Time is counted in ticks, cycles of the DRAM's clock. */
 #ifndef TRAX_DRAM_H
 #define TRAX_DRAM_H
 
@@ -108,5 +108,9 @@ uint64_t trax_dram_cycles(const struct trax_dram *dram, uint64_t ticks);
 /* Whether the channel's state, read from a file, is one that at most so many requests can have led to by cycle t, as
    far as safety depends on it. The ids are not checked. */
 bool trax_dram_check(const struct trax_dram *dram, uint32_t channel, uint64_t t, uint64_t requests);
+
+struct trax_visitor;
+/* Visits the state as sections (machine/section.h). */
+void trax_dram_visit(const struct trax_dram *dram, const struct trax_visitor *visitor);
 
 #endif

@@ -1,8 +1,5 @@
 #include "fast/chip.h"
 
-#include "fast/epochs.h"
-#include "fast/time/variant.h"
-
 static trax_status create(struct trax_run *run, trax_error *error) {
 #ifdef TRAX_FAST_HAVE_AVX2
   if (run->engine != &trax_fast_any_engine && __builtin_cpu_supports("x86-64-v3"))
@@ -120,6 +117,29 @@ static enum trax_advance advance(void *context, uint64_t *t, uint64_t until) {
 
 /* --- between cycles --- */
 
+/* Reports how often the run of so many cycles left the fast path. */
+static void report_slow_paths(const struct trax_chip *chip, uint64_t cycles) {
+  const struct trax_tm *first = &chip->tm[0]; /* all TMs are configured alike */
+  struct trax_slow_paths *paths = &chip->machine->slow_paths;
+  *paths =
+      (struct trax_slow_paths){.known = true,
+                               .has_epochs = chip->epochs != NULL,
+                               .is_observed = chip->machine->observer && !chip->machine->observer->go_back,
+                               .has_many_lines = chip->program.lines == TRAX_FAST_LINES,
+                               .conflicts = chip->conflicts,
+                               .short_epochs = chip->short_epochs,
+                               .part = {[TRAX_SLOW_OBSERVED] = chip->burst == 1 ? cycles : 0,
+                                        [TRAX_SLOW_SINGLE_CYCLES] = chip->single_cycles,
+                                        [TRAX_SLOW_FETCHES] = first->simple_fetch ? 0 : cycles,
+                                        [TRAX_SLOW_ADDERS] = first->fp.even ? 0 : cycles,
+                                        [TRAX_SLOW_DATA_BANKS] = first->dcache.banks > TRAX_FAST_BANKS ? cycles : 0}};
+  for (uint32_t i = 0; i < chip->tms; i++) {
+    paths->part[TRAX_SLOW_LINES] += chip->tm[i].looked_up;
+    paths->part[TRAX_SLOW_HITS] += first->serial_hits ? chip->tm[i].stats->dcache_hits : 0;
+    paths->part[TRAX_SLOW_AT_ISSUE] += chip->tm[i].at_issue;
+  }
+}
+
 static void settle(void *context, uint64_t t) {
   struct trax_chip *chip = context;
   for (uint32_t i = 0; i < chip->tms && !chip->machine->fault.kind; i++)
@@ -132,7 +152,7 @@ static void settle(void *context, uint64_t t) {
     trax_fast_settle_rays(&chip->tm[i]);
     chip->tm[i].stats->queue_peak = chip->tm[i].queue.peak;
   }
-  trax_fast_report(chip, t);
+  report_slow_paths(chip, t);
 }
 
 static void import_state(void *context, uint64_t t) {

@@ -1,12 +1,7 @@
 /* The fast engine (docs/fast-engine.md has its words): it gives the cycles, counts and bytes of emulator/reference.
-
-   Instructions are executed before their time: a TP executes a burst at once, up to the first instruction whose effect
-   or result depends on time, and the timing of the burst's steps follows one by one (function/). Timing works on masks
-   of a TM's TPs: the resources that an instruction needs are recorded when it becomes its TP's head (time/).
-
-   Rare events are simulated one by one in plain structures (tm/, memory/): arrivals, misses, requests, faults, traps,
-   and instructions that execute at issue. A TM accesses data of another TM only through blocks.c and the memory
-   controller. Epochs and threads are above these folders. */
+   function/ executes instructions before their time, time/ simulates their timing on masks of a TM's TPs, tm/ and
+   memory/ the rare events one by one. A TM accesses data of another TM only through blocks.c and the memory controller.
+   Epochs and threads are above these folders. */
 #ifndef TRAX_FAST_CHIP_H
 #define TRAX_FAST_CHIP_H
 
@@ -15,6 +10,16 @@
 #include "fast/memory/memory.h"
 #include "fast/tm/tm.h"
 #include "translate/translate.h"
+
+/* The part of the engine that works on vectors of TPs, time/cycle.c. It is compiled for every host and for x86-64-v3.
+   x86-64-v4 gains nothing (docs/results/performance.md). */
+struct trax_fast_variant {
+  /* Simulates a cycle of a TM, arrivals included, and sets its next_cycle. */
+  void (*cycle)(struct trax_tm *tm, uint64_t t);
+  /* Simulates a quantum of a TM (epochs.c): all cycles before `end`, or up to one in which it stops or faults. */
+  void (*run_quantum)(struct trax_tm *tm, uint64_t end);
+};
+extern const struct trax_fast_variant trax_fast_variant, trax_fast_variant_v3; /* _v3: if TRAX_FAST_HAVE_AVX2 */
 
 struct trax_chip {
   struct trax_machine *machine;
@@ -54,8 +59,6 @@ void trax_chip_destroy(void *chip); /* may be NULL */
 void trax_fast_collect(void *chip);
 /* Completes statistics and charges for the cycles that are over. */
 void trax_fast_settle(struct trax_chip *chip);
-/* Reports how often the run of so many cycles left the fast path. */
-void trax_fast_report(const struct trax_chip *chip, uint64_t cycles);
 /* Charges the refusals that have been counted, and begins counting them anew. */
 void trax_fast_charge_refusals(struct trax_tm *tm);
 /* Sets charges, [TRAX_CAUSE_COUNT], to those of a TP that is awake or has been settled, for the cycles that are over.
@@ -93,6 +96,16 @@ bool trax_fast_run_alone(struct trax_tm *tm, uint64_t t, uint64_t end);
 
 /* Continues the run before cycle t, after a roll back of all TPs (blocks.h), with the state in the structures. */
 void trax_fast_import(struct trax_chip *chip, uint64_t t);
+
+/* Creates chip->epochs (epochs.c), which stays NULL for one TM, with an observer that cannot go back, and if epochs
+   would be too short. threads: of the host; 0: trax_host_processors. */
+trax_status trax_epochs_create(struct trax_chip *chip, unsigned threads, trax_error *error);
+void trax_epochs_destroy(struct trax_epochs *epochs);
+/* Simulates an epoch from cycle *t on that ends in cycle `until` at the latest. Sets *t to the next cycle, which is an
+   earlier one after a roll back. False: the next cycle must be simulated without an epoch. */
+bool trax_epochs_advance(struct trax_epochs *epochs, uint64_t *t, uint64_t until);
+/* Gives up the snapshot: the chip never rolls back beyond the current cycle, whose state a watch has seen. */
+void trax_epochs_commit(struct trax_epochs *epochs);
 
 /* Visits all that changes during a run, except global memory, as sections (machine/section.h), for rollback and for
    checkpoints, in an order that depends on the configuration alone. What follows from the rest between cycles

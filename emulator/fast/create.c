@@ -1,7 +1,6 @@
 /* The creation of a chip and its TMs. */
 #define _DEFAULT_SOURCE /* madvise */
 #include "fast/chip.h"
-#include "fast/epochs.h"
 #include "fast/time/head.h"
 
 #include <stdlib.h>
@@ -29,7 +28,6 @@ static void prepare_units(struct trax_fast_units *unit, const struct trax_shared
                second->per_group == 1;
   for (uint32_t i = unit->group_size - 1; unit->even && i < 64; i += unit->group_size)
     unit->top |= (uint64_t)1 << i;
-  unit->below_top = ~unit->top;
 }
 
 static bool create_fetch(struct trax_tm *tm) {
@@ -45,13 +43,6 @@ static bool create_fetch(struct trax_tm *tm) {
   for (uint32_t i = 0; complete && i < tm->icaches; i++)
     complete = trax_icache_create(&tm->icache[i], tm);
   return complete;
-}
-
-static bool create_data(struct trax_tm *tm) {
-  if (!trax_queue_create(&tm->queue, tm->config->memory.queue_depth) || !trax_dcache_create(&tm->dcache, tm))
-    return false;
-  tm->serial_hits = tm->config->dcache.hit_latency_cycles > 1 || tm->dcache.tags.by_use;
-  return true;
 }
 
 static bool create_units(struct trax_tm *tm) {
@@ -92,13 +83,15 @@ static trax_status create_tm(struct trax_tm *tm, uint32_t number, struct trax_ch
   }
   tm->tp = chip->tp + (size_t)number * tps;
   tm->count_deltas = calloc(chip->program.inst_count + 1, sizeof *tm->count_deltas);
-  if (!tm->count_deltas || !create_fetch(tm) || !create_data(tm) || !create_units(tm))
+  if (!tm->count_deltas || !trax_queue_create(&tm->queue, tm->config->memory.queue_depth) || !create_fetch(tm) ||
+      !trax_dcache_create(&tm->dcache, tm) || !create_units(tm))
     return trax_fail(error, "out of memory");
+  tm->serial_hits = tm->config->dcache.hit_latency_cycles > 1 || tm->dcache.tags.by_use;
   tm->awake = trax_group_mask(0, tps);
   tm->running = tps;
   tm->heads.steps = tm->tp->burst.step;
   for (unsigned i = 0; i < TRAX_MAX_TPS_PER_TM; i++) /* TPs that do not exist have TP 0's steps: vectors read them */
-    trax_fast_begin_heads(&tm->heads, i, i < tps ? i * (uint32_t)(sizeof *tm->tp / sizeof(uint16_t)) : 0);
+    tm->heads.begin[i / 32 * 4 + i % 4][i % 32 / 4] = i < tps ? i * (uint32_t)(sizeof *tm->tp / sizeof(uint16_t)) : 0;
   for (unsigned i = 0; i < tps; i++) {
     struct trax_tp *tp = &tm->tp[i];
     tp->pc = tp->resume_pc = trax_machine_entry_of(machine, number * tps + i);

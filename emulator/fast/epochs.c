@@ -1,8 +1,8 @@
-#include "fast/epochs.h"
-
+/* Epochs (docs/fast-engine.md, "Why it equals the reference", 3 to 5): each TM simulates some cycles alone, so that the
+   TMs can run on several threads of the host. On one thread, too, this is faster, since the host's caches hold the data
+   of one TM at a time. */
 #include "fast/chip.h"
 #include "fast/merge.h"
-#include "fast/quanta.h"
 #include "trax/pool.h"
 
 #include <assert.h>
@@ -30,15 +30,16 @@ struct piece {
 struct trax_epochs {
   struct trax_chip *chip;
   struct trax_pool *pool;
-  enum { RUN, CHECK, SAVE, RESTORE } work; /* of the pool's items: TMs, or as many parts of the snapshot */
+  enum { CHECK, SAVE, RESTORE } work; /* of the pool's items: TMs, or as many parts of the snapshot */
   struct trax_merge merge;
-  struct trax_quanta *quanta;
-  uint64_t latency; /* cycles */
+  uint64_t latency;    /* cycles */
+  unsigned sides;      /* quanta of a latency; of the store buffers, those that are used */
+  uint64_t begin, end; /* of the epoch */
 
   bool has_snapshot;
   uint64_t snapshot_cycle;
   unsigned snapshot_interval; /* in latencies */
-  struct piece *pieces;       /* [piece_count]: none is within another one */
+  struct piece *pieces;       /* [piece_count] */
   size_t piece_count, snapshot_size;
   uint8_t *snapshot; /* what is in the pieces; merge has the words of global memory */
 
@@ -48,26 +49,15 @@ struct trax_epochs {
 
 /* --- snapshots --- */
 
-/* Whether a listed piece contains this section, as a structure contains another: threads that copy parts of the list
-   must not meet in the same bytes. */
-static bool is_listed(const struct trax_epochs *epochs, const uint8_t *bytes, size_t size) {
-  for (size_t i = epochs->piece_count; i-- > 0;) {
-    const uintptr_t begin = (uintptr_t)epochs->pieces[i].bytes, end = begin + epochs->pieces[i].size;
-    if (begin <= (uintptr_t)bytes && (uintptr_t)bytes + size <= end)
-      return true;
-  }
-  return false;
-}
-
-/* Counts the section, or lists it if there is a list. */
+/* Counts the section, or lists it if there is a list. No piece is within another one: threads that copy parts of the
+   list must not meet in the same bytes. */
 static void add_section(void *context, const struct trax_section *section) {
   struct trax_epochs *epochs = context;
   const size_t size = section->size * section->count;
-  if (epochs->pieces) {
-    if (!size || is_listed(epochs, section->bytes, size))
-      return;
+  if (!size || section->within)
+    return;
+  if (epochs->pieces)
     epochs->pieces[epochs->piece_count] = (struct piece){section->bytes, size, epochs->snapshot_size};
-  }
   epochs->piece_count++;
   epochs->snapshot_size += size;
 }
@@ -94,9 +84,7 @@ static void copy_pieces(const struct trax_epochs *epochs, uint32_t part) {
 
 static void work(void *context, uint32_t item) {
   struct trax_epochs *epochs = context;
-  if (epochs->work == RUN)
-    trax_quanta_run(epochs->quanta, item);
-  else if (epochs->work == CHECK)
+  if (epochs->work == CHECK)
     trax_merge_check(&epochs->merge, &epochs->chip->tm[item]);
   else
     copy_pieces(epochs, item);
@@ -134,11 +122,43 @@ static uint64_t longest_epoch(const struct trax_epochs *epochs, uint64_t t) {
   return (latencies < 1 ? 1 : latencies < LONGEST_EPOCH ? latencies : LONGEST_EPOCH) * epochs->latency;
 }
 
+static uint64_t begin_of(const struct trax_epochs *epochs, unsigned quantum) {
+  const uint64_t begin = epochs->begin + quantum * epochs->latency / epochs->sides;
+  return begin < epochs->end ? begin : epochs->end;
+}
+
+static void simulate(void *context, uint32_t number, unsigned quantum) {
+  struct trax_epochs *epochs = context;
+  struct trax_tm *tm = &epochs->chip->tm[number];
+  if (trax_merge_has_failed(&epochs->merge))
+    return;
+  if (quantum == 0) {
+    if (tm->next_cycle < epochs->begin)
+      tm->next_cycle = epochs->begin;
+    trax_merge_begin_tm(&epochs->merge, tm);
+  }
+  trax_merge_give(&epochs->merge, tm, quantum % epochs->sides);
+  epochs->chip->variant->run_quantum(tm, begin_of(epochs, quantum + 1));
+  trax_merge_take(&epochs->merge, tm);
+}
+
+/* Serves the requests of a quantum. */
+static void serve(void *context, unsigned quantum) {
+  struct trax_epochs *epochs = context;
+  if (!trax_merge_has_failed(&epochs->merge))
+    trax_merge_quantum(&epochs->merge, quantum % epochs->sides, begin_of(epochs, quantum),
+                       begin_of(epochs, quantum + 1));
+}
+
 /* Simulates an epoch. False: it must be given up. */
 static bool run_epoch(struct trax_epochs *epochs, uint64_t t, uint64_t end) {
+  unsigned quanta = 0;
+  epochs->begin = t;
+  epochs->end = end;
+  while (begin_of(epochs, quanta) < end)
+    quanta++;
   trax_merge_begin(&epochs->merge);
-  trax_quanta_begin(epochs->quanta, t, end);
-  run_pool(epochs, RUN);
+  trax_pool_run_rounds(epochs->pool, quanta, simulate, serve);
   if (!trax_merge_has_failed(&epochs->merge))
     run_pool(epochs, CHECK);
   return trax_merge_end(&epochs->merge);
@@ -199,11 +219,10 @@ trax_status trax_epochs_create(struct trax_chip *chip, unsigned threads, trax_er
     return trax_fail(error, "out of memory");
   epochs->chip = chip;
   epochs->latency = latency;
+  epochs->sides = threads > 1 ? TRAX_SIDES : 1; /* one thread never runs ahead; its quanta have a whole latency */
   epochs->pause = FIRST_PAUSE;
   if (!trax_merge_create(&epochs->merge, chip) || !list_pieces(epochs) ||
       !(epochs->snapshot = malloc(epochs->snapshot_size)))
-    return trax_fail(error, "out of memory");
-  if (!(epochs->quanta = trax_quanta_create(chip, &epochs->merge, threads, latency)))
     return trax_fail(error, "out of memory");
   epochs->pool = trax_pool_create(threads, chip->tms, work, epochs, error);
   return epochs->pool ? TRAX_OK : TRAX_ERROR;
@@ -213,7 +232,6 @@ void trax_epochs_destroy(struct trax_epochs *epochs) {
   if (!epochs)
     return;
   trax_pool_destroy(epochs->pool);
-  trax_quanta_destroy(epochs->quanta);
   trax_merge_destroy(&epochs->merge);
   free(epochs->pieces);
   free(epochs->snapshot);

@@ -1,7 +1,6 @@
 /* Export and import of the engine's state (docs/fast-engine.md): between cycles, watches and checkpoints find no
    bursts. While it simulates, the engine also has data that follow from the rest. */
 #include "fast/time/head.h"
-#include "fast/time/variant.h"
 
 #include <string.h>
 
@@ -21,7 +20,7 @@ static void find_atomics(struct trax_tm *tm) {
   const struct trax_queue *queue = &tm->queue;
   for (uint32_t i = 0; i < queue->depth; i++) {
     const struct trax_request *request = &queue->requests[i];
-    if (trax_queue_is_taken(queue, i) && request->kind == TRAX_REQUEST_ATOMIC) {
+    if (queue->requests[i].bytes && request->kind == TRAX_REQUEST_ATOMIC) {
       tm->tp[request->tp].atomics |= (uint64_t)1 << request->rd;
       trax_fast_set_written(&tm->chip->blocks, request->address, TRAX_BLOCK_SHARED);
     }

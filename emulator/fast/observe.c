@@ -1,10 +1,8 @@
 /* Notifies an observer of the run (machine/observer.h). */
 #include "fast/time/head.h"
 
-#include <string.h>
-#ifdef __SSE2__
 #include <emmintrin.h>
-#endif
+#include <string.h>
 
 _Static_assert((int)TRAX_BURST <= (int)TRAX_MOST_STRETCH, "a burst is a stretch");
 
@@ -138,40 +136,24 @@ void trax_fast_tell_single(struct trax_tm *tm, unsigned number, uint32_t pc, con
                                   .result = result_of(tp, inst)});
 }
 
-#ifdef __SSE2__
 /* Returns a bit for each of 16 numbers: those that are equal to `value` in the bits of `mask`. */
 static inline unsigned like_16(__m128i some, __m128i others, uint16_t mask, uint16_t value) {
   const __m128i bits = _mm_set1_epi16((short)mask), wanted = _mm_set1_epi16((short)value);
   return (unsigned)_mm_movemask_epi8(_mm_packs_epi16(_mm_cmpeq_epi16(_mm_and_si128(some, bits), wanted),
                                                      _mm_cmpeq_epi16(_mm_and_si128(others, bits), wanted)));
 }
-#endif
 
 /* Returns a bit for each of 16 steps, from `first` on, which is not 0: those that are behind a taken jump. */
 static inline unsigned jumps_of_16(const uint16_t *index, unsigned first) {
-#ifdef __SSE2__
   const __m128i *const at = (const __m128i *)(index + first), *const before = (const __m128i *)(index + first - 1);
   return 0xFFFF ^ like_16(_mm_sub_epi16(_mm_loadu_si128(at), _mm_loadu_si128(before)),
                           _mm_sub_epi16(_mm_loadu_si128(at + 1), _mm_loadu_si128(before + 1)), UINT16_MAX, 1);
-#else
-  unsigned found = 0;
-  for (unsigned i = 0; i < 16; i++)
-    found |= (unsigned)((uint16_t)(index[first + i] - index[first + i - 1]) != 1) << i;
-  return found;
-#endif
 }
 
 /* Returns a bit for each of 16 steps: those that access global memory. */
 static inline unsigned accesses_of_16(const uint16_t *step) {
-#ifdef __SSE2__
   return like_16(_mm_loadu_si128((const __m128i *)step), _mm_loadu_si128((const __m128i *)(step + 8)), TRAX_STEP_KIND,
                  TRAX_STEP_BANK);
-#else
-  unsigned found = 0;
-  for (unsigned i = 0; i < 16; i++)
-    found |= (unsigned)((step[i] & TRAX_STEP_KIND) == TRAX_STEP_BANK) << i;
-  return found;
-#endif
 }
 _Static_assert((int)TRAX_CHUNK >= 16, "so many steps may follow the last one");
 

@@ -51,8 +51,8 @@ static bool mark(struct checker *checker, trax_request_id id, unsigned whose, co
   const uint32_t depth = chip->tm->queue.depth;
   const uint32_t tm = id >> TRAX_REQUEST_BITS, place = id & ((1u << TRAX_REQUEST_BITS) - 1);
   uint8_t *listed = NULL;
-  if (whose & OF_TMS && tm < chip->tms && place < depth && trax_queue_is_taken(&chip->tm[tm].queue, place) &&
-      !trax_queue_is_started(&chip->tm[tm].queue, place))
+  if (whose & OF_TMS && tm < chip->tms && place < depth && chip->tm[tm].queue.requests[place].bytes &&
+      !chip->tm[tm].queue.requests[place].completion)
     listed = &checker->listed[tm * depth + place];
   else if (whose & OF_L2 && tm == TRAX_MAX_TMS && chip->memory.l2 && place < chip->memory.l2->mshr_limit &&
            (whose != OF_L2 || chip->memory.l2->mshr[place].arrival != TRAX_NEVER))
@@ -131,14 +131,14 @@ static void check_queue(struct checker *checker, const struct trax_tm *tm) {
   const struct trax_queue *queue = &tm->queue;
   for (uint32_t i = 0; i < queue->depth && !checker->failed; i++) {
     const struct trax_request *request = &queue->requests[i];
-    if (!trax_queue_is_taken(queue, i))
+    if (!queue->requests[i].bytes)
       continue;
     expect(checker,
            request->kind <= TRAX_REQUEST_ATOMIC && request->tp < tm->tps && request->rd <= TRAX_NO_REGISTER &&
                request->icache < tm->icaches && request->bytes && request->bytes <= MOST_BYTES,
            "TM %u, request %u: kind %u of TP %u, register %u, instruction cache %u, %" PRIu32 " bytes", tm->number, i,
            request->kind, request->tp, request->rd, request->icache, request->bytes);
-    check_cycle(checker, trax_queue_is_started(queue, i) ? request->completion : 0, "request");
+    check_cycle(checker, queue->requests[i].completion ? request->completion : 0, "request");
     expect(checker,
            request->kind != TRAX_REQUEST_ATOMIC ||
                (request->address % 4 == 0 &&

@@ -7,18 +7,29 @@
 
 enum trax_slow_path_of { TRAX_OF_CYCLES, TRAX_OF_FETCHES, TRAX_OF_HITS, TRAX_OF_INSTRUCTIONS };
 
-struct trax_slow_path {
-  const char *name;
-  uint64_t part; /* how many of them left the fast path; 0: none */
-  enum trax_slow_path_of of;
-  char reason[160];
+/* identifier, name, and what a part of it left the fast path. Reasons are in report/slow_paths.c. */
+#define TRAX_SLOW_PATHS(X)                                                                                             \
+  X(OBSERVED, "observed", CYCLES)                                                                                      \
+  X(SINGLE_CYCLES, "TMs cycle by cycle", CYCLES)                                                                       \
+  X(FETCHES, "fetches bank by bank", CYCLES)                                                                           \
+  X(ADDERS, "adders group by group", CYCLES)                                                                           \
+  X(DATA_BANKS, "data banks one by one", CYCLES)                                                                       \
+  X(LINES, "lines looked up", FETCHES)                                                                                 \
+  X(HITS, "hits one by one", HITS)                                                                                     \
+  X(AT_ISSUE, "executed at issue", INSTRUCTIONS)
+
+enum trax_slow_path {
+#define TRAX_SLOW_PATH(ID, NAME, OF) TRAX_SLOW_##ID,
+  TRAX_SLOW_PATHS(TRAX_SLOW_PATH)
+#undef TRAX_SLOW_PATH
+      TRAX_SLOW_COUNT
 };
 
-enum { TRAX_SLOW_PATHS = 8 };
-
 struct trax_slow_paths {
-  bool known; /* the engine reports them */
-  struct trax_slow_path path[TRAX_SLOW_PATHS];
+  bool known;                                   /* the engine reports them */
+  uint64_t part[TRAX_SLOW_COUNT];               /* how many left the fast path */
+  bool has_epochs, is_observed, has_many_lines; /* is_observed: by an observer that cannot go back */
+  uint64_t conflicts, short_epochs;             /* epochs given up, and cycles before a stop */
 };
 
 #endif

@@ -1,4 +1,5 @@
-/* The pool of host threads (trax/pool.h): all work is done once a round, and who waits for long sleeps. */
+/* The pool of host threads (trax/pool.h): all work is done once a round, rounds are finished in order, and who waits
+ * for long sleeps. */
 #define _POSIX_C_SOURCE 200809L
 #include <setjmp.h>
 #include <stdarg.h>
@@ -10,6 +11,7 @@
 #include "trax/pool.h"
 
 #include <dirent.h>
+#include <sched.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <string.h>
@@ -34,6 +36,40 @@ static void every_item_once(void **state) {
         for (uint32_t item = 0; item < items; item++)
           assert_int_equal(atomic_load(&counts[item]), round);
       }
+      trax_pool_destroy(pool);
+    }
+}
+
+struct rounds {
+  uint32_t items;
+  atomic_uint counts[MOST_ITEMS], finished, errors;
+};
+
+/* An item is at most one round ahead of the first one that is not finished, and does not skip any. */
+static void count_round(void *context, uint32_t item, unsigned round) {
+  struct rounds *rounds = context;
+  if (item == round % 37) /* so that others are ahead */
+    sched_yield();
+  rounds->errors += atomic_fetch_add(&rounds->counts[item], 1) != round || round > atomic_load(&rounds->finished) + 1;
+}
+
+static void finish_round(void *context, unsigned round) {
+  struct rounds *rounds = context;
+  for (uint32_t item = 0; item < rounds->items; item++)
+    rounds->errors += atomic_load(&rounds->counts[item]) <= round;
+  rounds->errors += atomic_fetch_add(&rounds->finished, 1) != round;
+}
+
+static void finishes_rounds_in_order(void **state) {
+  (void)state;
+  for (unsigned threads = 1; threads <= 3; threads++)
+    for (uint32_t items = 1; items <= MOST_ITEMS; items = 5 * items + 1) {
+      struct rounds rounds = {.items = items};
+      struct trax_pool *pool = trax_pool_create(threads, items, count, &rounds, NULL);
+      assert_non_null(pool);
+      trax_pool_run_rounds(pool, ROUNDS, count_round, finish_round);
+      assert_int_equal(rounds.finished, ROUNDS);
+      assert_int_equal(rounds.errors, 0);
       trax_pool_destroy(pool);
     }
 }
@@ -108,7 +144,7 @@ static void idles_without_cost(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(every_item_once), cmocka_unit_test(sleeps_while_waiting),
-                                     cmocka_unit_test(idles_without_cost)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(every_item_once), cmocka_unit_test(finishes_rounds_in_order),
+                                     cmocka_unit_test(sleeps_while_waiting), cmocka_unit_test(idles_without_cost)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

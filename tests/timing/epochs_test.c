@@ -1,4 +1,4 @@
-/* TMs that run ahead of each other (emulator/fast/epochs.h) against the reference engine: what one of them writes
+/* TMs that run ahead of each other (emulator/fast/epochs.c) against the reference engine: what one of them writes
    while others read, write or increment it, in every order and distance within an epoch. Threads are quiet for so long
    that epochs are running when it happens, and after it. */
 #include "compare.h"

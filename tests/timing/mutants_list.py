@@ -201,14 +201,14 @@ MUTANTS = [
     ("fast/time/cycle.c", " || inst->resource == TRAX_RESOURCE_FENCE)\n", ")\n"),
     # --- More of the fast engine, by rule ---
     # Stores combine within a block of 64 bytes.
-    ("fast/tm/tp.c", "address / COMBINING_BLOCK == tp->run_begin / COMBINING_BLOCK &&",
-     "(address / COMBINING_BLOCK | 1) == (tp->run_begin / COMBINING_BLOCK | 1) &&"),
+    ("fast/tm/tm.c", "begin / COMBINING_BLOCK == tp->run_begin / COMBINING_BLOCK &&",
+     "(begin / COMBINING_BLOCK | 1) == (tp->run_begin / COMBINING_BLOCK | 1) &&"),
     # A store that touches the run's end combines.
-    ("fast/tm/tp.c", "address <= tp->run_end &&",
-     "address < tp->run_end &&"),
+    ("fast/tm/tm.c", "begin <= tp->run_end &&",
+     "begin < tp->run_end &&"),
     # A store that touches the run's begin combines.
-    ("fast/tm/tp.c", "address + bytes >= tp->run_begin;",
-     "address + bytes > tp->run_begin;"),
+    ("fast/tm/tm.c", "end >= tp->run_begin;",
+     "end > tp->run_begin;"),
     # The first unusable register gives the cause.
     ("fast/tm/tp.c", "{tp->inst->wait_ra, tp->inst->more_ra + 1u}, {tp->inst->wait_rb, tp->inst->more_rb + 1u}",
      "{tp->inst->wait_rb, tp->inst->more_rb + 1u}, {tp->inst->wait_ra, tp->inst->more_ra + 1u}"),
@@ -367,11 +367,13 @@ MUTANTS = [
     ("fast/time/head.c", "      tm->heads.check_at[tp] = 0;\n",
      ""),
     # A head in another line is looked at,
-    ("fast/time/head.c", "program->line[index] != line ||",
-     "false ||"),
+    ("fast/time/head.c", "      if ((step->pc & -line_bytes) != line)\n        break;\n",
+     ""),
+    ("fast/time/head.c", "leaves = next_line < stop;",
+     "leaves = false;"),
     # one that needs a register,
-    ("fast/time/head.c", "(program->timing[index].waits & busy) ||",
-     "(program->timing[index].waits & busy & 0xFFFF) ||"),
+    ("fast/time/head.c", "!(step->waits & busy)",
+     "!(step->waits & busy & 0xFFFF)"),
     # and one behind a head that was not fetched in this cycle.
     ("fast/time/head.c", "if (fetched || !uncertain || next < tm->heads.check_at[number])",
      "if (fetched || true)"),
@@ -494,8 +496,8 @@ MUTANTS = [
     ("fast/store_buffer.c", "  buffer->side = &buffer->sides[side];",
      "  buffer->read_count = 0;\n  buffer->side = &buffer->sides[side];"),
     # A quantum ahead is of half a latency.
-    ("fast/quanta.c", "quantum * quanta->latency / (quanta->ahead + 1)", "quantum * quanta->latency"),
-    ("fast/quanta.c", "quantum <= served + quanta->ahead", "quantum <= served + quanta->ahead + 1"),
+    ("fast/epochs.c", "quantum * epochs->latency / epochs->sides", "quantum * epochs->latency"),
+    ("base/pool.c", "round - finished <= 1;", "round - finished <= 2;"),
     # A TM receives what was served, in its quantum, and at the end of the epoch, and wakes for it.
     ("fast/merge.c", "  trax_store_buffer_begin_quantum(tm->buffer, side);\n  trax_tm_receive(tm, side);",
      "  trax_store_buffer_begin_quantum(tm->buffer, side);\n  trax_tm_receive(tm, 0);"),
@@ -549,8 +551,8 @@ MUTANTS = [
     ("fast/memory/memory.c", "channel->unit_free_from = over + memory->unit_interval;",
      "channel->unit_free_from = over;"),
     ("fast/memory/create.c", "return 1 + config->memory.latency_cycles;", "return 2 + config->memory.latency_cycles;"),
-    ("fast/state.c", "dram->channel, config->memory.channels);", "dram->channel, 0);"),
-    ("fast/state.c", "channel->bank, config->dram.ranks * config->dram.banks);", "channel->bank, 0);"),
+    ("dram/dram.c", "dram->channel, config->memory.channels);", "dram->channel, 0);"),
+    ("dram/dram.c", "channel->bank, config->dram.ranks * config->dram.banks);", "channel->bank, 0);"),
     ("reference/dram.c", "return (request && request->kind == ATOMIC) ||", "return"),
     ("reference/controller.c", "done + chip->config->memory.atomic_interval_cycles;", "done;"),
     # --- Line fills ---
@@ -600,7 +602,7 @@ MUTANTS = [
     ("fast/observe.c", "    trax_fast_read_charges(tm, number, cycles);", "    memset(cycles, 0, sizeof cycles);"),
     ("fast/epochs.c", "    chip->machine->observer->go_back(chip->machine->observer->context);", "    (void)chip;"),
     ("fast/epochs.c", "  trax_fast_keep(epochs->chip, true);\n", ""),
-    ("fast/state.c", "  VISIT_DERIVED(tm->observed, tm->observed ? 1 : 0);\n", ""),
+    ("fast/state.c", "  TRAX_VISIT_DERIVED(tm->observed, tm->observed ? 1 : 0);\n", ""),
     ("fast/observe.c", "tm->serial_hits ? 0 : tm->load_hits & ~tm->storing", "~(uint64_t)0"),
     ("fast/time/issue.h", "trax_fast_tell_steps(tm, number, last + 1, tp->resume_pc);",
      "trax_fast_tell_steps(tm, number, last, tp->resume_pc);"),

@@ -23,7 +23,7 @@ static void pass_unit(struct trax_tm *tm, trax_shared which, unsigned number) {
 static void pass_fetch_bank(struct trax_tm *tm, unsigned number, unsigned bank) {
   const uint32_t icache = tm->icache_of[number];
   if (tm->simple_fetch)
-    *trax_fast_fetch_rr_mask(&tm->fetch_rr_masks16, tm->wide, icache, bank) = (uint16_t)(~(uint64_t)1 << number % 16);
+    tm->fetch_rr_masks16[bank << (1 + tm->wide) | icache] = (uint16_t)(~(uint64_t)1 << number % 16);
   else
     trax_arbiter_to_back(&tm->fetch_arbiters[icache * tm->config->icache.banks + bank], number);
 }
@@ -32,7 +32,7 @@ static void pass_arbiters(struct trax_tm *tm, unsigned number, const struct used
   for (uint64_t rest = used->fetch_banks; rest; rest &= rest - 1)
     pass_fetch_bank(tm, number, trax_first(rest));
   for (uint64_t rest = used->data_banks; rest; rest &= rest - 1)
-    ((uint64_t *)tm->data_bank_rr_masks)[trax_first(rest)] = ~(uint64_t)1 << number;
+    tm->data_bank_rr_masks[trax_first(rest)] = ~(uint64_t)1 << number;
   for (trax_shared unit = TRAX_SHARED_FP_ADD; unit <= TRAX_SHARED_INT_MUL; unit++)
     if (used->kinds >> (TRAX_STEP_FP_ADD + 2 * unit) & 1)
       pass_unit(tm, unit, number);
@@ -107,7 +107,7 @@ bool trax_fast_run_alone(struct trax_tm *tm, uint64_t t, uint64_t end) {
         used.fetch_banks |= (uint64_t)1 << (step >> TRAX_STEP_FETCH_SHIFT);
         tp->pc = timing->pc;
         tm->now = t;
-        trax_icache_look_up(icache, tm, number, t++);
+        trax_icache_miss(icache, tm, number, t++);
         break;
       }
       if (enters_line)

@@ -3,7 +3,6 @@
 #include "fast/time/issue.h"
 #include "fast/time/prefetch.h"
 #include "fast/time/refusals.h"
-#include "fast/time/variant.h"
 
 /* --- arrivals and wake-ups --- */
 
@@ -76,8 +75,8 @@ static ALWAYS_INLINE uint64_t refuse_fetches(struct trax_tm *tm, const bool wide
   if (!tm->simple_fetch)
     return refuse_fetches_of_any_shape(tm, requesters);
   trax_fast_transpose(&tm->heads, wide, TRAX_STEP_FETCH_SHIFT, 4, bit);
-  return wide ? trax_fast_refuse_four(&tm->fetch_rr_masks16, requesters, bit)
-              : trax_fast_refuse_two(&tm->fetch_rr_masks16, requesters, bit);
+  return wide ? trax_fast_refuse_four(tm->fetch_rr_masks16, requesters, bit)
+              : trax_fast_refuse_two(tm->fetch_rr_masks16, requesters, bit);
 }
 
 /* The TP has won its bank and looks up the line of its head. True: a hit. */
@@ -86,7 +85,7 @@ static bool look_up(struct trax_tm *tm, unsigned number, uint64_t t) {
   if (!trax_fast_is_resident(tm, tm->icache_of[number], tm->chip->program.line[trax_fast_head(tm, number)])) {
     trax_fast_export_head(tm, number);
     if (!trax_cache_tags_have(&icache->tags, trax_line_of(&icache->tags, tm->tp[number].pc))) {
-      trax_icache_look_up(icache, tm, number, t); /* if the memory queue is full, the TP fetches again */
+      trax_icache_miss(icache, tm, number, t); /* if the memory queue is full, the TP fetches again */
       return false;
     }
   }

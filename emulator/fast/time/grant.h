@@ -26,36 +26,17 @@ static inline uint64_t like_first(const struct trax_tm *tm, uint64_t tps, unsign
   return like;
 }
 
-/* Grants the banks of the data cache, of which there are at most two vectors, and returns the winners; bit: the planes
-   of the banks' numbers. */
-static ALWAYS_INLINE uint64_t grant_banks(struct trax_tm *tm, uint64_t requesters, const uint64_t *bit) {
-  const trax_fast_lanes none = {0}, even = {~(uint64_t)0, 0, ~(uint64_t)0, 0},
-                        lower = {~(uint64_t)0, ~(uint64_t)0, 0, 0};
-  /* Lane i: the TPs whose bank number has i in its lowest two bits. */
-  const trax_fast_lanes by_low_bits = ((none + bit[0]) ^ even) & ((none + bit[1]) ^ lower);
-  const trax_fast_lanes first = by_low_bits & (none + (requesters & ~bit[2]));
-  trax_fast_lanes winner;
-  TRAX_FAST_ARBITRATE(trax_fast_lanes, &tm->data_bank_rr_masks[0], first, &winner);
-  if (tm->dcache.banks > TRAX_FAST_LANES) {
-    const trax_fast_lanes second = by_low_bits & (none + (requesters & bit[2]));
-    trax_fast_lanes other;
-    TRAX_FAST_ARBITRATE(trax_fast_lanes, &tm->data_bank_rr_masks[1], second, &other);
-    winner |= other;
-  }
-  return trax_fast_any(&winner);
-}
-
-/* The same one bank after the other, for any number of banks. */
-static __attribute__((noinline)) uint64_t grant_many_banks(struct trax_tm *tm, uint64_t requesters) {
-  uint64_t winners = 0;
+/* Grants the banks of the data cache, and returns the losers, one bank after the other for any number of banks. */
+static __attribute__((noinline)) uint64_t refuse_many_banks(struct trax_tm *tm, uint64_t requesters) {
+  uint64_t losers = 0;
   for (uint64_t rest = requesters, here; rest; rest &= ~here) {
-    uint64_t *const rr_mask = &((uint64_t *)tm->data_bank_rr_masks)[bank_of(tm, trax_first(rest))];
+    uint64_t *const rr_mask = &tm->data_bank_rr_masks[bank_of(tm, trax_first(rest))];
     here = like_first(tm, rest, 63 << TRAX_STEP_BANK_SHIFT);
     const uint64_t among = here & *rr_mask ? here & *rr_mask : here, winner = among & -among;
     *rr_mask = -2 * winner;
-    winners |= winner;
+    losers |= here ^ winner;
   }
-  return winners;
+  return losers;
 }
 
 /* Returns those of the TPs whose data bank is being filled. */
@@ -66,33 +47,17 @@ static __attribute__((noinline)) uint64_t in_filling_banks(const struct trax_tm 
   return found;
 }
 
-static bool load_hits(struct trax_tm *tm, unsigned number, uint64_t t) {
-  const uint32_t address = tm->heads.address[number];
-  if (!trax_cache_tags_use(&tm->dcache.tags, trax_line_of(&tm->dcache.tags, address)))
-    return false;
-  tm->stats->dcache_hits++;
-  tm->single_hits += tm->serial_hits;
-  const uint32_t latency = tm->config->dcache.hit_latency_cycles;
-  if (latency > 1) {
-    const unsigned rd = trax_fast_head_timing(tm, number)->decoded->rd;
-    trax_tp_set_usable(&tm->tp[number], rd, t + latency, TRAX_CAUSE_DATA_HIT);
-    trax_fast_set_busy(tm, number, rd);
-  }
-  return true;
-}
-
+/* Serves a TP by itself. False: it was refused. */
 static bool serve(struct trax_tm *tm, unsigned number, uint64_t t) {
-  if (!(tm->executes_at_issue >> number & 1) && !trax_fast_head_timing(tm, number)->decoded->is_store &&
-      load_hits(tm, number, t))
-    return true;
+  const struct trax_tp *tp = &tm->tp[number];
   trax_fast_export_head(tm, number);
   const trax_cause refused = trax_tm_serve(tm, number, t);
   if (refused != TRAX_CAUSE_ISSUED) {
     trax_tm_charge(tm, number, refused);
     return false;
   }
-  if (!tm->tp[number].inst->is_store)
-    trax_fast_set_busy(tm, number, tm->tp[number].inst->rd);
+  if (!tp->inst->is_store && tp->usable[tp->inst->rd] > t + 1)
+    trax_fast_set_busy(tm, number, tp->inst->rd);
   return true;
 }
 
@@ -165,7 +130,7 @@ static ALWAYS_INLINE uint64_t grant(struct trax_tm *tm, const bool wide, struct 
 /* The TPs that are ready and need this. */
 #define OF(KIND) (some[(KIND) >> 3] & ((KIND) >> 1 & 1 ? bit[1] : ~bit[1]) & ((KIND) >> 2 & 1 ? bit[2] : ~bit[2]))
   uint64_t granted = OF(0);
-  uint64_t requesters, won;
+  uint64_t requesters;
   const trax_fast_pair fp_requesters = {OF(TRAX_STEP_FP_ADD), OF(TRAX_STEP_FP_MUL)};
   const trax_fast_pair fp_won = grant_fp(tm, fp_requesters, t);
   granted |= fp_won[0] | fp_won[1];
@@ -183,10 +148,12 @@ static ALWAYS_INLINE uint64_t grant(struct trax_tm *tm, const bool wide, struct 
     uint64_t hits = 0, filling = 0;
     if (__builtin_expect(tm->dcache.all_fills_end > t, false))
       filling = in_filling_banks(tm, requesters, t);
-    won = __builtin_expect(tm->dcache.banks > 2 * TRAX_FAST_LANES, false)
-              ? grant_many_banks(tm, requesters & ~filling)
-              : grant_banks(tm, requesters & ~filling, bit + TRAX_STEP_BANK_SHIFT);
-    refused->bank = requesters & ~won;
+    const uint64_t asking = requesters & ~filling, *const number = bit + TRAX_STEP_BANK_SHIFT;
+    const uint64_t losers = __builtin_expect(tm->dcache.banks > TRAX_FAST_BANKS, false) ? refuse_many_banks(tm, asking)
+                            : tm->dcache.banks > 4 ? trax_fast_refuse_data8(tm->data_bank_rr_masks, asking, number)
+                                                   : trax_fast_refuse_data4(tm->data_bank_rr_masks, asking, number);
+    refused->bank = filling | losers;
+    const uint64_t won = requesters & ~refused->bank;
     if (!tm->serial_hits) /* else serve() handles them, as it does stores */
       hits = won & tm->load_hits & ~tm->executes_at_issue & ~(tm->storing & *slow);
     tm->stats->dcache_hits += count_bits(hits);

@@ -29,19 +29,39 @@ static bool all_resident(const struct trax_tm *tm, unsigned number, unsigned cou
 
 enum { CHECK_HORIZON = 16, NO_CHECK = 255 };
 
+/* Returns how many of the 16 steps behind a step follow it and one another in the program. */
+static inline unsigned count_sequential(const uint16_t *index) {
+  const __m128i *const at = (const __m128i *)index, *const next = (const __m128i *)(index + 1), one = _mm_set1_epi16(1);
+  const __m128i first = _mm_cmpeq_epi16(_mm_sub_epi16(_mm_loadu_si128(next), _mm_loadu_si128(at)), one);
+  const __m128i second = _mm_cmpeq_epi16(_mm_sub_epi16(_mm_loadu_si128(next + 1), _mm_loadu_si128(at + 1)), one);
+  return trax_first(~(uint64_t)(unsigned)_mm_movemask_epi8(_mm_packs_epi16(first, second)));
+}
+
 void trax_fast_schedule_check(struct trax_tm *tm, unsigned number, bool fetched) {
-  const struct trax_fast_program *program = &tm->chip->program;
+  const struct trax_fast_timing *const timing = tm->chip->program.timing;
   const struct trax_tp *tp = &tm->tp[number];
-  const uint32_t busy = tm->busy_registers[number];
+  const uint32_t busy = tm->busy_registers[number], line_bytes = tm->config->icache.line_bytes;
   const unsigned at = tm->heads.at[number], last = tm->heads.last[number];
-  const uint16_t line = program->line[trax_fast_index(tp, at)];
+  const unsigned end = last - at < CHECK_HORIZON ? last + 1 : at + CHECK_HORIZON + 1;
+  const uint32_t line = timing[trax_fast_index(tp, at)].pc & -line_bytes;
   const bool uncertain = tm->uncertain >> number & 1;
   unsigned next = at + 1;
-  for (; next <= last && next <= at + CHECK_HORIZON; next++) {
-    const uint32_t index = trax_fast_index(tp, next);
-    if ((program->timing[index].waits & busy) ||
-        (uncertain && (program->line[index] != line || line == TRAX_FAST_LINES - 1)))
+  for (bool leaves = false; next < end && !leaves;) { /* steps that follow one another */
+    const struct trax_fast_timing *step = &timing[trax_fast_index(tp, next)];
+    unsigned stop = next + 1 + count_sequential(&tp->burst.index[next]);
+    stop = stop < end ? stop : end;
+    if (uncertain) {
+      if ((step->pc & -line_bytes) != line)
+        break;
+      const unsigned next_line = next + (line + line_bytes - step->pc) / 4;
+      leaves = next_line < stop;
+      stop = leaves ? next_line : stop;
+    }
+    while (busy && next < stop && !(step->waits & busy))
+      next++, step++;
+    if (busy && next < stop)
       break;
+    next = stop;
   }
   if (fetched || !uncertain || next < tm->heads.check_at[number])
     tm->heads.check_at[number] = (uint8_t)next;

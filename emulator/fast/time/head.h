@@ -39,11 +39,7 @@ static inline void trax_fast_set_busy(struct trax_tm *tm, unsigned tp, unsigned 
 /* Sets the TP's bit of trax_tm.load_hits. */
 static inline void trax_fast_find_line(struct trax_tm *tm, unsigned tp) {
   const struct trax_cache_tags *const tags = &tm->dcache.tags;
-  const uint32_t line = trax_line_of(tags, tm->heads.address[tp]);
-  const uint32_t *const set = tags->lines + (size_t)(line & tags->set_mask) * tags->ways;
-  bool hits = set[0] == line + 1;
-  for (uint32_t way = 1; way < tags->ways; way++) /* without branches that are hard to predict */
-    hits |= set[way] == line + 1;
+  const bool hits = trax_cache_tags_have(tags, trax_line_of(tags, tm->heads.address[tp]));
   tm->load_hits = (tm->load_hits & ~((uint64_t)1 << tp)) | (uint64_t)hits << tp;
 }
 

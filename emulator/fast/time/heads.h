@@ -33,25 +33,20 @@ struct trax_fast_heads {
   uint8_t last[64];     /* the last step of the burst */
   uint8_t load[64];     /* the number of loads of global memory before the head in its burst */
   uint32_t address[64]; /* of the next load of global memory, from the head on */
-  uint32_t begin[64];   /* the index of the TP's first step in `steps`; of TPs that do not exist, TP 0's */
   _Alignas(64) uint64_t next[TRAX_FAST_ROWS][8];
-  uint32_t row_begin[TRAX_FAST_ROWS][8]; /* begin, in the order of the lanes */
-  uint32_t moves;                        /* number of calls of trax_fast_move_on; every fourth one fills `next` */
+  uint32_t begin[TRAX_FAST_ROWS][8]; /* the index of the TP's first step in `steps`; of TPs that do not exist, TP 0's */
+  uint32_t moves;                    /* number of calls of trax_fast_move_on; every fourth one fills `next` */
   const uint16_t *steps; /* of all TPs; the step of a head that executes at issue is complete after classify */
 };
 
-static inline void trax_fast_begin_heads(struct trax_fast_heads *heads, unsigned tp, uint32_t begin) {
-  heads->begin[tp] = begin;
-  heads->row_begin[tp / 32 * 4 + tp % 4][tp % 32 / 4] = begin;
-}
-
 /* Makes the TP's step `at` its head. */
 static inline void trax_fast_set_head(struct trax_fast_heads *heads, unsigned tp, unsigned at) {
-  const uint16_t *const step = heads->steps + heads->begin[tp] + at;
+  const unsigned row = tp / 32 * 4 + tp % 4, lane = tp % 32 / 4;
+  const uint16_t *const step = heads->steps + heads->begin[row][lane] + at;
   heads->at[tp] = (uint8_t)at;
   heads->low[tp] = (uint8_t)*step;
   heads->high[tp] = (uint8_t)(*step >> 8);
-  memcpy(&heads->next[tp / 32 * 4 + tp % 4][tp % 32 / 4], step, sizeof **heads->next);
+  memcpy(&heads->next[row][lane], step, sizeof **heads->next);
 }
 
 #ifdef __AVX2__
@@ -78,7 +73,7 @@ static inline void trax_fast_fill_rows(struct trax_fast_heads *heads, unsigned h
 #pragma GCC unroll 4
   for (unsigned i = 0; i < 4; i++, at = _mm256_srli_epi32(at, 8)) {
     const __m256i index = _mm256_add_epi32(_mm256_and_si256(at, _mm256_set1_epi32(0xFF)),
-                                           _mm256_load_si256((const __m256i *)heads->row_begin[4 * half + i]));
+                                           _mm256_load_si256((const __m256i *)heads->begin[4 * half + i]));
     row[0][i] = _mm256_i32gather_epi64((const void *)heads->steps, _mm256_castsi256_si128(index), 2);
     row[1][i] = _mm256_i32gather_epi64((const void *)heads->steps, _mm256_extracti128_si256(index, 1), 2);
     _mm256_store_si256((__m256i *)heads->next[4 * half + i], row[0][i]);

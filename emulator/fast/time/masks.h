@@ -5,23 +5,12 @@
 #include "machine/section.h"
 #include "machine/units.h"
 
+#include <immintrin.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
-#ifdef __SSE2__
-#include <immintrin.h>
-#endif
 
 #define ALWAYS_INLINE inline __attribute__((always_inline))
-
-/* Four masks, which are processed together. */
-enum { TRAX_FAST_LANES = 4 };
-typedef uint64_t trax_fast_lanes __attribute__((vector_size(8 * TRAX_FAST_LANES), may_alias));
-
-/* Vectors are passed by address, since the ABI of passing them by value differs between the variants. */
-static inline uint64_t trax_fast_any(const trax_fast_lanes *lanes) {
-  return (*lanes)[0] | (*lanes)[1] | (*lanes)[2] | (*lanes)[3];
-}
 
 /* Round-robin arbiters, one in each lane. A round-robin mask has the bits after the latest winner, which is equivalent
    to a pointer to the first of them. The first requester in the mask wins, or else the first requester of all. Winners
@@ -47,13 +36,8 @@ typedef uint64_t trax_fast_words __attribute__((vector_size(TRAX_FAST_VECTOR), m
 static inline uint64_t trax_fast_top_bits(trax_fast_bytes bytes) {
 #ifdef __AVX2__
   return (uint32_t)_mm256_movemask_epi8((__m256i)bytes);
-#elif defined(__SSE2__)
-  return (uint32_t)_mm_movemask_epi8((__m128i)bytes);
 #else
-  uint64_t bits = 0;
-  for (unsigned i = 0; i < TRAX_FAST_VECTOR; i++)
-    bits |= (uint64_t)(bytes[i] >> 7) << i;
-  return bits;
+  return (uint32_t)_mm_movemask_epi8((__m128i)bytes);
 #endif
 }
 
@@ -76,36 +60,27 @@ static ALWAYS_INLINE void trax_fast_count_bytes(uint8_t *bytes, const bool wide,
     *(trax_fast_bytes *)(bytes + i) -= trax_fast_bytes_of(tps >> i);
 }
 
-/* The arbiters of the 16 banks of the instruction caches, with 16 TPs to a cache: bank by bank, two caches of a TM with
-   at most 32 TPs, or four. A vector has the banks whose numbers differ in their low bits. */
-struct trax_fast_banks16 {
-  union { /* round-robin masks: [bank][cache] */
-    _Alignas(64) uint16_t of_two[16][2];
-    uint16_t of_four[16][4];
-  };
-};
-
-/* Defines a function that grants the banks and returns the losers. LANE: the caches of a bank. plane: the bits of the
-   numbers of the TPs' banks. */
-#define TRAX_FAST_REFUSE(NAME, LANE, RR_MASKS)                                                                         \
-  static inline __attribute__((always_inline)) LANE NAME(struct trax_fast_banks16 *banks, uint64_t requesters,         \
-                                                         const uint64_t *plane) {                                      \
+/* Defines a function that grants the banks of caches and returns the losers. LANE: the TPs of a bank's caches, 16 to a
+   cache of instructions; ARBITER: those of one of them. rr_masks: [bank][cache]. plane: the bits of the numbers of the
+   TPs' banks. A vector has the banks whose numbers differ in their low bits. */
+#define TRAX_FAST_REFUSE(NAME, LANE, ARBITER, MOST_BANKS)                                                              \
+  static ALWAYS_INLINE LANE NAME(void *rr_masks, uint64_t requesters, const uint64_t *plane) {                         \
     enum { BANKS = TRAX_FAST_VECTOR / sizeof(LANE) };                                                                  \
     typedef LANE lanes __attribute__((vector_size(TRAX_FAST_VECTOR), may_alias));                                      \
+    typedef ARBITER arbiters __attribute__((vector_size(TRAX_FAST_VECTOR), may_alias));                                \
     const lanes none = {0};                                                                                            \
     lanes number = none, low = none + (LANE)requesters, refused = none; /* low: by the bits within a vector */         \
     for (unsigned i = 0; i < BANKS; i++)                                                                               \
       number[i] = (LANE)i;                                                                                             \
     for (unsigned k = 0; 1u << k < BANKS; k++)                                                                         \
       low &= (none + (LANE)plane[k]) ^ (lanes)((number & (LANE)1 << k) == 0);                                          \
-    _Pragma("GCC unroll 8") for (unsigned first = 0; first < 16; first += BANKS) {                                     \
+    _Pragma("GCC unroll 8") for (unsigned first = 0; first < MOST_BANKS; first += BANKS) {                             \
       LANE high = ~(LANE)0;                                                                                            \
-      _Pragma("GCC unroll 4") for (unsigned k = 0; k < 4; k++)                                                         \
-        high &= 1u << k < BANKS ? ~(LANE)0 : (LANE)(first >> k & 1 ? plane[k] : ~plane[k]);                            \
+      _Pragma("GCC unroll 4") for (unsigned k = 0; 1u << k < MOST_BANKS; k++) high &=                                  \
+          1u << k < BANKS ? ~(LANE)0 : (LANE)(first >> k & 1 ? plane[k] : ~plane[k]);                                  \
       const lanes requesting = low & (none + high);                                                                    \
-      trax_fast_lanes16 *const rr_mask = (trax_fast_lanes16 *)banks->RR_MASKS[first];                                  \
-      trax_fast_lanes16 winners;                                                                                       \
-      TRAX_FAST_ARBITRATE(trax_fast_lanes16, rr_mask, (trax_fast_lanes16)requesting, &winners);                        \
+      arbiters winners;                                                                                                \
+      TRAX_FAST_ARBITRATE(arbiters, (arbiters *)rr_masks + first / BANKS, (arbiters)requesting, &winners);             \
       refused |= requesting ^ (lanes)winners;                                                                          \
     }                                                                                                                  \
     LANE losers = 0;                                                                                                   \
@@ -113,14 +88,11 @@ struct trax_fast_banks16 {
       losers |= refused[i];                                                                                            \
     return losers;                                                                                                     \
   }
-TRAX_FAST_REFUSE(trax_fast_refuse_two, uint32_t, of_two)
-TRAX_FAST_REFUSE(trax_fast_refuse_four, uint64_t, of_four)
-
-/* Returns the round-robin mask of a cache's bank. */
-static inline uint16_t *trax_fast_fetch_rr_mask(struct trax_fast_banks16 *banks, bool wide, unsigned icache,
-                                                unsigned bank) {
-  return wide ? &banks->of_four[bank][icache] : &banks->of_two[bank][icache];
-}
+TRAX_FAST_REFUSE(trax_fast_refuse_two, uint32_t, uint16_t, 16)
+TRAX_FAST_REFUSE(trax_fast_refuse_four, uint64_t, uint16_t, 16)
+TRAX_FAST_REFUSE(trax_fast_refuse_data4, uint64_t, uint64_t, 4)
+TRAX_FAST_REFUSE(trax_fast_refuse_data8, uint64_t, uint64_t, 8)
+enum { TRAX_FAST_BANKS = 8 }; /* of a data cache */
 
 /* The TPs that were refused a bank or unit in a cycle, by its kind. */
 struct trax_fast_refused {
@@ -146,26 +118,24 @@ static ALWAYS_INLINE bool trax_fast_count(struct trax_fast_refusal_counts *count
 }
 
 /* The adders and multipliers. `even`: both kinds have the same groups, one unit for each, and the groups' size divides
-   64. Then all groups are arbitrated at once; otherwise their units are like those of other kinds (tm/unit.h). */
+   64. Then all groups are arbitrated at once; otherwise their units are like those of other kinds (tm/tm.h). */
 typedef uint64_t trax_fast_pair __attribute__((vector_size(16)));
 
 #define TRAX_FAST_UNITS_STATE(X, S) X(S, trax_fast_pair, rr_masks, ) /* of all groups; only if `even` */
 struct trax_fast_units {
   uint32_t group_size;
   bool even;
-  uint64_t top, below_top; /* if `even`: the last bit of each group, and the other bits */
+  uint64_t top; /* if `even`: the last bit of each group */
   TRAX_FAST_UNITS_STATE(TRAX_FIELD, )
 };
 
 /* Returns the last bits of the groups in which x has a bit. */
 static inline trax_fast_pair trax_fast_groups_of(const struct trax_fast_units *units, trax_fast_pair x) {
-  return (((x & units->below_top) + units->below_top) | x) & units->top;
+  return (((x & ~units->top) + ~units->top) | x) & units->top;
 }
 
 /* Returns the winner of each group, by TRAX_FAST_ARBITRATE for all groups at once. Requires `even`. */
 static ALWAYS_INLINE trax_fast_pair trax_fast_grant_units(struct trax_fast_units *units, trax_fast_pair requesters) {
-  if (units->group_size == 1)
-    return requesters;
   if (units->group_size == 8) {
     typedef uint8_t groups __attribute__((vector_size(16), may_alias));
     groups winners;

@@ -42,10 +42,10 @@ static inline uint32_t trax_line_of(const struct trax_cache_tags *tags, uint32_t
 
 static inline bool trax_cache_tags_have(const struct trax_cache_tags *tags, uint32_t line) {
   const uint32_t *set = tags->lines + (size_t)(line & tags->set_mask) * tags->ways;
-  for (uint32_t way = 0; way < tags->ways; way++)
-    if (set[way] == line + 1)
-      return true;
-  return false;
+  bool has = set[0] == line + 1;
+  for (uint32_t way = 1; way < tags->ways; way++) /* without branches that are hard to predict */
+    has |= set[way] == line + 1;
+  return has;
 }
 
 /* Returns the way that the next arriving line takes. */

@@ -16,14 +16,9 @@ void trax_icache_destroy(struct trax_icache *icache) {
   free(icache->pending);
 }
 
-void trax_icache_look_up(struct trax_icache *icache, struct trax_tm *tm, unsigned tp, uint64_t t) {
+void trax_icache_miss(struct trax_icache *icache, struct trax_tm *tm, unsigned tp, uint64_t t) {
   const uint64_t bit = (uint64_t)1 << tp;
   const uint32_t line = trax_line_of(&icache->tags, tm->tp[tp].pc);
-  if (trax_cache_tags_have(&icache->tags, line)) {
-    tm->stats->icache_hits++;
-    tm->holding |= bit;
-    return;
-  }
   for (uint32_t i = 0; i < icache->pending_count; i++)
     if (icache->pending[i].line == line) {
       tm->stats->icache_merged++;

@@ -27,9 +27,9 @@ struct trax_icache {
 bool trax_icache_create(struct trax_icache *icache, const struct trax_tm *tm);
 void trax_icache_destroy(struct trax_icache *icache);
 
-/* Looks up the line of the pc of a TP that has won its bank. Then the TP holds its instruction, sleeps until the line's
-   arrival, or has been charged for the full memory queue. */
-void trax_icache_look_up(struct trax_icache *icache, struct trax_tm *tm, unsigned tp, uint64_t t);
+/* A TP that has won its bank misses the line of its pc: it sleeps until the line's arrival, or has been charged for the
+   full memory queue. */
+void trax_icache_miss(struct trax_icache *icache, struct trax_tm *tm, unsigned tp, uint64_t t);
 
 /* Handles the arrival of a line in cycle t: all TPs that wait for it hold their instructions. */
 void trax_icache_arrival(struct trax_icache *icache, struct trax_tm *tm, uint32_t line, uint64_t t);

@@ -45,9 +45,9 @@ void trax_queue_import(struct trax_queue *queue) {
   queue->count = queue->depth;
   queue->started = 0;
   for (uint32_t i = 0; i < queue->depth; i++)
-    if (!trax_queue_is_taken(queue, i))
+    if (!queue->requests[i].bytes)
       queue->places[--queue->count] = (uint16_t)i;
   for (uint32_t i = 0; i < queue->depth; i++)
-    if (trax_queue_is_taken(queue, i) && trax_queue_is_started(queue, i))
+    if (queue->requests[i].bytes && queue->requests[i].completion)
       start(queue, i);
 }

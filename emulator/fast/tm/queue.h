@@ -12,7 +12,7 @@
 
 #define TRAX_NO_REQUEST UINT32_MAX
 
-/* One side is used by the TM while the memory uses the other (epochs.h). */
+/* One side is used by the TM while the memory uses the other (epochs.c). */
 enum { TRAX_SIDES = 2 };
 
 typedef enum trax_request_kind {
@@ -87,16 +87,6 @@ static inline void trax_queue_pop(struct trax_queue *queue) {
 /* Returns the next request to arrive, if any is started. */
 static inline struct trax_request *trax_queue_oldest(const struct trax_queue *queue) {
   return &queue->requests[queue->places[queue->started - 1]];
-}
-
-/* Whether place `index` is taken. */
-static inline bool trax_queue_is_taken(const struct trax_queue *queue, uint32_t index) {
-  return queue->requests[index].bytes != 0;
-}
-
-/* Whether the taken place `index` has a request that has started. */
-static inline bool trax_queue_is_started(const struct trax_queue *queue, uint32_t index) {
-  return queue->requests[index].completion != 0;
 }
 
 #endif

@@ -6,12 +6,27 @@
 #include "fast/time/masks.h"
 #include "fast/tm/dcache.h"
 #include "fast/tm/icache.h"
-#include "fast/tm/observed.h"
 #include "fast/tm/queue.h"
 #include "fast/tm/tp.h"
-#include "fast/tm/unit.h"
 #include "machine/machine.h"
 #include "machine/ray_cycles.h"
+#include "machine/timing.h"
+
+/* Units that TPs share (docs/timing.md, "Units"). Adders and multipliers have masks instead of arbiters if these give
+   the same (time/masks.h). */
+#define TRAX_SHARED_UNIT_STATE(X, S) X(S, trax_arbiter, arbiter, [64]) /* [groups] */
+
+/* All units of a kind in a TM. */
+struct trax_shared_unit {
+  struct trax_shared_kind kind;
+  uint64_t *free_from; /* [group][unit]: a cycle; NULL if they are always free */
+  TRAX_SHARED_UNIT_STATE(TRAX_FIELD, )
+};
+
+/* The number of elements of free_from. */
+static inline size_t trax_shared_unit_count(const struct trax_shared_unit *unit) {
+  return unit->free_from ? (size_t)unit->kind.groups * unit->kind.per_group : 0;
+}
 
 #define TRAX_WHEEL 64 /* slots of the timer wheel, one for each cycle; they are the bits of wheel_occupied */
 
@@ -20,6 +35,21 @@ struct trax_chip;
 /* Some of trax_fast_heads at the end of a quantum, a byte for each TP (time/prefetch.h). */
 struct trax_fast_outlook {
   uint64_t at[TRAX_MAX_TPS_PER_TM / 8], last[TRAX_MAX_TPS_PER_TM / 8], load[TRAX_MAX_TPS_PER_TM / 8];
+};
+
+/* A TM's record for an observer of stretches (machine/observer.h). */
+enum { TRAX_FAST_NO_OUTCOME = 0xFF /* a load that hit */ };
+
+struct trax_fast_observed {
+  uint8_t told[TRAX_MAX_TPS_PER_TM];       /* steps of the burst of which the observer knows */
+  uint8_t told_loads[TRAX_MAX_TPS_PER_TM]; /* the accesses to global memory among them */
+  /* The refusals of the head, and the TPs with some. They go to `refused` when the head of a burst issues, and
+     otherwise to the log. */
+  uint64_t tps;
+  _Alignas(64) uint8_t of_head[TRAX_MAX_TPS_PER_TM]; /* trax_stretch.refused */
+  uint8_t refused[TRAX_MAX_TPS_PER_TM][TRAX_BURST];  /* the same, of each step */
+  /* Of each access to global memory of the burst; they are read by eight. */
+  uint8_t outcomes[TRAX_MAX_TPS_PER_TM][TRAX_BURST + 8];
 };
 
 /* A TP is awake; or it sleeps until a cycle (in the wheel), until an arrival (in `awaiting`, or in the list of an
@@ -32,8 +62,8 @@ struct trax_fast_outlook {
   X(S, uint64_t, wheel, [TRAX_WHEEL]) /* [cycle % 64]: mask of the TPs that wake */                                    \
   X(S, uint64_t, progressed, )        /* the cycle after the latest trap or halt; 0: there was none */                 \
   X(S, trax_arbiter, queue_arbiter, )                                                                                  \
-  X(S, trax_fast_lanes, data_bank_rr_masks, [TRAX_MAX_TPS_PER_TM / TRAX_FAST_LANES])                                   \
-  X(S, struct trax_fast_banks16, fetch_rr_masks16, ) /* as the next ones */
+  X(S, _Alignas(64) uint64_t, data_bank_rr_masks, [TRAX_MAX_TPS_PER_TM])                                               \
+  X(S, _Alignas(64) uint16_t, fetch_rr_masks16, [16 * 4]) /* [bank][instruction cache], 2 caches if not `wide` */
 struct trax_tm {
   _Alignas(64) uint32_t number; /* host threads run neighbouring TMs: none shares a cache line */
   uint32_t tps;
@@ -93,7 +123,7 @@ struct trax_tm {
   /* [TP]: the places in WRITTEN blocks from which its burst has loaded, as bits trax_fast_line_hash % 64; 0: none.
      [trax_fast_line_hash]: the TPs with bursts that have loaded from there, and perhaps others. */
   _Alignas(64) uint64_t watched[TRAX_MAX_TPS_PER_TM], readers[256];
-  uint64_t looked_up, single_hits, at_issue; /* fetches, hits and instructions that were slow */
+  uint64_t looked_up, at_issue; /* fetches and instructions that were slow */
   struct trax_fast_refusal_counts refusal_counts;
   struct trax_shared_unit unit[TRAX_SHARED_COUNT];
   struct trax_fault fault;          /* of the current cycle, of the lowest TP with one */

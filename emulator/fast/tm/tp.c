@@ -9,8 +9,6 @@
 
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "guest words are copied as host words");
 
-#define COMBINING_BLOCK 64u
-
 trax_cause trax_tp_wait(const struct trax_tp *tp, uint64_t t, uint64_t *until, unsigned *rd) {
   const struct {
     unsigned first, count;
@@ -27,11 +25,6 @@ trax_cause trax_tp_wait(const struct trax_tp *tp, uint64_t t, uint64_t *until, u
       }
     }
   return TRAX_CAUSE_ISSUED;
-}
-
-bool trax_tp_combines(const struct trax_tp *tp, uint32_t address, uint32_t bytes) {
-  return tp->run_begin != tp->run_end && address / COMBINING_BLOCK == tp->run_begin / COMBINING_BLOCK &&
-         address <= tp->run_end && address + bytes >= tp->run_begin;
 }
 
 /* --- effects: addresses have been checked --- */

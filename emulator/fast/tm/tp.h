@@ -61,9 +61,6 @@ static inline void trax_tp_set_usable(struct trax_tp *tp, unsigned rd, uint64_t 
   tp->usable_cause[rd] = (uint8_t)cause;
 }
 
-/* Whether a store of `bytes` bytes combines with the run in the buffer. */
-bool trax_tp_combines(const struct trax_tp *tp, uint32_t address, uint32_t bytes);
-
 /* Whether access `load` of the TP's burst is a store that takes effect at its issue. */
 static inline bool trax_tp_stores(const struct trax_tp *tp, unsigned load) {
   return tp->stored && tp->stores[load / 64] >> load % 64 & 1;
