@@ -35,7 +35,7 @@ packages=(
 test_packages=(
   make git llvm-19 llvm-19-tools clang-19                                 # the tutorial applies a patch with git
   libcmocka-dev libmpfr-dev gdb gdb-multiarch
-  flake8                                                                  # the style of Python
+  flake8 clang-format-19                                                  # the style of Python, of C and C++
   python3-cffi python3-numpy python3-pandas python3-pytest python3-pip    # the package for Python
   'chromium|chromium-browser'                                             # the evaluation's page in a browser
   mkdocs mkdocs-material                                                  # the pages as a site; PyYAML comes with them

@@ -222,8 +222,8 @@ static void begin_commit(struct commit *commit) {
   }
 }
 
-/* Files that have each other's former places cannot all wait for one another: then one goes first. Its former contents
-   are complete in a temporary file. */
+/* Two files may exchange places, so that each waits for the other. Then one of them goes first: the former contents of
+   its place are complete in a temporary file. */
 static void run_commit(struct commit *commit) {
   for (bool progress = true, force = false; progress || !force;) {
     force = !progress;

@@ -47,8 +47,8 @@ int trax_contents_resize(struct trax_contents *contents, uint64_t size) {
   return 0;
 }
 
-/* Makes the list of pages longer. Memory that calloc gives and nobody writes takes no room, so a list with large holes
-   is small, too. */
+/* Lengthens the list of pages. The host provides memory from calloc when it is first written, so large holes take
+   none. */
 static bool reserve(struct trax_contents *contents, size_t count) {
   if (count <= contents->page_count)
     return true;

@@ -33,14 +33,14 @@ struct file_record {
 
 struct name_record {
   uint64_t digest[2];
-  uint32_t file, was; /* the how manyeth, or no_file */
+  uint32_t file, was; /* index of a file_record, or no_file */
   uint32_t path;      /* bytes */
   uint8_t was_there, zero[3];
 };
 
 struct descriptor_record {
   uint64_t offset;
-  uint32_t number, kind, file, flags; /* file: the how manyeth, or no_file */
+  uint32_t number, kind, file, flags; /* file: index of a file_record, or no_file */
   uint32_t same;                      /* the lowest descriptor of the same open file */
   uint32_t path;                      /* bytes */
 };
