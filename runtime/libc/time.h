@@ -48,7 +48,7 @@ typedef int clockid_t;
 clock_t clock(void);
 time_t time(time_t *seconds);
 int timespec_get(struct timespec *now, int base);
-struct tm *gmtime(const time_t *seconds); /* each thread has a struct tm and a text of its own */
+struct tm *gmtime(const time_t *seconds); /* all threads share one struct tm and one text */
 struct tm *localtime(const time_t *seconds);
 time_t mktime(struct tm *parts);
 char *asctime(const struct tm *parts);
