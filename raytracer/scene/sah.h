@@ -81,6 +81,36 @@ static inline __m128i sah_clamp(__m128i bins, int last) {
   return _mm_andnot_si128(_mm_cmplt_epi32(bins, _mm_setzero_si128()), bins);
 }
 
+enum { SAH_MOST_BINS = 32 };
+
+/* Finds the axis and the bin before which a division costs least, if that is less than split->cost. begin and end: how
+   many primitives begin and end in a bin. Axes without a scale have none. */
+static inline void sah_sweep(struct sah_split *split, int count, const struct sah_box (*boxes)[3],
+                             const uint32_t (*begin)[4], const uint32_t (*end)[4]) {
+  float scale[4], areas[SAH_MOST_BINS];
+  uint32_t counts[SAH_MOST_BINS];
+  _mm_storeu_ps(scale, split->scale);
+  for (int axis = 0; axis < 3; axis++) {
+    if (scale[axis] == 0)
+      continue;
+    uint32_t before = 0, behind = 0;
+    struct sah_box box = sah_empty_box();
+    for (int i = count - 1; i > 0; i--) {
+      sah_extend(&box, &boxes[i][axis]);
+      areas[i] = sah_half_area(&box);
+      counts[i] = behind += end[i][axis];
+    }
+    box = sah_empty_box();
+    for (int i = 1; i < count; i++) {
+      sah_extend(&box, &boxes[i - 1][axis]);
+      before += begin[i - 1][axis];
+      const float cost = sah_half_area(&box) * (float)before + areas[i] * (float)counts[i];
+      if (cost < split->cost)
+        split->cost = cost, split->axis = axis, split->bin = i;
+    }
+  }
+}
+
 /* --- sah_object.c --- */
 
 /* Divides the primitives by their middles. overlap: of the two sides' boxes. */

@@ -3,11 +3,9 @@
 
 #include <math.h>
 
-enum { MOST_BINS = 32 };
-
 struct object_bins {
-  struct sah_box boxes[MOST_BINS][3];
-  uint32_t counts[MOST_BINS][4];
+  struct sah_box boxes[SAH_MOST_BINS][3];
+  uint32_t counts[SAH_MOST_BINS][4];
 };
 
 static void fill(struct object_bins *bins, int count, const struct sah *sah, const struct sah_set *set,
@@ -32,34 +30,14 @@ static void fill(struct object_bins *bins, int count, const struct sah *sah, con
 struct sah_split sah_find_object_split(const struct sah *sah, const struct sah_set *set, struct sah_box *overlap) {
   const size_t size = set->end - set->begin;
   const size_t wanted = (size_t)(4.0f + 0.05f * (float)size);
-  const int count = wanted < MOST_BINS ? (int)wanted : MOST_BINS;
+  const int count = wanted < SAH_MOST_BINS ? (int)wanted : SAH_MOST_BINS;
   const __m128 least = _mm_set1_ps(1e-34f), extent = _mm_max_ps(least, _mm_sub_ps(set->middles.max, set->middles.min));
   struct sah_split split = {.cost = INFINITY, .axis = -1, .offset = set->middles.min};
   split.scale = _mm_and_ps(_mm_cmpgt_ps(extent, least), _mm_div_ps(_mm_set1_ps(0.99f * (float)count), extent));
   struct object_bins bins;
   fill(&bins, count, sah, set, &split);
-  float scale[4];
-  _mm_storeu_ps(scale, split.scale);
-  for (int axis = 0; axis < 3; axis++) {
-    if (scale[axis] == 0)
-      continue;
-    float areas[MOST_BINS];
-    uint32_t counts[MOST_BINS], before = 0, behind = 0;
-    struct sah_box box = sah_empty_box();
-    for (int i = count - 1; i > 0; i--) {
-      sah_extend(&box, &bins.boxes[i][axis]);
-      areas[i] = sah_half_area(&box);
-      counts[i] = behind += bins.counts[i][axis];
-    }
-    box = sah_empty_box();
-    for (int i = 1; i < count; i++) {
-      sah_extend(&box, &bins.boxes[i - 1][axis]);
-      before += bins.counts[i - 1][axis];
-      const float cost = sah_half_area(&box) * (float)before + areas[i] * (float)counts[i];
-      if (cost < split.cost)
-        split.cost = cost, split.axis = axis, split.bin = i;
-    }
-  }
+  const uint32_t(*counts)[4] = (const uint32_t(*)[4])bins.counts;
+  sah_sweep(&split, count, (const struct sah_box(*)[3])bins.boxes, counts, counts);
   struct sah_box sides[2] = {sah_empty_box(), sah_empty_box()};
   for (int i = 0; i < count && split.axis >= 0; i++)
     sah_extend(&sides[i >= split.bin], &bins.boxes[i][split.axis]);

@@ -292,30 +292,13 @@ struct sah_split sah_find_spatial_split(const struct sah *sah, const struct sah_
       bins.boxes[i][axis] = sah_empty_box();
   }
   fill(&bins, sah, set, &split, planes);
+  sah_sweep(&split, BINS, (const struct sah_box(*)[3])bins.boxes, (const uint32_t(*)[4])bins.begin,
+            (const uint32_t(*)[4])bins.end);
   size_t parts = 0; /* on both sides of the best split */
-  for (int axis = 0; axis < 3; axis++) {
-    if (scale[axis] == 0)
-      continue;
-    float areas[BINS];
-    uint32_t counts[BINS], before = 0, behind = 0;
-    struct sah_box box = sah_empty_box();
-    for (int i = BINS - 1; i > 0; i--) {
-      sah_extend(&box, &bins.boxes[i][axis]);
-      areas[i] = sah_half_area(&box);
-      counts[i] = behind += bins.end[i][axis];
-    }
-    box = sah_empty_box();
-    for (int i = 1; i < BINS; i++) {
-      sah_extend(&box, &bins.boxes[i - 1][axis]);
-      before += bins.begin[i - 1][axis];
-      const float cost = sah_half_area(&box) * (float)before + areas[i] * (float)counts[i];
-      if (cost < split.cost) {
-        split.cost = cost, split.axis = axis, split.bin = i;
-        split.position = planes[axis][i];
-        parts = (size_t)before + counts[i];
-      }
-    }
-  }
+  for (int i = 0; i < BINS && split.axis >= 0; i++)
+    parts += (i < split.bin ? bins.begin : bins.end)[i][split.axis];
+  if (split.axis >= 0)
+    split.position = planes[split.axis][split.bin];
   if (!(split.cost < most) || parts - (set->end - set->begin) > set->room_end - set->end)
     split.cost = INFINITY;
   return split;

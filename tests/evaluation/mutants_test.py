@@ -73,8 +73,8 @@ def test_files(inside, scratch, seed, count):
     source = random.Random(seed)
     for name in ("p.c", "p.patch", "x"):  # x: a name of ODD
         (scratch / name).write_text("")
-    for kind, good in (("sweep", GOOD), ("variants", VARIANTS), ("programs", PROGRAM), ("scenes", SCENE), ("workloads",
-                                                                                                           WORKLOAD)):
+    for kind, good in (("sweep", GOOD), ("variants", VARIANTS), ("programs", PROGRAM), ("scenes", SCENE),
+                       ("workloads", WORKLOAD)):
         taken = 0
         for number in range(count):
             text, path = mutated(source, good), scratch / f"{kind}-{number}.json"

@@ -1,6 +1,7 @@
 /* Hits of instances, natively, against exact arithmetic and Embree's instances: transforms of many kinds, from inside
    and outside. Within a mesh there is no hole, whatever the transform. */
 #include "hits.h"
+#include "matrices.h"
 #include "meshes.h"
 #include "placed.h"
 
@@ -16,38 +17,7 @@
 
 enum { WIDTH = 64, HEIGHT = 40, PIXELS = WIDTH * HEIGHT, MOST = 16 };
 
-/* The first three rows of a matrix, row by row. */
-struct transform {
-  double m[3][4];
-};
-
-static struct transform product(struct transform a, struct transform b) {
-  struct transform out;
-  for (int i = 0; i < 3; i++)
-    for (int k = 0; k < 4; k++)
-      out.m[i][k] = a.m[i][0] * b.m[0][k] + a.m[i][1] * b.m[1][k] + a.m[i][2] * b.m[2][k] + (k == 3 ? a.m[i][3] : 0);
-  return out;
-}
-
-static struct transform scaled(double x, double y, double z) {
-  return (struct transform){{{x, 0, 0, 0}, {0, y, 0, 0}, {0, 0, z, 0}}};
-}
-
-static struct transform moved(double x, double y, double z) {
-  return (struct transform){{{1, 0, 0, x}, {0, 1, 0, y}, {0, 0, 1, z}}};
-}
-
-static struct transform turned(double angle, int axis) {
-  struct transform out = {{{0}}};
-  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-  out.m[axis][axis] = 1;
-  out.m[u][u] = out.m[v][v] = cos(angle);
-  out.m[u][v] = -sin(angle);
-  out.m[v][u] = sin(angle);
-  return out;
-}
-
-static void place(struct trax_mesh *mesh, uint32_t part, struct transform transform) {
+static void place(struct trax_mesh *mesh, uint32_t part, struct matrix transform) {
   struct trax_mesh_instance *out = &mesh->instances[mesh->instance_count++];
   *out = (struct trax_mesh_instance){.part = part, .material = TRAX_NO_MATERIAL};
   memcpy(out->transform, transform.m, sizeof out->transform);
@@ -154,8 +124,8 @@ static const struct family {
 };
 enum { FAMILIES = sizeof families / sizeof *families };
 
-static struct transform inner(const struct family *family, double turn) {
-  struct transform t = product(turned(turn, 0), turned(0.3 + turn, 1));
+static struct matrix inner(const struct family *family, double turn) {
+  struct matrix t = product(turned(turn, 0), turned(0.3 + turn, 1));
   if (family->flat)
     t = product(product(t, scaled(1, 0.05, 0.7)), turned(0.7, 2));
   if (family->mirrored)
@@ -163,8 +133,8 @@ static struct transform inner(const struct family *family, double turn) {
   return t;
 }
 
-static struct transform whole(const struct family *family, double turn, double x, double y, double z) {
-  struct transform t = inner(family, turn);
+static struct matrix whole(const struct family *family, double turn, double x, double y, double z) {
+  struct matrix t = inner(family, turn);
   if (family->nested) /* in a group that is in a group */
     t = product(product(moved(0.1, -0.2, 0.05), turned(1, 2)),
                 product(scaled(1.5, 0.8, 1.1), product(turned(-2, 0), t)));
@@ -215,7 +185,7 @@ static void test_inside(void **state) {
    a thousandth of the sphere, which boxes must allow for. */
 static void test_far_mesh(void **state) {
   (void)state;
-  const struct transform near = product(turned(0.4, 0), product(turned(1.1, 1), moved(-1e6, 1e6, -5e5)));
+  const struct matrix near = product(turned(0.4, 0), product(turned(1.1, 1), moved(-1e6, 1e6, -5e5)));
   for (int inside = 0; inside < 2; inside++) {
     struct trax_mesh mesh = {0};
     mesh_sphere(&mesh, 1, 4, 0);

@@ -35,8 +35,8 @@ def ends(folder, name, **environment):
         os.killpg(process.pid, signal.SIGKILL)
         process.communicate()
     left = sorted(str(path.relative_to(folder)) for path in folder.rglob("*") if path.name != "cache")
-    passed = process.returncode == -signal.SIGTERM and left == ["first"
-                                                                ] and "error" not in errors and "note" not in errors
+    quiet = "error" not in errors and "note" not in errors
+    passed = process.returncode == -signal.SIGTERM and left == ["first"] and quiet
     if not passed:
         print(f"FAILED: {name}: {process.returncode} instead of {-signal.SIGTERM}, there are {left}: {errors[-300:]}")
     return passed

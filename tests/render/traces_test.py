@@ -257,12 +257,10 @@ def check_rays(reader, name, words):
     call(*render, "--engine", "native", "--ray-trace", "rays.csv")
     with open("rays.csv", newline="") as file:
         rows = list(csv.DictReader(file))
-    check([[
-        row["kind"], *(int(row[word]) for word in ("x", "y", "sample", "hit", "nodes", "triangles")), row["triangle"]
-    ] for row in rows] == [[
-        reader.KINDS[ray.kind], ray.x, ray.y, ray.sample, ray.hit, ray.nodes, ray.triangles,
-        "" if ray.triangle == 2**32 - 1 else str(ray.triangle)
-    ] for ray in rays], name, "CSV and binary differ")
+    counted = "x", "y", "sample", "hit", "nodes", "triangles"
+    check([(row["kind"], *(int(row[word]) for word in counted), row["triangle"]) for row in rows] ==
+          [(reader.KINDS[ray.kind], *(getattr(ray, word) for word in counted),
+            "" if ray.triangle == 2**32 - 1 else str(ray.triangle)) for ray in rays], name, "CSV and binary differ")
     places = [f"{what}_{axis}" for what in ("origin", "direction")
               for axis in "xyz"] + ["begin", "end", "distance", "weight1", "weight2"]
     for row, ray in zip(rows, rays):

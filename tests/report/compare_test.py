@@ -297,8 +297,8 @@ class Files(Scratch):
                     paeth = min((left, up, corner), key=lambda one: abs(left + up - corner - one))
                     packed += bytes([(value - (0, left, up, (left + up) // 2, paeth)[filter_]) & 255])
                 above = row
-            chunks = (b"IHDR", struct.pack(">IIBBBBB", width, height, 8, kind, 0, 0, 0)), (b"IDAT",
-                                                                                           zlib.compress(packed))
+            chunks = ((b"IHDR", struct.pack(">IIBBBBB", width, height, 8, kind, 0, 0, 0)),
+                      (b"IDAT", zlib.compress(packed)))
             path = self.place / "p.png"
             path.write_bytes(b"\x89PNG\r\n\x1a\n" + b"".join(
                 struct.pack(">I", len(data)) + name + data + b"\0\0\0\0" for name, data in chunks))

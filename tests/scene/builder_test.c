@@ -321,18 +321,6 @@ static void test_same_as_one_by_one(void **state) {
     scene_crew_release(crews[i]);
 }
 
-struct rank {
-  double value;
-  uint32_t number;
-};
-
-static int compare_ranks(const void *a, const void *b) {
-  const struct rank *left = a, *right = b;
-  if (left->value != right->value)
-    return left->value > right->value ? -1 : 1;
-  return left->number < right->number ? -1 : left->number > right->number;
-}
-
 /* Values that are equal, or nearly so, as those of a grid's triangles are, in groups of any size. */
 static void test_rank(void **state) {
   (void)state;

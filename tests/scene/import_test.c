@@ -65,11 +65,6 @@ static void test_text_formats(void **state) {
   check_square(test_text("SQUARE.OBJ", square_obj));
 }
 
-static void append(unsigned char *bytes, size_t *size, const void *more, size_t count) {
-  memcpy(bytes + *size, more, count);
-  *size += count;
-}
-
 static void test_binary_ply(void **state) {
   (void)state;
   static const char header[] = "ply\nformat binary_little_endian 1.0\nelement vertex 7\nproperty float x\n"

@@ -550,11 +550,6 @@ static void test_ply(void **state) {
 
 /* --- glTF --- */
 
-static void append(unsigned char *bytes, size_t *size, const void *part, size_t part_size) {
-  memcpy(bytes + *size, part, part_size);
-  *size += part_size;
-}
-
 static void test_gltf(void **state) {
   (void)state;
   static const struct {

@@ -159,21 +159,16 @@ static void reinsert(struct search *search, uint32_t part) {
   refit_from(search, parent);
 }
 
-struct ranked {
-  double visits;
-  uint32_t node;
-};
-
-static int compare_ranked(const void *a, const void *b) {
-  const struct ranked *left = a, *right = b;
-  if (left->visits != right->visits)
-    return left->visits > right->visits ? -1 : 1;
-  return left->node < right->node ? -1 : left->node > right->node;
+int compare_ranks(const void *a, const void *b) {
+  const struct rank *left = a, *right = b;
+  if (left->value != right->value)
+    return left->value > right->value ? -1 : 1;
+  return left->number < right->number ? -1 : left->number > right->number;
 }
 
 bool plain_reinsert(struct scene_links *links, unsigned passes) {
   struct search search = {.links = links};
-  struct ranked *ranked = malloc(links->count * sizeof *ranked);
+  struct rank *ranked = malloc(links->count * sizeof *ranked);
   if (!ranked)
     return false;
   choose_foci(&search);
@@ -181,11 +176,11 @@ bool plain_reinsert(struct scene_links *links, unsigned passes) {
     links->nodes[i].visits = visits(&search, &links->nodes[i].box);
   for (unsigned pass = 0; pass < passes && search.focus_count; pass++) {
     for (uint32_t i = 0; i < links->count; i++)
-      ranked[i] = (struct ranked){links->nodes[i].visits, i};
-    qsort(ranked, links->count, sizeof *ranked, compare_ranked);
+      ranked[i] = (struct rank){links->nodes[i].visits, i};
+    qsort(ranked, links->count, sizeof *ranked, compare_ranks);
     for (uint32_t i = 0; i < links->count; i++)
-      if (ranked[i].node != links->root)
-        reinsert(&search, ranked[i].node);
+      if (ranked[i].number != links->root)
+        reinsert(&search, ranked[i].number);
   }
   free(ranked);
   return true;

@@ -3,6 +3,13 @@
 
 #include "../../raytracer/scene/internal.h"
 
+/* Compares by values, the greatest first, then by numbers. */
+struct rank {
+  double value;
+  uint32_t number;
+};
+int compare_ranks(const void *a, const void *b);
+
 /* Improves a tree as scene_reinsert does, without threads. False when out of memory. */
 bool plain_reinsert(struct scene_links *links, unsigned passes);
 

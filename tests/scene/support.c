@@ -17,6 +17,11 @@ const char *test_text(const char *name, const char *text) {
   return test_file(name, text, strlen(text));
 }
 
+void append(unsigned char *bytes, size_t *size, const void *more, size_t count) {
+  memcpy(bytes + *size, more, count);
+  *size += count;
+}
+
 float random_unit(uint32_t *state) {
   *state = *state * 1664525u + 1013904223u;
   return (float)(*state >> 8) * 0x1p-24f;

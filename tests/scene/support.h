@@ -15,6 +15,8 @@
 /* Writes a file into the test's directory and returns its path. */
 const char *test_file(const char *name, const void *bytes, size_t size);
 const char *test_text(const char *name, const char *text);
+/* Appends bytes that a file is made of. */
+void append(unsigned char *bytes, size_t *size, const void *more, size_t count);
 
 /* Uniform in [0, 1). */
 float random_unit(uint32_t *state);

@@ -200,8 +200,8 @@ def explore_space(arguments, tools, data):
         raise Problem("space: expected a sweep, NAME.json (trax-eval space --help)")
     files, folder = choose(options, data)
     command = shlex.join(["trax-eval", "space", *arguments])
-    return space.explore(options, files, lambda sweep: make_runs(options, tools, data, command, begin, files, folder,
-                                                                 [sweep]))
+    return space.explore(
+        options, files, lambda sweep: make_runs(options, tools, data, command, begin, files, folder, [sweep]))
 
 
 def run_one_job(arguments, tools):

@@ -335,7 +335,7 @@ static void make_duplicates_alone(struct setup *setup, uint32_t rays) {
   setup->build.traversal_cost = 3;
 }
 
-/* Squares one behind the other, seen at right angles to no axis. numbers: how many units in the last place apart. */
+/* Squares one behind the other. numbers: how many units in the last place they are apart. */
 static void make_layers(struct setup *setup, uint32_t rays) {
   for (int layer = 0; layer < 12; layer++) {
     float corner[4][3];

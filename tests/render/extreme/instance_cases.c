@@ -1,42 +1,11 @@
 /* Cases of instances: a closed globe with triangles in it, two of whose groups contain one another, written as files
    and imported. The importer multiplies matrices, and rounds each product once: also that is checked. */
+#include "../matrices.h"
 #include "cases.h"
 #include "temporary.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-struct matrix {
-  double m[3][4];
-};
-
-static const struct matrix identity = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
-
-static struct matrix product(struct matrix a, struct matrix b) {
-  struct matrix out;
-  for (int i = 0; i < 3; i++)
-    for (int k = 0; k < 4; k++)
-      out.m[i][k] = a.m[i][0] * b.m[0][k] + a.m[i][1] * b.m[1][k] + a.m[i][2] * b.m[2][k] + (k == 3 ? a.m[i][3] : 0);
-  return out;
-}
-
-static struct matrix scaled(double x, double y, double z) {
-  return (struct matrix){{{x, 0, 0, 0}, {0, y, 0, 0}, {0, 0, z, 0}}};
-}
-
-static struct matrix moved(double x, double y, double z) {
-  return (struct matrix){{{1, 0, 0, x}, {0, 1, 0, y}, {0, 0, 1, z}}};
-}
-
-static struct matrix turned(double angle, int axis) {
-  struct matrix out = identity;
-  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-  out.m[u][u] = out.m[v][v] = cos(angle);
-  out.m[u][v] = -sin(angle);
-  out.m[v][u] = sin(angle);
-  return out;
-}
 
 static void fail(const char *what) {
   fprintf(stderr, "render-extreme: error: instances: %s\n", what);
