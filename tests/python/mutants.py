@@ -56,6 +56,8 @@ MUTANTS = [
     ("sweep.py", "return point | machine.run(threads=1, **run).figures()",
      "return machine.run(threads=1, **run).figures() | point"),
     ("sweep.py", "            running.discard(machine)\n", "            pass\n"),
+    ("sweep.py", "        if ended.is_set():", "        if False:"),
+    ("sweep.py", "isinstance(values, (str, Config)) or ", ""),
     ("sweep.py", "point | row for point, row", "row | point for point, row"),
     ("sweep.py", 'zip(("width", "height"), run["size"])', 'zip(("height", "width"), run["size"])'),
     ("picture.py", "self.pixels.shape[1], self.pixels.shape[0]", "self.pixels.shape[0], self.pixels.shape[1]"),
