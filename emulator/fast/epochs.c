@@ -30,7 +30,8 @@ struct piece {
 struct trax_epochs {
   struct trax_chip *chip;
   struct trax_pool *pool;
-  enum { RUN, CHECK, SAVE, RESTORE } work; /* of the pool's items: TMs, or as many parts of the snapshot */
+  unsigned job;                            /* of the pool */
+  enum { RUN, CHECK, SAVE, RESTORE } work; /* of the job's items: TMs, or as many parts of the snapshot */
   struct trax_merge merge;
   struct trax_quanta *quanta;
   uint64_t latency; /* cycles */
@@ -104,7 +105,7 @@ static void work(void *context, uint32_t item) {
 
 static void run_pool(struct trax_epochs *epochs, unsigned work) {
   epochs->work = work;
-  trax_pool_run(epochs->pool);
+  trax_pool_run(epochs->pool, epochs->job);
 }
 
 static void take_snapshot(struct trax_epochs *epochs, uint64_t t) {
@@ -186,12 +187,8 @@ bool trax_epochs_advance(struct trax_epochs *epochs, uint64_t *t, uint64_t until
   return true;
 }
 
-trax_status trax_epochs_create(struct trax_chip *chip, unsigned threads, trax_error *error) {
+trax_status trax_epochs_create(struct trax_chip *chip, struct trax_run *run, trax_error *error) {
   const uint64_t latency = trax_memory_least_latency(&chip->machine->config);
-  if (!threads)
-    threads = trax_host_processors();
-  if (threads > chip->tms)
-    threads = chip->tms;
   if (chip->tms < 2 || latency < LEAST_EPOCH || (chip->machine->observer && !chip->machine->observer->go_back))
     return TRAX_OK;
   struct trax_epochs *epochs = chip->epochs = calloc(1, sizeof *epochs);
@@ -203,16 +200,16 @@ trax_status trax_epochs_create(struct trax_chip *chip, unsigned threads, trax_er
   if (!trax_merge_create(&epochs->merge, chip) || !list_pieces(epochs) ||
       !(epochs->snapshot = malloc(epochs->snapshot_size)))
     return trax_fail(error, "out of memory");
-  if (!(epochs->quanta = trax_quanta_create(chip, &epochs->merge, threads, latency)))
+  if (!(epochs->pool = trax_run_pool(run, error)))
+    return TRAX_ERROR;
+  if (!(epochs->quanta = trax_quanta_create(chip, &epochs->merge, trax_pool_threads(epochs->pool), latency)))
     return trax_fail(error, "out of memory");
-  epochs->pool = trax_pool_create(threads, chip->tms, work, epochs, error);
-  return epochs->pool ? TRAX_OK : TRAX_ERROR;
+  return trax_pool_add(epochs->pool, chip->tms, work, epochs, &epochs->job, error);
 }
 
 void trax_epochs_destroy(struct trax_epochs *epochs) {
   if (!epochs)
     return;
-  trax_pool_destroy(epochs->pool);
   trax_quanta_destroy(epochs->quanta);
   trax_merge_destroy(&epochs->merge);
   free(epochs->pieces);

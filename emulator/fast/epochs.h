@@ -16,11 +16,12 @@
 #include <stdint.h>
 
 struct trax_chip;
+struct trax_run;
 struct trax_epochs;
 
 /* Creates chip->epochs, which stays NULL for one TM, with an observer that cannot go back, and if epochs would be too
-   short. threads: of the host; 0: trax_host_processors. */
-trax_status trax_epochs_create(struct trax_chip *chip, unsigned threads, trax_error *error);
+   short. The threads are the run's. */
+trax_status trax_epochs_create(struct trax_chip *chip, struct trax_run *run, trax_error *error);
 void trax_epochs_destroy(struct trax_epochs *epochs);
 
 /* Simulates an epoch from cycle *t on that ends in cycle `until` at the latest. Sets *t to the next cycle, which is an
