@@ -47,6 +47,8 @@ struct trax_engine {
   void (*collect)(void *chip);
   /* Completes the machine's statistics and charges for all cycles before t, and records the fault, if any. */
   void (*settle)(void *chip, uint64_t t);
+  /* Tells an observer of stretches, after `settle`, what it has not been told of the cycles before. */
+  void (*tell)(void *chip);
 
   /* Between cycles. export_state writes all that the rest of the run depends on to the structures that `thread` and
      `visit` access; import_state reads it from there before cycle t. NULL: the engine keeps its state in them. */

@@ -1,4 +1,5 @@
 #include "engine/run.h"
+#include "trax/pool.h"
 
 #include <assert.h>
 #include <string.h>
@@ -13,7 +14,16 @@ trax_status trax_run_create(struct trax_run *run, struct trax_machine *machine, 
 
 void trax_run_destroy(struct trax_run *run) {
   run->engine->destroy(run->chip);
+  trax_pool_destroy(run->pool);
   trax_text_destroy(&run->text);
+}
+
+struct trax_pool *trax_run_pool(struct trax_run *run, trax_error *error) {
+  const unsigned tms = run->machine->config.chip.tms, most = tms > 1 ? tms : TRAX_RUN_THREADS;
+  const unsigned threads = run->options->host_threads ? run->options->host_threads : trax_host_processors();
+  if (!run->pool)
+    run->pool = trax_pool_create(threads < most ? threads : most, error);
+  return run->pool;
 }
 
 void trax_run_settle(struct trax_run *run, uint64_t t) {
@@ -79,8 +89,9 @@ static void begin(struct trax_run *run) {
   run->poll.collect = collect;
   run->poll.context = run;
   const struct trax_observer *observer = run->machine->observer;
+  trax_error error; /* without a pool, an observer uses one thread */
   if (observer && observer->begin)
-    observer->begin(observer->context, run->options->host_threads);
+    observer->begin(observer->context, trax_run_pool(run, &error));
 }
 
 static uint64_t earliest(const struct trax_run *run, uint64_t until) {
@@ -132,6 +143,8 @@ static trax_status advance(struct trax_run *run, uint64_t until) {
   if (!run->ended)
     return status;
   trax_run_settle(run, run->t); /* records the fault, which the watches may read */
+  if (run->machine->observer && run->engine->tell)
+    run->engine->tell(run->chip);
   for (struct trax_watch *watch = run->machine->watches; watch; watch = watch->others)
     if (watch->end)
       watch->end(watch, run, status, run->t);

@@ -12,9 +12,10 @@ struct trax_run {
   struct trax_machine *machine;
   const struct trax_engine *engine;
   const struct trax_run_options *options;
-  void *chip;            /* the engine's */
-  struct trax_text text; /* the program, decoded */
-  uint64_t begin;        /* the first cycle; not 0 if the run resumes another one */
+  void *chip;             /* the engine's */
+  struct trax_text text;  /* the program, decoded */
+  struct trax_pool *pool; /* NULL: nobody has asked for it */
+  uint64_t begin;         /* the first cycle; not 0 if the run resumes another one */
 
   bool complete; /* it resumes a run whose program had ended: there is nothing to simulate */
   bool begun, ended;
@@ -28,6 +29,10 @@ struct trax_run {
 trax_status trax_run_create(struct trax_run *run, struct trax_machine *machine, const struct trax_engine *engine,
                             const struct trax_run_options *options, trax_error *error);
 void trax_run_destroy(struct trax_run *run);
+/* The threads of the host that the run may use, which the engine and the observer share (trax/pool.h): at most one for
+   each TM, or TRAX_RUN_THREADS. NULL: an error. */
+enum { TRAX_RUN_THREADS = 4 /* with one TM: of the observer */ };
+struct trax_pool *trax_run_pool(struct trax_run *run, trax_error *error);
 
 /* Runs until the program ends or faults, an interrupt, the limit of cycles, or the end by a watch: then `ended` is set,
    and `end` of the watches has been called. Or it stops before cycle `until` (TRAX_NEVER: does not), after which the

@@ -92,7 +92,7 @@ static void *room(void *context, uint32_t tm) {
   return trax_passages_room(explain->passages, tm);
 }
 
-static void begin_run(void *context, unsigned host_threads) {
+static void begin_run(void *context, struct trax_pool *pool) {
   struct trax_explain *explain = context;
   for (uint64_t i = 0; i < explain->machine->stats.threads && !explain->begun; i++)
     memcpy(explain->open_threads[i].begin_cycles,
@@ -100,8 +100,7 @@ static void begin_run(void *context, unsigned host_threads) {
                   sizeof explain->open_threads[i].cycles),
            sizeof explain->open_threads[i].cycles);
   explain->begun = true;
-  if (!explain->has_spans &&
-      !trax_passages_start(explain->passages, host_threads ? host_threads : trax_host_processors()))
+  if (!explain->has_spans && !trax_passages_start(explain->passages, pool))
     explain->out_of_memory = true;
 }
 
@@ -127,13 +126,13 @@ static void go_back(void *context) {
 static void end_passages(struct trax_explain *explain, uint32_t thread) {
   struct trax_thread_log *log = &explain->observer.logs[thread];
   struct trax_open_thread *open = &explain->open_threads[thread];
-  const uint32_t index = trax_places_index(explain->places, open->end_pc);
+  const uint32_t index = trax_places_index(explain->places, explain->end_pcs[thread]);
   for (size_t i = 0; i < log->charged_count; i++)
     log->charged[i].index = index;
   trax_counters_add(open->cycles, open->begin_cycles, sizeof open->cycles, -1);
   notify_passage(explain, &(struct trax_passage){.thread = thread,
                                                  .charged = log->charged,
-                                                 .charged_count = log->charged_count,
+                                                 .charged_count = (uint32_t)log->charged_count,
                                                  .kind = TRAX_NO_RAY,
                                                  .cycles = open->cycles});
 }
@@ -253,19 +252,20 @@ static trax_status create(struct trax_explain *explain, trax_error *error) {
   explain->observer.logs = trax_explain_array(threads, sizeof *explain->observer.logs, error);
   explain->places = trax_places_create(explain->machine);
   explain->open_threads = trax_explain_array(threads, sizeof *explain->open_threads, error);
+  explain->end_pcs = trax_explain_array(threads, sizeof *explain->end_pcs, error);
   explain->passages = trax_passages_create(explain);
-  if (!explain->open_spans || !explain->open_threads || !explain->observer.logs || !explain->places ||
-      !explain->passages)
+  if (!explain->open_spans || !explain->open_threads || !explain->end_pcs || !explain->observer.logs ||
+      !explain->places || !explain->passages)
     return trax_fail(error, "out of memory for the explanation of %zu threads", threads);
   for (size_t i = 0; i < threads; i++)
-    explain->open_spans[i].pc = explain->open_spans[i].previous_pc = explain->open_threads[i].end_pc =
+    explain->open_spans[i].pc = explain->open_spans[i].previous_pc = explain->end_pcs[i] =
         trax_machine_entry_of(explain->machine, (uint32_t)i);
   if (trax_objects_list(&explain->objects, explain, error) != TRAX_OK)
     return TRAX_ERROR;
   for (unsigned i = 0; i < TRAX_READER_KINDS; i++)
     if (is_wanted(&explain->options, reader_kinds[i]) && open_reader(explain, reader_kinds[i], error) != TRAX_OK)
       return TRAX_ERROR;
-  return trax_passages_start(explain->passages, 1) ? TRAX_OK : trax_fail(error, "out of memory for the explanation");
+  return trax_passages_start(explain->passages, NULL) ? TRAX_OK : trax_fail(error, "out of memory for the explanation");
 }
 
 static trax_status check_window(const struct trax_explain *explain, trax_error *error) {
@@ -409,6 +409,7 @@ void trax_explain_discard(struct trax_explain *explain) {
     free(explain->observer.logs[i].charged);
   free(explain->open_spans);
   free(explain->open_threads);
+  free(explain->end_pcs);
   free(explain->observer.logs);
   free(explain->arrivals);
   trax_objects_release(&explain->objects);

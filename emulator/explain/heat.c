@@ -73,13 +73,17 @@ static void add_counts(void *self, const struct trax_counts *counts) {
 
 static void add_passage(void *self, const struct trax_passage *passage) {
   struct heat *heat = self;
-  for (size_t i = 0; heat->reader.explain->options.heat_lines && i < passage->accessed_count; i++) {
+  for (size_t i = 0; i < passage->accessed_count; i++) {
     const struct trax_accessed *accessed = &passage->accessed[i];
     const uint32_t index = trax_passage_index(passage, accessed->at);
     struct heat_counts *line = line_at(heat, accessed->address);
     if (line)
       count(line, &trax_op_table[trax_places_inst(heat->reader.explain->places, index)->op], accessed->outcome, 1);
   }
+}
+
+static bool has_lines(const struct trax_explain_options *options) {
+  return options->heat_lines != NULL;
 }
 
 static void add_regions(struct heat *heat) {
@@ -189,6 +193,7 @@ const struct trax_reader_kind trax_heat_reader = {
     .in_page = true,
     .open = open_heat,
     .passage = add_passage,
+    .wants_passages = has_lines,
     .counts = add_counts,
     .end = end_heat,
     .close = close_heat};

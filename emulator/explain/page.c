@@ -18,15 +18,15 @@ void trax_page_quote(FILE *out, const char *text, size_t size) {
     else if (c < 0x20)
       fprintf(out, "\\u%04x", c);
     else
-      fputc(c, out);
+      putc_unlocked(c, out);
   }
   fputc('"', out);
 }
 
 void trax_page_number(FILE *out, uint64_t value) {
   for (; value >= 128; value >>= 7)
-    fputc((int)(value & 127) | 128, out);
-  fputc((int)value, out);
+    putc_unlocked((int)(value & 127) | 128, out);
+  putc_unlocked((int)value, out);
 }
 
 trax_status trax_page_text(FILE *out, const char *name, trax_status (*put)(void *self, FILE *out, trax_error *error),
@@ -75,17 +75,17 @@ static void put_base64(FILE *out, const uint8_t *bytes, size_t size) {
     const size_t left = size - i;
     const uint32_t word =
         (uint32_t)bytes[i] << 16 | (left > 1 ? (uint32_t)bytes[i + 1] << 8 : 0) | (left > 2 ? bytes[i + 2] : 0);
-    fputc(digits[word >> 18], out);
-    fputc(digits[word >> 12 & 63], out);
-    fputc(left > 1 ? digits[word >> 6 & 63] : '=', out);
-    fputc(left > 2 ? digits[word & 63] : '=', out);
+    putc_unlocked(digits[word >> 18], out);
+    putc_unlocked(digits[word >> 12 & 63], out);
+    putc_unlocked(left > 1 ? digits[word >> 6 & 63] : '=', out);
+    putc_unlocked(left > 2 ? digits[word & 63] : '=', out);
   }
 }
 
 static trax_status put_script(FILE *out, const char *name, const char *bytes, size_t size, trax_error *error) {
   uLongf packed_size = compressBound(size);
   uint8_t *packed = malloc(packed_size);
-  if (!packed || compress(packed, &packed_size, (const Bytef *)bytes, size) != Z_OK) {
+  if (!packed || compress2(packed, &packed_size, (const Bytef *)bytes, size, Z_BEST_SPEED) != Z_OK) {
     free(packed);
     return trax_fail(error, "out of memory for the page");
   }

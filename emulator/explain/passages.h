@@ -5,7 +5,7 @@
 #ifndef TRAX_EXPLAIN_PASSAGES_H
 #define TRAX_EXPLAIN_PASSAGES_H
 
-#include "explain/span.h"
+#include "explain/reading.h"
 
 /* The instructions in the logs with which they are full, where each stretch counts as 64 more: few while a reader finds
    much that is new (trax_explain.found), since it finds a limit (trax_observer.single) with this delay. */
@@ -16,8 +16,8 @@ enum { TRAX_PASSAGES_ROUNDS = 8 };
 
 /* NULL: out of memory. */
 struct trax_passages *trax_passages_create(struct trax_explain *explain);
-/* Reads with so many threads of the host from now on. The readers are open. False: out of memory. */
-bool trax_passages_start(struct trax_passages *passages, unsigned threads);
+/* trax_reading_start */
+bool trax_passages_start(struct trax_passages *passages, struct trax_pool *pool);
 /* trax_observer.room */
 void *trax_passages_room(struct trax_passages *passages, uint32_t tm);
 void trax_passages_add(struct trax_passages *passages, const struct trax_stretch *stretch, struct trax_thread_log *log);

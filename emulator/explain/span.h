@@ -36,22 +36,21 @@ struct trax_span {
 
 struct trax_passage {
   uint32_t thread;
-  uint32_t count;   /* instructions; 0: at the end of the run, the charges since the thread's last instruction */
-  uint32_t context; /* the thread's call chain, a number of the profile's; 0 without one */
-  uint8_t kind;     /* of the ray that the thread works for, the passage's included (explain/ray_kinds.h) */
-  struct trax_piece *piece; /* [pieces]; each index is one of the places */
-  size_t pieces;
-  struct trax_charged *charged; /* [charged_count]; those before an instruction come before its access */
-  size_t charged_count;
-  const struct trax_accessed *accessed; /* [accessed_count] */
-  size_t accessed_count;
-  bool stores, misses;      /* trax_stretch */
-  const uint8_t *refused;   /* trax_stretch.refused, followed by 8 bytes that may be read */
-  const uint64_t *cycles;   /* [TRAX_CAUSE_COUNT]: of the thread so far, with this passage; only if it is a trap, or
-                               at the end of the run */
+  uint32_t context;         /* the thread's call chain, a number of the profile's; 0 without one */
   uint32_t next_pc, result; /* of the last instruction */
   uint32_t last;            /* its index */
   trax_inst inst;           /* the last instruction; illegal if there is none */
+  uint16_t count; /* instructions; 0: at the end of the run, the charges since the thread's last instruction */
+  uint16_t pieces, accessed_count;
+  uint8_t kind;        /* of the ray that the thread works for, the passage's included (explain/ray_kinds.h) */
+  bool stores, misses; /* trax_stretch */
+  uint32_t charged_count;
+  struct trax_piece *piece;             /* [pieces]; each index is one of the places */
+  struct trax_charged *charged;         /* [charged_count]; those before an instruction come before its access */
+  const struct trax_accessed *accessed; /* [accessed_count] */
+  const uint8_t *refused;               /* trax_stretch.refused, followed by 8 bytes that may be read */
+  const uint64_t *cycles; /* [TRAX_CAUSE_COUNT]: of the thread so far, with this passage; only if it is a trap, or
+                             at the end of the run */
 };
 
 /* The index of an instruction of the passage. */
@@ -92,6 +91,7 @@ struct trax_reader_kind {
      context or kind. */
   void (*follow)(void *self, struct trax_passage *passage);
   void (*passage)(void *self, const struct trax_passage *passage);
+  bool (*wants_passages)(const struct trax_explain_options *options); /* NULL: always */
   /* Called with the counts of all passages: those of an instruction, context and kind may come in several parts, each
      with another region. */
   void (*counts)(void *self, const struct trax_counts *counts);
@@ -134,11 +134,9 @@ TRAX_READERS(DECLARE)
 enum { TRAX_READER_KINDS = 0 TRAX_READERS(COUNT) };
 #undef COUNT
 
-/* A thread's cycles by cause at the begin of the run; its cycles so far, if the engine tells of each issue; the place
-   where its passages go on. */
+/* A thread's cycles by cause at the begin of the run, and its cycles so far, if the engine tells of each issue. */
 struct trax_open_thread {
   uint64_t begin_cycles[TRAX_CAUSE_COUNT], cycles[TRAX_CAUSE_COUNT];
-  uint32_t end_pc;
 };
 
 struct trax_explain {
@@ -148,6 +146,7 @@ struct trax_explain {
   struct trax_open_span *open_spans;     /* [threads]: since the latest issue of each */
   bool has_spans, has_passages;          /* readers take them */
   struct trax_open_thread *open_threads; /* [threads] */
+  uint32_t *end_pcs;                     /* [threads]: where its passages go on */
   bool begun, by_issue;                  /* the run has begun; the engine tells of each issue and charge */
   uint64_t round;                        /* number of rounds in which passages were read (explain/passages.h) */
   uint32_t found;                        /* what is new in the passages that are read (explain/passages.h) */

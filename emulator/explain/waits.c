@@ -41,8 +41,9 @@ struct waits {
   uint32_t *latest_of;                  /* [places]: the latest record of the waiting instruction, + 1 */
   const struct trax_region **region_of; /* [places]: of the latest access of the instruction that was waited for */
   bool hits_are_awaited;                /* else the result of a load that hits is usable at once */
-  uint8_t *slow;    /* [places]: the register, if it may be waited for, + SLOW_ACCESS of a memory access */
-  uint32_t *others; /* [places + 1]: of the instructions before, those that are waited for without global memory */
+  uint8_t *slow;      /* [places]: the register, if it may be waited for, + SLOW_ACCESS of a memory access */
+  uint32_t *others;   /* [places + 1]: of the instructions before, those that are waited for without global memory */
+  uint32_t *other_at; /* these instructions */
 };
 
 static struct record *record_of(struct waits *waits, struct record wanted) {
@@ -79,45 +80,44 @@ static void add(struct waits *waits, const struct writer *awaited, uint32_t wait
     record->cycles[column] += cycles;
 }
 
-/* The registers that the instructions before `end` of a passage have written. */
+/* The part of a passage whose writes are known. */
 struct written {
   const struct trax_piece *piece;
   const struct trax_accessed *accessed, *accessed_end;
   uint32_t at, of_piece; /* the number of the next instruction, and of the piece's first */
-  bool loads_alone;      /* no instruction but loads of global memory is waited for */
 };
 
-static bool has_loads_alone(const struct waits *waits, const struct trax_passage *passage) {
-  for (size_t i = 0; i < passage->pieces; i++)
-    if (waits->others[passage->piece[i].index] != waits->others[passage->piece[i].index + passage->piece[i].count])
-      return false;
-  return true;
+static void write_other(const struct waits *waits, struct writer *writers, uint32_t index) {
+  const uint8_t slow = waits->slow[index];
+  writers[slow % TRAX_NUM_REGISTERS] = (struct writer){index, TRAX_LOCAL_BASE, slow >= SLOW_ACCESS};
+}
+
+/* Notes the writes of `count` neighbouring instructions, from `first` on, if they may be waited for. */
+static void write_some(const struct waits *waits, struct writer *writers, struct written *written, uint32_t first,
+                       uint32_t count) {
+  const uint32_t *other = waits->other_at + waits->others[first], *const end =
+                                                                      waits->other_at + waits->others[first + count];
+  for (; written->accessed < written->accessed_end && written->accessed->at < written->at + count;
+       written->accessed++) {
+    const uint32_t index = first + (written->accessed->at - written->at);
+    for (; other < end && *other < index; other++)
+      write_other(waits, writers, *other);
+    other += other < end && *other == index;
+    if (waits->hits_are_awaited || written->accessed->outcome != TRAX_OUTCOME_HIT)
+      writers[waits->slow[index] % TRAX_NUM_REGISTERS] = (struct writer){index, written->accessed->address, true};
+  }
+  for (; other < end; other++)
+    write_other(waits, writers, *other);
 }
 
 static void write_up_to(const struct waits *waits, struct writer *writers, struct written *written, uint32_t end) {
-  if (written->loads_alone) {
-    for (; written->accessed < written->accessed_end && written->accessed->at < end; written->accessed++) {
-      for (; written->accessed->at - written->of_piece >= written->piece->count; written->piece++)
-        written->of_piece += written->piece->count;
-      const uint32_t index = written->piece->index + (written->accessed->at - written->of_piece);
-      writers[waits->slow[index] % TRAX_NUM_REGISTERS] = (struct writer){index, written->accessed->address, true};
-    }
-    return;
-  }
-  for (; written->at < end; written->at++) {
-    if (written->at - written->of_piece == written->piece->count) {
-      written->of_piece += written->piece->count;
-      written->piece++;
-    }
-    const uint32_t index = written->piece->index + (written->at - written->of_piece);
-    const uint8_t slow = waits->slow[index];
-    if (!slow)
-      continue;
-    while (written->accessed < written->accessed_end && written->accessed->at < written->at)
-      written->accessed++;
-    const bool is_global = written->accessed < written->accessed_end && written->accessed->at == written->at;
-    writers[slow % TRAX_NUM_REGISTERS] =
-        (struct writer){index, is_global ? written->accessed->address : TRAX_LOCAL_BASE, slow >= SLOW_ACCESS};
+  while (written->at < end) {
+    const uint32_t begin = written->at - written->of_piece, left = written->piece->count - begin,
+                   count = end - written->at < left ? end - written->at : left;
+    write_some(waits, writers, written, written->piece->index + begin, count);
+    written->at += count;
+    if (count == left)
+      written->of_piece += written->piece++->count;
   }
 }
 
@@ -126,8 +126,7 @@ static void add_passage(void *self, const struct trax_passage *passage) {
   struct writer *writers = waits->writers[passage->thread];
   const struct trax_accessed *own = passage->accessed, *const end = own + passage->accessed_count;
   struct written written = {.piece = passage->piece, .accessed = own, .accessed_end = end};
-  written.loads_alone = has_loads_alone(waits, passage);
-  if (written.loads_alone && !passage->misses && !waits->hits_are_awaited)
+  if (!passage->misses && !waits->hits_are_awaited)
     written.accessed = end;
   for (size_t i = 0; i < passage->charged_count; i++) {
     const struct trax_charged *charged = &passage->charged[i];
@@ -211,7 +210,8 @@ static trax_status open_waits(void *self, trax_error *error) {
   waits->slow = trax_explain_array(trax_places_count(explain->places) + 2, sizeof *waits->slow, error);
   waits->others = trax_explain_array(trax_places_count(explain->places) + 3, sizeof *waits->others, error);
   waits->region_of = trax_explain_array(trax_places_count(explain->places) + 2, sizeof *waits->region_of, error);
-  if (!waits->writers || !waits->latest_of || !waits->region_of || !waits->slow || !waits->others)
+  waits->other_at = trax_explain_array(trax_places_count(explain->places), sizeof *waits->other_at, error);
+  if (!waits->writers || !waits->latest_of || !waits->region_of || !waits->slow || !waits->others || !waits->other_at)
     return TRAX_ERROR;
   const uint32_t local = explain->machine->config.tp.local_latency_cycles;
   waits->hits_are_awaited = explain->machine->config.dcache.hit_latency_cycles > 1;
@@ -224,7 +224,8 @@ static trax_status open_waits(void *self, trax_error *error) {
       waits->slow[i] = SLOW_ACCESS + inst->rd;
     else if (trax_timing_of(inst->op, &explain->machine->config).latency > 1)
       waits->slow[i] = inst->rd;
-    waits->others[i + 1] += waits->slow[i] && (waits->slow[i] < SLOW_ACCESS || local > 1);
+    if (waits->slow[i] && (waits->slow[i] < SLOW_ACCESS || local > 1))
+      waits->other_at[waits->others[i + 1]++] = i;
   }
   return TRAX_OK;
 }
@@ -236,6 +237,7 @@ static void close_waits(void *self) {
   free(waits->region_of);
   free(waits->slow);
   free(waits->others);
+  free(waits->other_at);
   free(waits->records);
   trax_map_free(&waits->pair_of);
   trax_map_free(&waits->record_of);

@@ -147,12 +147,17 @@ static void settle(void *context, uint64_t t) {
   trax_fast_settle(chip);
   for (uint32_t i = 0; i < chip->tms; i++) {
     trax_tm_settle(&chip->tm[i], t);
-    for (unsigned tp = 0; chip->tm[i].observed && tp < chip->tm[i].tps; tp++)
-      trax_fast_tell_issued(&chip->tm[i], tp);
     trax_fast_settle_rays(&chip->tm[i]);
     chip->tm[i].stats->queue_peak = chip->tm[i].queue.peak;
   }
   report_slow_paths(chip, t);
+}
+
+static void tell(void *context) {
+  const struct trax_chip *chip = context;
+  for (uint32_t i = 0; i < chip->tms; i++)
+    for (unsigned tp = 0; chip->tm[i].observed && tp < chip->tm[i].tps; tp++)
+      trax_fast_tell_issued(&chip->tm[i], tp);
 }
 
 static void import_state(void *context, uint64_t t) {
@@ -201,8 +206,9 @@ static uint32_t queued(const void *context, uint32_t tm, uint64_t t) {
   {                                                                                                                    \
     .name = NAME, .meaning = MEANING, .is_timed = true, .is_observed = true, .counts_rays = true, .create = create,    \
     .destroy = trax_chip_destroy, .advance = advance, .commit = commit, .collect = trax_fast_collect,                  \
-    .settle = settle, .export_state = trax_fast_roll_back, .import_state = import_state, .thread = thread,             \
-    .set_pc = set_pc, .progressed = progressed, .queued = queued, .visit = trax_state_visit, .check = trax_state_check \
+    .settle = settle, .tell = tell, .export_state = trax_fast_roll_back, .import_state = import_state,                 \
+    .thread = thread, .set_pc = set_pc, .progressed = progressed, .queued = queued, .visit = trax_state_visit,         \
+    .check = trax_state_check                                                                                          \
   }
 
 const struct trax_engine trax_fast_engine = ENGINE("fast", "the default, for what the host has");

@@ -98,8 +98,8 @@ bool trax_fast_run_alone(struct trax_tm *tm, uint64_t t, uint64_t end);
 void trax_fast_import(struct trax_chip *chip, uint64_t t);
 
 /* Creates chip->epochs (epochs.c), which stays NULL for one TM, with an observer that cannot go back, and if epochs
-   would be too short. threads: of the host; 0: trax_host_processors. */
-trax_status trax_epochs_create(struct trax_chip *chip, unsigned threads, trax_error *error);
+   would be too short. The threads are the run's. */
+trax_status trax_epochs_create(struct trax_chip *chip, struct trax_run *run, trax_error *error);
 void trax_epochs_destroy(struct trax_epochs *epochs);
 /* Simulates an epoch from cycle *t on that ends in cycle `until` at the latest. Sets *t to the next cycle, which is an
    earlier one after a roll back. False: the next cycle must be simulated without an epoch. */

@@ -167,7 +167,7 @@ trax_status trax_chip_create(struct trax_run *run, const struct trax_fast_varian
   for (uint32_t i = 0; i < chip->tms; i++)
     if (create_tm(&chip->tm[i], i, chip, run->options->output, error))
       return TRAX_ERROR;
-  if (trax_epochs_create(chip, run->options->host_threads, error))
+  if (trax_epochs_create(chip, run, error))
     return TRAX_ERROR;
   create_translation(chip, run);
   return TRAX_OK;

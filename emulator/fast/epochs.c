@@ -30,7 +30,8 @@ struct piece {
 struct trax_epochs {
   struct trax_chip *chip;
   struct trax_pool *pool;
-  enum { CHECK, SAVE, RESTORE } work; /* of the pool's items: TMs, or as many parts of the snapshot */
+  unsigned job;                       /* of the pool */
+  enum { CHECK, SAVE, RESTORE } work; /* of the job's items: TMs, or as many parts of the snapshot */
   struct trax_merge merge;
   uint64_t latency;    /* cycles */
   unsigned sides;      /* quanta of a latency; of the store buffers, those that are used */
@@ -92,7 +93,7 @@ static void work(void *context, uint32_t item) {
 
 static void run_pool(struct trax_epochs *epochs, unsigned work) {
   epochs->work = work;
-  trax_pool_run(epochs->pool);
+  trax_pool_run(epochs->pool, epochs->job);
 }
 
 static void take_snapshot(struct trax_epochs *epochs, uint64_t t) {
@@ -158,7 +159,7 @@ static bool run_epoch(struct trax_epochs *epochs, uint64_t t, uint64_t end) {
   while (begin_of(epochs, quanta) < end)
     quanta++;
   trax_merge_begin(&epochs->merge);
-  trax_pool_run_rounds(epochs->pool, quanta, simulate, serve);
+  trax_pool_run_rounds(epochs->pool, epochs->job, quanta, simulate, serve);
   if (!trax_merge_has_failed(&epochs->merge))
     run_pool(epochs, CHECK);
   return trax_merge_end(&epochs->merge);
@@ -206,12 +207,8 @@ bool trax_epochs_advance(struct trax_epochs *epochs, uint64_t *t, uint64_t until
   return true;
 }
 
-trax_status trax_epochs_create(struct trax_chip *chip, unsigned threads, trax_error *error) {
+trax_status trax_epochs_create(struct trax_chip *chip, struct trax_run *run, trax_error *error) {
   const uint64_t latency = trax_memory_least_latency(&chip->machine->config);
-  if (!threads)
-    threads = trax_host_processors();
-  if (threads > chip->tms)
-    threads = chip->tms;
   if (chip->tms < 2 || latency < LEAST_EPOCH || (chip->machine->observer && !chip->machine->observer->go_back))
     return TRAX_OK;
   struct trax_epochs *epochs = chip->epochs = calloc(1, sizeof *epochs);
@@ -219,19 +216,20 @@ trax_status trax_epochs_create(struct trax_chip *chip, unsigned threads, trax_er
     return trax_fail(error, "out of memory");
   epochs->chip = chip;
   epochs->latency = latency;
-  epochs->sides = threads > 1 ? TRAX_SIDES : 1; /* one thread never runs ahead; its quanta have a whole latency */
   epochs->pause = FIRST_PAUSE;
   if (!trax_merge_create(&epochs->merge, chip) || !list_pieces(epochs) ||
       !(epochs->snapshot = malloc(epochs->snapshot_size)))
     return trax_fail(error, "out of memory");
-  epochs->pool = trax_pool_create(threads, chip->tms, work, epochs, error);
-  return epochs->pool ? TRAX_OK : TRAX_ERROR;
+  if (!(epochs->pool = trax_run_pool(run, error)))
+    return TRAX_ERROR;
+  /* One thread never runs ahead, so its quanta have a whole latency. */
+  epochs->sides = trax_pool_threads(epochs->pool) > 1 ? TRAX_SIDES : 1;
+  return trax_pool_add(epochs->pool, chip->tms, work, epochs, &epochs->job, error);
 }
 
 void trax_epochs_destroy(struct trax_epochs *epochs) {
   if (!epochs)
     return;
-  trax_pool_destroy(epochs->pool);
   trax_merge_destroy(&epochs->merge);
   free(epochs->pieces);
   free(epochs->snapshot);

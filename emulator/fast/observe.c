@@ -143,9 +143,9 @@ static inline unsigned like_16(__m128i some, __m128i others, uint16_t mask, uint
                                                      _mm_cmpeq_epi16(_mm_and_si128(others, bits), wanted)));
 }
 
-/* Returns a bit for each of 16 steps, from `first` on, which is not 0: those that are behind a taken jump. */
-static inline unsigned jumps_of_16(const uint16_t *index, unsigned first) {
-  const __m128i *const at = (const __m128i *)(index + first), *const before = (const __m128i *)(index + first - 1);
+/* Returns a bit for each of 16 steps: those that are behind a taken jump. The step before the first one exists. */
+static inline unsigned jumps_of_16(const uint16_t *index) {
+  const __m128i *const at = (const __m128i *)index, *const before = (const __m128i *)(index - 1);
   return 0xFFFF ^ like_16(_mm_sub_epi16(_mm_loadu_si128(at), _mm_loadu_si128(before)),
                           _mm_sub_epi16(_mm_loadu_si128(at + 1), _mm_loadu_si128(before + 1)), UINT16_MAX, 1);
 }
@@ -157,9 +157,13 @@ static inline unsigned accesses_of_16(const uint16_t *step) {
 }
 _Static_assert((int)TRAX_CHUNK >= 16, "so many steps may follow the last one");
 
-/* The bits of the first `count` of 16. */
-static inline unsigned first_bits(unsigned count) {
-  return count < 16 ? (1u << count) - 1 : 0xFFFF;
+/* Returns a bit for each of the first `count` of 64 steps, at most, that `of_16` finds: few loops are left, whose ends
+   the host would have to predict. */
+static ALWAYS_INLINE uint64_t find(const uint16_t *steps, unsigned count, unsigned (*of_16)(const uint16_t *steps)) {
+  uint64_t found = 0;
+  for (unsigned i = 0; i < count && i < 64; i += 16)
+    found |= (uint64_t)of_16(steps + i) << i;
+  return count < 64 ? found & (((uint64_t)1 << count) - 1) : found;
 }
 
 /* Lists the pieces of the steps from `begin` to `end`. */
@@ -169,8 +173,8 @@ static size_t list_pieces(const struct trax_tm *tm, unsigned number, unsigned be
   const struct trax_fast_timing *const timing = tm->chip->program.timing;
   size_t count = 0;
   unsigned at = begin;
-  for (unsigned first = begin + 1; first < end; first += 16)
-    for (unsigned rest = jumps_of_16(tp->burst.index, first) & first_bits(end - first); rest; rest &= rest - 1) {
+  for (unsigned first = begin + 1; first < end; first += 64)
+    for (uint64_t rest = find(tp->burst.index + first, end - first, jumps_of_16); rest; rest &= rest - 1) {
       const unsigned next = first + trax_first(rest);
       pieces[count++] = (struct trax_piece){timing[trax_fast_index(tp, at)].pc, next - at, 0};
       at = next;
@@ -204,8 +208,8 @@ static size_t list_accesses(struct trax_tm *tm, unsigned number, unsigned begin,
   const unsigned told = tm->observed->told_loads[number];
   const struct trax_burst_access *access = &burst->access[told];
   size_t count = 0;
-  for (unsigned first = begin; first < end; first += 16)
-    for (unsigned rest = accesses_of_16(&burst->step[first]) & first_bits(end - first); rest; rest &= rest - 1)
+  for (unsigned first = begin; first < end; first += 64)
+    for (uint64_t rest = find(&burst->step[first], end - first, accesses_of_16); rest; rest &= rest - 1)
       accessed[count++] = (struct trax_accessed){.address = (access++)->address,
                                                  .at = (uint8_t)(first - begin + trax_first(rest)),
                                                  .outcome = TRAX_OUTCOME_HIT};

@@ -115,11 +115,13 @@ struct trax_stretch {
   uint32_t result;
 };
 
+struct trax_pool;
+
 struct trax_observer {
   void *context;
-  /* Any function may be NULL. A run calls `begin` at its begin, with the number of threads of the host that it may use,
-     and `end` whenever it stops, after the other calls. */
-  void (*begin)(void *context, unsigned host_threads);
+  /* Any function may be NULL. A run calls `begin` at its begin, with the threads of the host that the observer may use
+     up to the last `end` (NULL: the caller's alone), and `end` whenever it stops, after the other calls. */
+  void (*begin)(void *context, struct trax_pool *pool);
   void (*end)(void *context);
   void (*issue)(void *context, const struct trax_issue *issue);
   /* The TP was charged to `cause` for `cycles` cycles from `since` on. rd: the register that it waited for; 0: none. */
@@ -128,9 +130,9 @@ struct trax_observer {
   void (*arrival)(void *context, const struct trax_arrival *arrival);
   /* If not NULL, an engine that can calls it instead of all others, when the last instruction of a stretch issues, or
      earlier. The stretches of one TP are in order. Those that consist of one instruction that is to be alone, or of
-     which `single` was set before, are in the order of issue() over the chip. When trax_run_settle returns, all
-     instructions of the cycles before have been reported, and the logs have the charges since then. Several threads of
-     the host may call it at the same time, each for other TMs; then the order over the chip is that of (cycle, TM). */
+     which `single` was set before, are in the order of issue() over the chip. At `end`, all instructions have been
+     reported, and the logs have the charges since then. Several threads of the host may call it at the same time, each
+     for other TMs; then the order over the chip is that of (cycle, TM). */
   void (*stretch)(void *context, const struct trax_stretch *stretch);
   /* For stretches: returns the observer's memory, TRAX_STRETCH_ROOM bytes, for the arrays of the TM's next one: its
      pieces, and its accesses directly behind them, so that they need not be copied. NULL: there is none. */

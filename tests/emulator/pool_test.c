@@ -24,15 +24,24 @@ static void count(void *context, uint32_t item) {
   atomic_fetch_add(&counts[item], 1);
 }
 
+static struct trax_pool *create_pool(unsigned threads, uint32_t items, void (*work)(void *context, uint32_t item),
+                                     void *context, unsigned *job) {
+  struct trax_pool *pool = trax_pool_create(threads, NULL);
+  assert_non_null(pool);
+  assert_int_equal(trax_pool_threads(pool), threads);
+  assert_int_equal(trax_pool_add(pool, items, work, context, job, NULL), TRAX_OK);
+  return pool;
+}
+
 static void every_item_once(void **state) {
   (void)state;
   for (unsigned threads = 1; threads <= 5; threads++)
     for (uint32_t items = 1; items <= MOST_ITEMS; items = 3 * items + 1) {
       atomic_uint counts[MOST_ITEMS] = {0};
-      struct trax_pool *pool = trax_pool_create(threads, items, count, counts, NULL);
-      assert_non_null(pool);
+      unsigned job;
+      struct trax_pool *pool = create_pool(threads, items, count, counts, &job);
       for (unsigned round = 1; round <= ROUNDS; round++) {
-        trax_pool_run(pool);
+        trax_pool_run(pool, job);
         for (uint32_t item = 0; item < items; item++)
           assert_int_equal(atomic_load(&counts[item]), round);
       }
@@ -65,13 +74,41 @@ static void finishes_rounds_in_order(void **state) {
   for (unsigned threads = 1; threads <= 3; threads++)
     for (uint32_t items = 1; items <= MOST_ITEMS; items = 5 * items + 1) {
       struct rounds rounds = {.items = items};
-      struct trax_pool *pool = trax_pool_create(threads, items, count, &rounds, NULL);
-      assert_non_null(pool);
-      trax_pool_run_rounds(pool, ROUNDS, count_round, finish_round);
+      unsigned job;
+      struct trax_pool *pool = create_pool(threads, items, count, &rounds, &job);
+      trax_pool_run_rounds(pool, job, ROUNDS, count_round, finish_round);
       assert_int_equal(rounds.finished, ROUNDS);
       assert_int_equal(rounds.errors, 0);
       trax_pool_destroy(pool);
     }
+}
+
+/* Jobs of different numbers of items, in turns that repeat and skip. Late threads of a round do not take items of the
+   next one, be it of another job. */
+static void jobs_in_turns(void **state) {
+  (void)state;
+  static const uint32_t items[] = {3, MOST_ITEMS, 1, 17};
+  for (unsigned threads = 1; threads <= 5; threads++) {
+    atomic_uint counts[4][MOST_ITEMS] = {0};
+    unsigned jobs[4], rounds[4] = {0};
+    struct trax_pool *pool = trax_pool_create(threads, NULL);
+    assert_non_null(pool);
+    for (unsigned i = 0; i < 2; i++)
+      assert_int_equal(trax_pool_add(pool, items[i], count, counts[i], &jobs[i], NULL), TRAX_OK);
+    for (unsigned i = 0; i < 2; i++)
+      trax_pool_run(pool, jobs[i]), rounds[i]++;
+    for (unsigned i = 2; i < 4; i++) /* between rounds */
+      assert_int_equal(trax_pool_add(pool, items[i], count, counts[i], &jobs[i], NULL), TRAX_OK);
+    for (unsigned round = 0; round < ROUNDS; round++) {
+      const unsigned i = round * round / 3 % 4;
+      trax_pool_run(pool, jobs[i]);
+      rounds[i]++;
+      for (unsigned k = 0; k < 4; k++)
+        for (uint32_t item = 0; item < MOST_ITEMS; item++)
+          assert_int_equal(atomic_load(&counts[k][item]), item < items[k] ? rounds[k] : 0);
+    }
+    trax_pool_destroy(pool);
+  }
 }
 
 /* How many threads of this process sleep: the third field of their stat, behind a name in brackets. */
@@ -105,10 +142,10 @@ static void wait_for_sleepers(void *context, uint32_t item) {
 static void sleeps_while_waiting(void **state) {
   (void)state;
   unsigned asleep = 0;
-  struct trax_pool *pool = trax_pool_create(THREADS, THREADS, wait_for_sleepers, &asleep, NULL);
-  assert_non_null(pool);
+  unsigned job;
+  struct trax_pool *pool = create_pool(THREADS, THREADS, wait_for_sleepers, &asleep, &job);
   for (unsigned i = 0; i < 3; i++) {
-    trax_pool_run(pool);
+    trax_pool_run(pool, job);
     assert_int_equal(asleep, THREADS - 1);
   }
   trax_pool_destroy(pool);
@@ -127,10 +164,10 @@ static void idles_without_cost(void **state) {
   const struct timespec long_nap = {.tv_nsec = 400000000};
   for (unsigned threads = 2; threads <= 32; threads *= 4) {
     atomic_uint counts[MOST_ITEMS] = {0};
-    struct trax_pool *pool = trax_pool_create(threads, MOST_ITEMS, count, counts, NULL);
-    assert_non_null(pool);
+    unsigned job;
+    struct trax_pool *pool = create_pool(threads, MOST_ITEMS, count, counts, &job);
     for (unsigned i = 0; i < 2; i++) {
-      trax_pool_run(pool);
+      trax_pool_run(pool, job);
       for (unsigned j = 0; sleepers() < threads - 1 && j < 500; j++) /* on a busy host it takes a while */
         nanosleep(&nap, NULL);
       const double before = processor_seconds();
@@ -145,6 +182,7 @@ static void idles_without_cost(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(every_item_once), cmocka_unit_test(finishes_rounds_in_order),
-                                     cmocka_unit_test(sleeps_while_waiting), cmocka_unit_test(idles_without_cost)};
+                                     cmocka_unit_test(jobs_in_turns), cmocka_unit_test(sleeps_while_waiting),
+                                     cmocka_unit_test(idles_without_cost)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

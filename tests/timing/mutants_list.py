@@ -604,6 +604,12 @@ MUTANTS = [
     ("fast/epochs.c", "  trax_fast_keep(epochs->chip, true);\n", ""),
     ("fast/state.c", "  TRAX_VISIT_DERIVED(tm->observed, tm->observed ? 1 : 0);\n", ""),
     ("fast/observe.c", "tm->serial_hits ? 0 : tm->load_hits & ~tm->storing", "~(uint64_t)0"),
+    ("fast/observe.c", "      outcomes[i + byte] = TRAX_FAST_NO_OUTCOME;\n", ""),
+    ("fast/observe.c", "    some = ~some & (count", "    some = some & (count"),
+    ("fast/observe.c", "  return count < 64 ? found & (((uint64_t)1 << count) - 1) : found;", "  return found;"),
+    ("fast/time/refusals.h", "((*some & most) == most) | ((*some | most) == UINT8_MAX)", "(*some & most) == most"),
+    ("fast/time/refusals.h", "((*some & most) == most) | ((*some | most) == UINT8_MAX)", "(*some | most) == UINT8_MAX"),
+    ("engine/run.c", "    run->engine->tell(run->chip);", "    (void)run;"),
     ("fast/time/issue.h", "trax_fast_tell_steps(tm, number, last + 1, tp->resume_pc);",
      "trax_fast_tell_steps(tm, number, last, tp->resume_pc);"),
     # --- Output ---
