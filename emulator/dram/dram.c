@@ -275,19 +275,16 @@ uint64_t trax_dram_idle_from(const struct trax_dram *dram, uint32_t number) {
   return cycle_from(dram, dram->channel[number].free_from);
 }
 
-uint64_t trax_dram_most_ticks(const struct trax_dram *dram) {
+/* --- states read from files --- */
+
+/* A bound of the ticks that a request takes, if requests are served one after the other. */
+static uint64_t most_ticks(const struct trax_dram *dram) {
   const struct trax_config *config = dram->config;
   const uint64_t commands = (uint64_t)config->dram.trcd + config->dram.trp + config->dram.tcl + config->dram.tcwl +
                             config->dram.tras + config->dram.trrd + config->dram.tfaw + config->dram.twtr +
                             config->dram.twr + config->dram.trtp + config->dram.tturn + config->dram.trfc;
   return 2 * (commands + (uint64_t)(config->dram.row_bytes / dram->burst_bytes + 1) * dram->burst);
 }
-
-uint64_t trax_dram_cycles(const struct trax_dram *dram, uint64_t ticks) {
-  return cycle_from(dram, ticks);
-}
-
-/* --- states read from files --- */
 
 static bool check_queue(const struct trax_dram *dram, const struct trax_dram_channel *channel,
                         enum trax_dram_queue queue, uint64_t now) {
@@ -307,7 +304,7 @@ bool trax_dram_check(const struct trax_dram *dram, uint32_t number, uint64_t t, 
   const struct trax_config *config = dram->config;
   if (t >= (uint64_t)1 << 44)
     return false;
-  const uint64_t last = first_tick(dram, t) + requests * trax_dram_most_ticks(dram);
+  const uint64_t last = first_tick(dram, t) + requests * most_ticks(dram);
   bool good = check_queue(dram, channel, TRAX_DRAM_READ, first_tick(dram, t)) &&
               check_queue(dram, channel, TRAX_DRAM_WRITE, first_tick(dram, t)) && channel->free_from <= last &&
               channel->last_rank < config->dram.ranks && channel->last_queue < TRAX_DRAM_QUEUES &&

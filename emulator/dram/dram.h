@@ -100,10 +100,6 @@ bool trax_dram_serve(struct trax_dram *dram, uint32_t channel, uint64_t t, struc
 uint64_t trax_dram_next_cycle(const struct trax_dram *dram, uint32_t channel);
 /* The first cycle in which the channel's bus is idle. */
 uint64_t trax_dram_idle_from(const struct trax_dram *dram, uint32_t channel);
-/* A bound of the ticks that a request takes, if requests are served one after the other. */
-uint64_t trax_dram_most_ticks(const struct trax_dram *dram);
-/* The cycles of so many ticks, rounded up. */
-uint64_t trax_dram_cycles(const struct trax_dram *dram, uint64_t ticks);
 
 /* Whether the channel's state, read from a file, is one that at most so many requests can have led to by cycle t, as
    far as safety depends on it. The ids are not checked. */

@@ -37,7 +37,7 @@ static size_t mutate(uint8_t *bytes, size_t size, size_t capacity, unsigned seed
                                  : LLVMFuzzerMutate(bytes, size, capacity);
 }
 
-/* Runs a chain of mutants, each made of the one before it. Every third is that one crossed with the case. */
+/* Runs mutants of the case. Every third is the one before it crossed with the case. */
 static void run_mutants(const uint8_t *bytes, size_t size) {
   const size_t capacity = size + MORE;
   uint8_t *mutant = malloc(capacity + GUARD), *before = malloc(capacity);
@@ -49,9 +49,10 @@ static void run_mutants(const uint8_t *bytes, size_t size) {
   for (unsigned seed = 1; seed <= MUTANTS; seed++) {
     random_bytes.state = seed;
     memcpy(before, mutant, now);
+    memcpy(mutant, bytes, size);
     now = LLVMFuzzerCustomCrossOver && seed % 3 == 0
               ? LLVMFuzzerCustomCrossOver(bytes, size, before, now, mutant, capacity, seed)
-              : mutate(mutant, now, capacity, seed);
+              : mutate(mutant, size, capacity, seed);
     for (size_t i = 0; i < GUARD; i++)
       if (now > capacity || mutant[capacity + i] != GUARD_BYTE) {
         fprintf(stderr, "mutant %u has left its %zu bytes\n", seed, capacity);

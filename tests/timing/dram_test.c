@@ -1,5 +1,5 @@
-/* docs/timing-memory.md, "DRAM", without an engine: commands computed by hand, every command of random requests against the
-   rules, and rates against formulas and the figures of data sheets. */
+/* docs/timing-memory.md, "DRAM", without an engine: commands computed by hand, every command of random requests against
+   the rules, and rates against formulas and the figures of data sheets. */
 #include "bench.h"
 
 #include "dram/dram.h"
@@ -211,6 +211,16 @@ static void test_ticks_and_cycles(void **state) {
   assert_int_equal(one->served.commands.over, 37);
   assert_int_equal(one->served.over, 24); /* 23.125 */
   assert_int_equal(trax_dram_idle_from(one->dram, 0), 24);
+  assert_true(trax_dram_check(one->dram, 0, one->t, 1));
+  end(one);
+  one = begin(&config); /* so late that ticks times cycles have more than 64 bits */
+  one->t = UINT64_C(5) << 59;
+  bring(one, TRAX_DRAM_READ, 1, 0);
+  assert_true(trax_dram_serve(one->dram, 0, one->t, &one->served));
+  assert_true(one->served.commands.activate == UINT64_C(8) << 59);
+  assert_true(one->served.commands.over == (UINT64_C(8) << 59) + 35);
+  assert_true(one->served.over == one->t + 22);           /* 21.875 */
+  assert_false(trax_dram_check(one->dram, 0, one->t, 1)); /* in a checkpoint, no cycle is that late */
   end(one);
 }
 
