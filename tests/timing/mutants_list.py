@@ -1,4 +1,4 @@
-"""File below emulator/, what stands there once, what the mutant has instead."""
+"""File below emulator/, what stands there once, what the mutant has instead; of some, the test that is tried first."""
 
 MUTANTS = [
     # --- Words ---
@@ -118,7 +118,7 @@ MUTANTS = [
      "} else if (l2->misses >= chip->config->l2.mshrs - 1) {"),
     ("reference/l2.c", "  if (trax_ref_lines_use(&chip->l2.lines, line)) /* updated in place */",
      "  if (trax_ref_lines_have(&chip->l2.lines, line)) /* updated in place */"),
-    ("reference/l2.c", "miss->channel < first->channel ||", "miss->channel > first->channel ||"),
+    ("reference/l2.c", "miss->channel < first->channel ||", "miss->channel > first->channel ||", "timing-engines-test"),
     ("reference/l2.c", "address / config->l2.line_bytes % config->l2.banks", "address / 64 % config->l2.banks"),
     ("reference/lines.c", "if (places[way].used < places[least].used)", "if (places[way].used > places[least].used)"),
     ("reference/lines.c", "  if (found)\n    found->used = ++lines->uses;\n", ""),
@@ -134,7 +134,8 @@ MUTANTS = [
      "const trax_fast_pair among = (preferred & ~have) | requesters;"),
     ("fast/time/grant.h", "trax_arbiter_grant(&unit->arbiter[group], all, kind->per_group)",
      "trax_arbiter_grant(&unit->arbiter[group], all, 1)"),
-    ("fast/time/alone.c", "    trax_arbiter_to_back(&unit->arbiter[group], number);", "    (void)unit;"),
+    ("fast/time/alone.c", "    trax_arbiter_to_back(&unit->arbiter[group], number);", "    (void)unit;",
+     "timing-engines-test"),
     # --- steps 1 and 2 ---
     ("fast/time/cycle.c", "return (woken & tm->holding) | recheck;", "return (woken & tm->holding) | (recheck & 0);"),
     ("fast/time/cycle.c",
@@ -147,15 +148,15 @@ MUTANTS = [
     ("fast/time/grant.h", "tm->load_hits & ~tm->executes_at_issue & ~", "tm->load_hits & ~"),
     ("fast/time/grant.h", " & ~(tm->storing & *slow);", ";"),
     # Banks one after the other: of many data banks, and of instruction caches of any shape.
-    ("fast/time/grant.h", "here & *rr_mask ? here & *rr_mask : here,", "here,"),
-    ("fast/time/grant.h", "*rr_mask = -2 * winner;", "(void)rr_mask;"),
+    ("fast/time/grant.h", "here & *rr_mask ? here & *rr_mask : here,", "here,", "timing-engines-test"),
+    ("fast/time/grant.h", "*rr_mask = -2 * winner;", "(void)rr_mask;", "timing-engines-test"),
     ("fast/time/cycle.c", "rest & trax_group_mask(icache, config->icache.tps_per_cache), ", "rest, "),
     ("fast/time/cycle.c", "config->icache.ports_per_bank);", "1);"),
     ("fast/time/grant.h", "if (!tm->serial_hits)", "if (1)"),
     # Whether the next load's line is resident: after arrivals, evictions and fences.
     ("fast/time/cycle.c", "      trax_fast_find_line(tm, tp);", "      (void)tm;"),
     ("fast/time/cycle.c", "^ line) & tags->set_mask))", "^ line)))"),
-    ("fast/tm/tp.c", "    tm->load_hits = 0;", "    (void)tm;"),
+    ("fast/tm/tp.c", "    tm->load_hits = 0;", "    (void)tm;", "timing-engines-test"),
     # --- step 5 and the heads ---
     ("fast/time/issue.h", "if (latency > 1) {", "if (latency > 2) {"),
     ("fast/time/issue.h", "tp->atomics |= (uint64_t)1 << inst->rd;", "tp->atomics |= (uint64_t)1 << inst->ra;"),
@@ -383,8 +384,9 @@ MUTANTS = [
     # Which instruction a step is.
     ("fast/function/burst.c", "program->number + index,", "program->number + index + (at > 90),"),
     # Steps are near the first one.
-    ("fast/function/burst_steps.h", "if (index - first + TRAX_REACH > 2 * TRAX_REACH)", "if (0 && first)"),
-    ("translate/burst.c", "if (t->count > TRAX_REACH)", "if (0)"),
+    ("fast/function/burst_steps.h", "if (index - first + TRAX_REACH > 2 * TRAX_REACH)", "if (0 && first)",
+     "timing-translated-test"),
+    ("translate/burst.c", "if (t->count > TRAX_REACH)", "if (0)", "timing-translated-test"),
     # Round robin of units by bytes.
     ("fast/time/masks.h", "TRAX_FAST_ARBITRATE(groups, (groups *)&units->rr_masks, (groups)requesters, &winners);",
      "trax_fast_pair all = {-1, -1};\n    TRAX_FAST_ARBITRATE(groups, (groups *)&all, (groups)requesters, &winners);"),
@@ -407,7 +409,8 @@ MUTANTS = [
     ("fast/function/burst.c", "!((tp->burst.access[i].address ^ address) & ~3u)",
      "tp->burst.access[i].address == address"),
     ("fast/function/burst.c", "  if (!tp->again) {", "  if (true) {"),
-    ("fast/function/burst.c", "tm->watched[number] = tp->stored = 0;", "tm->watched[number] = 0;"),
+    ("fast/function/burst.c", "tm->watched[number] = tp->stored = 0;", "tm->watched[number] = 0;",
+     "timing-translated-test"),
     ("fast/function/blocks.c", "    roll_back_word_readers(tm, address, bit);\n", ""),
     ("fast/function/blocks.c", "i < chip->tms; i++)\n    roll_back_word_readers",
      "i < 1; i++)\n    roll_back_word_readers"),
@@ -421,7 +424,7 @@ MUTANTS = [
     ("fast/function/blocks.c", "memcpy(tp->local + (undo->address - TRAX_LOCAL_BASE), &undo->word",
      "memcpy(&tp->begin_reg[TRAX_NO_REGISTER], &undo->word"),
     # Records of translated bursts.
-    ("translate/burst.c", "  run->burst->undo_begin = TRAX_BURST + 1;\n", ""),
+    ("translate/burst.c", "  run->burst->undo_begin = TRAX_BURST + 1;\n", "", "timing-translated-test"),
     ("translate/burst.c", "(uint32_t)(TRAX_BURST - count)", "(uint32_t)(TRAX_BURST + 32 - count)"),
     ("translate/burst.c", "lines |= (uint64_t)1 << t->bursts->line[i] % 64;", "lines |= 1;"),
     ("translate/burst.c", "  if (t->bursts->slow_jump) {", "  if (t->bursts->slow_jump > 1) {"),
@@ -551,8 +554,9 @@ MUTANTS = [
     ("fast/memory/memory.c", "channel->unit_free_from = over + memory->unit_interval;",
      "channel->unit_free_from = over;"),
     ("fast/memory/create.c", "return 1 + config->memory.latency_cycles;", "return 2 + config->memory.latency_cycles;"),
-    ("dram/dram.c", "dram->channel, config->memory.channels);", "dram->channel, 0);"),
-    ("dram/dram.c", "channel->bank, config->dram.ranks * config->dram.banks);", "channel->bank, 0);"),
+    ("dram/dram.c", "dram->channel, config->memory.channels);", "dram->channel, 0);", "timing-state-test"),
+    ("dram/dram.c", "channel->bank, config->dram.ranks * config->dram.banks);", "channel->bank, 0);",
+     "timing-state-test"),
     ("reference/dram.c", "return (request && request->kind == ATOMIC) ||", "return"),
     ("reference/controller.c", "done + chip->config->memory.atomic_interval_cycles;", "done;"),
     # --- Line fills ---

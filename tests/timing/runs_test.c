@@ -374,6 +374,30 @@ static void a_byte_before_its_word(void **state) {
   expect_as_reference(&config, program, sizeof program / 4);
 }
 
+/* A TP's burst has loaded a word ahead when the other TP has it written: by the host, which answers a call there, or by
+   a store to what the host has filled (compare.c). */
+static void a_write_behind_a_load_ahead(void **state) {
+  (void)state;
+  struct trax_config config = bench_near(1, 2);
+  config.icache.ports_per_bank = 64;
+  for (int filled = 0; filled < 2; filled++) {
+    const int32_t place = filled ? DATA_BYTES / 4 : 0;
+    uint32_t words[33] = {U(LUI, 1, 1),
+                          U(RDSR, 2, TRAX_SR_THREAD),
+                          B(BNE, 2, 0, 16),
+                          NOP,
+                          filled ? S(SW, 1, 1, place) : T(1, TRAX_TRAP_HOST),
+                          HALT};
+    size_t count = 6;
+    while (count < 30)
+      words[count++] = NOP;
+    words[count++] = I(LW, 5, 1, place);
+    words[count++] = S(SW, 5, 1, 64);
+    words[count++] = HALT;
+    expect_as_reference(&config, words, count);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(branch_bubbles),
@@ -387,6 +411,7 @@ int main(void) {
       cmocka_unit_test(latencies_of_one_tp),
       cmocka_unit_test(a_store_that_faults),
       cmocka_unit_test(a_stop_behind_stores),
+      cmocka_unit_test(a_write_behind_a_load_ahead),
       cmocka_unit_test(a_byte_before_its_word),
       cmocka_unit_test(a_bank_after_one_was_awake),
       cmocka_unit_test(an_adder_after_one_was_awake),
