@@ -76,8 +76,9 @@ static ALWAYS_INLINE void trax_fast_count_bytes(uint8_t *bytes, const bool wide,
       low &= (none + (LANE)plane[k]) ^ (lanes)((number & (LANE)1 << k) == 0);                                          \
     _Pragma("GCC unroll 8") for (unsigned first = 0; first < MOST_BANKS; first += BANKS) {                             \
       LANE high = ~(LANE)0;                                                                                            \
-      _Pragma("GCC unroll 4") for (unsigned k = 0; 1u << k < MOST_BANKS; k++) high &=                                  \
-          1u << k < BANKS ? ~(LANE)0 : (LANE)(first >> k & 1 ? plane[k] : ~plane[k]);                                  \
+      _Pragma("GCC unroll 4") for (unsigned k = 0; 1u << k < MOST_BANKS; k++) {                                        \
+        high &= 1u << k < BANKS ? ~(LANE)0 : (LANE)(first >> k & 1 ? plane[k] : ~plane[k]);                            \
+      }                                                                                                                \
       const lanes requesting = low & (none + high);                                                                    \
       arbiters winners;                                                                                                \
       TRAX_FAST_ARBITRATE(arbiters, (arbiters *)rr_masks + first / BANKS, (arbiters)requesting, &winners);             \
