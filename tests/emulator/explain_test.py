@@ -302,8 +302,23 @@ def check_perfetto(directory, begin, end, tms=2):
     return causes
 
 
+def check_host_threads(directory):
+    """The same bytes from any number of the host's threads, which share the passages of four TMs, as from the other
+    engine, which tells of each issue."""
+    files = ["explore", "profile", "heat", "heat-lines", "waits", "items"]
+    chip = ["--config", "4x32", "--item-buffer", "results"]
+    run(directory / "apart", "reference", *chip, files=files)
+    for threads in (1, 2, 3, 8):
+        for _ in range(3):
+            run(directory / "shared", "fast", *chip, "--host-threads", str(threads), files=files)
+            for name in files:
+                equal(read(directory / "shared", name), read(directory / "apart", name), name, "of", threads,
+                      "threads of the host")
+
+
 def main():
     directory = pathlib.Path(tempfile.mkdtemp())
+    check_host_threads(directory)
     machine = ["--config", "2x32", "--set", "chip.tps_per_tm=8", "--set", "tp.branch_bubble_cycles=1",
                "--set", "memory.queue_depth=4"]
     whole = ["--item-buffer", "results", "--series-interval", "500"]
