@@ -159,11 +159,9 @@ static bool store_past_cache(struct trax_tm *tm, unsigned number) {
   const uint32_t begin = tp->address, end = begin + tp->inst->bytes;
   if (!tm->config->memory.write_combining)
     return request_write(tm, number, begin, end);
-  if (trax_tp_combines(tp, begin, tp->inst->bytes)) {
+  if (trax_tp_combine(tp, begin, tp->inst->bytes)) {
     tm->stats->combined_stores++;
     tp->outcome = TRAX_OUTCOME_COMBINED;
-    tp->run_begin = begin < tp->run_begin ? begin : tp->run_begin;
-    tp->run_end = end > tp->run_end ? end : tp->run_end;
     return true;
   }
   if (!write_run(tm, number))

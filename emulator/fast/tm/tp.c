@@ -9,8 +9,6 @@
 
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "guest words are copied as host words");
 
-#define COMBINING_BLOCK 64u
-
 trax_cause trax_tp_wait(const struct trax_tp *tp, uint64_t t, uint64_t *until, unsigned *rd) {
   const struct {
     unsigned first, count;
@@ -29,36 +27,23 @@ trax_cause trax_tp_wait(const struct trax_tp *tp, uint64_t t, uint64_t *until, u
   return TRAX_CAUSE_ISSUED;
 }
 
-bool trax_tp_combines(const struct trax_tp *tp, uint32_t address, uint32_t bytes) {
-  return tp->run_begin != tp->run_end && address / COMBINING_BLOCK == tp->run_begin / COMBINING_BLOCK &&
-         address <= tp->run_end && address + bytes >= tp->run_begin;
-}
-
 /* --- effects: addresses have been checked --- */
 
 static uint8_t *place(struct trax_tm *tm, struct trax_tp *tp, uint32_t address) {
   return address >= TRAX_LOCAL_BASE ? tp->local + (address - TRAX_LOCAL_BASE) : tm->machine->space.bytes + address;
 }
 
-uint32_t trax_tm_load(const struct trax_tm *tm, uint32_t address, unsigned bytes) {
-  uint32_t value = 0;
-  if (tm->buffer)
-    return trax_store_buffer_load(tm->buffer, &tm->machine->space, address, bytes);
-  memcpy(&value, tm->machine->space.bytes + address, bytes);
-  return value;
-}
-
 static uint32_t load(struct trax_tm *tm, struct trax_tp *tp, uint32_t address, unsigned bytes) {
   uint32_t value = 0;
-  if (address < TRAX_LOCAL_BASE)
-    return trax_tm_load(tm, address, bytes);
+  if (tm->buffer && address < TRAX_LOCAL_BASE)
+    return trax_store_buffer_load(tm->buffer, &tm->machine->space, address, bytes);
   memcpy(&value, place(tm, tp, address), bytes);
   return value;
 }
 
 static void store(struct trax_tm *tm, struct trax_tp *tp, uint32_t address, uint32_t value, unsigned bytes) {
   if (tm->buffer && address < TRAX_LOCAL_BASE)
-    trax_store_buffer_store(tm->buffer, tm->now, address, value, bytes);
+    trax_fast_store_in_epoch(&tm->chip->blocks, tm->buffer, tm->now, address, value, bytes);
   else
     memcpy(place(tm, tp, address), &value, bytes);
 }
