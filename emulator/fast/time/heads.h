@@ -36,13 +36,15 @@ struct trax_fast_heads {
   uint32_t begin[64];   /* the index of the TP's first step in `steps`; of TPs that do not exist, TP 0's */
   _Alignas(64) uint64_t next[TRAX_FAST_ROWS][8];
   uint32_t row_begin[TRAX_FAST_ROWS][8]; /* begin, in the order of the lanes */
+  uint8_t lane[64];                      /* of each TP, in `next` */
   uint32_t moves;                        /* number of calls of trax_fast_move_on; every fourth one fills `next` */
   const uint16_t *steps; /* of all TPs; the step of a head that executes at issue is complete after classify */
 };
 
 static inline void trax_fast_begin_heads(struct trax_fast_heads *heads, unsigned tp, uint32_t begin) {
   heads->begin[tp] = begin;
-  heads->row_begin[tp / 32 * 4 + tp % 4][tp % 32 / 4] = begin;
+  heads->lane[tp] = (uint8_t)((tp / 32 * 4 + tp % 4) * 8 + tp % 32 / 4);
+  heads->row_begin[heads->lane[tp] / 8][heads->lane[tp] % 8] = begin;
 }
 
 /* Makes the TP's step `at` its head. */
@@ -51,7 +53,7 @@ static inline void trax_fast_set_head(struct trax_fast_heads *heads, unsigned tp
   heads->at[tp] = (uint8_t)at;
   heads->low[tp] = (uint8_t)*step;
   heads->high[tp] = (uint8_t)(*step >> 8);
-  memcpy(&heads->next[tp / 32 * 4 + tp % 4][tp % 32 / 4], step, sizeof **heads->next);
+  memcpy(&heads->next[heads->lane[tp] / 8][heads->lane[tp] % 8], step, sizeof **heads->next);
 }
 
 #ifdef __AVX2__
