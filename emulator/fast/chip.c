@@ -203,13 +203,26 @@ static uint32_t queued(const void *context, uint32_t tm, uint64_t t) {
 /* --- the engines --- */
 
 #define ENGINE(NAME, MEANING)                                                                                          \
-  {                                                                                                                    \
-    .name = NAME, .meaning = MEANING, .is_timed = true, .is_observed = true, .counts_rays = true, .create = create,    \
-    .destroy = trax_chip_destroy, .advance = advance, .commit = commit, .collect = trax_fast_collect,                  \
-    .settle = settle, .tell = tell, .export_state = trax_fast_roll_back, .import_state = import_state,                 \
-    .thread = thread, .set_pc = set_pc, .progressed = progressed, .queued = queued, .visit = trax_state_visit,         \
-    .check = trax_state_check                                                                                          \
-  }
+  {.name = NAME,                                                                                                       \
+   .meaning = MEANING,                                                                                                 \
+   .is_timed = true,                                                                                                   \
+   .is_observed = true,                                                                                                \
+   .counts_rays = true,                                                                                                \
+   .create = create,                                                                                                   \
+   .destroy = trax_chip_destroy,                                                                                       \
+   .advance = advance,                                                                                                 \
+   .commit = commit,                                                                                                   \
+   .collect = trax_fast_collect,                                                                                       \
+   .settle = settle,                                                                                                   \
+   .tell = tell,                                                                                                       \
+   .export_state = trax_fast_roll_back,                                                                                \
+   .import_state = import_state,                                                                                       \
+   .thread = thread,                                                                                                   \
+   .set_pc = set_pc,                                                                                                   \
+   .progressed = progressed,                                                                                           \
+   .queued = queued,                                                                                                   \
+   .visit = trax_state_visit,                                                                                          \
+   .check = trax_state_check}
 
 const struct trax_engine trax_fast_engine = ENGINE("fast", "the default, for what the host has");
 const struct trax_engine trax_fast_any_engine = ENGINE("fast-any", "the same for any host of the family");

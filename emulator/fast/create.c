@@ -90,8 +90,11 @@ static trax_status create_tm(struct trax_tm *tm, uint32_t number, struct trax_ch
   tm->awake = trax_group_mask(0, tps);
   tm->running = tps;
   tm->heads.steps = tm->tp->burst.step;
-  for (unsigned i = 0; i < TRAX_MAX_TPS_PER_TM; i++) /* TPs that do not exist have TP 0's steps: vectors read them */
-    tm->heads.begin[i / 32 * 4 + i % 4][i % 32 / 4] = i < tps ? i * (uint32_t)(sizeof *tm->tp / sizeof(uint16_t)) : 0;
+  for (unsigned i = 0; i < TRAX_MAX_TPS_PER_TM; i++) { /* TPs that do not exist have TP 0's steps: vectors read them */
+    const unsigned row = i / 32 * 4 + i % 4, column = i % 32 / 4;
+    tm->heads.lane[i] = (uint8_t)(8 * row + column);
+    tm->heads.begin[row][column] = i < tps ? i * (uint32_t)(sizeof *tm->tp / sizeof(uint16_t)) : 0;
+  }
   for (unsigned i = 0; i < tps; i++) {
     struct trax_tp *tp = &tm->tp[i];
     tp->pc = tp->resume_pc = trax_machine_entry_of(machine, number * tps + i);

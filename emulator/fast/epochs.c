@@ -16,7 +16,7 @@ enum {
   LEAST_SPAN = 512,             /* cycles up to a stop, for which a snapshot pays in observed runs, which stop often */
   FIRST_SNAPSHOT_INTERVAL = 64, /* in latencies; doubles with each snapshot until a roll back */
   LONGEST_SNAPSHOT_INTERVAL = 1024,
-  MOST_UNDO = 1 << 18,     /* words written to global memory after which a snapshot is taken in any case */
+  MOST_UNDO = 1 << 16,     /* lines written to global memory after which a snapshot is taken in any case */
   FIRST_PAUSE = 64,        /* cycles simulated one by one after the epoch of a conflict; doubles with each */
   LONGEST_PAUSE = 1 << 20, /* conflict until a snapshot */
 };
@@ -160,8 +160,10 @@ static bool run_epoch(struct trax_epochs *epochs, uint64_t t, uint64_t end) {
     quanta++;
   trax_merge_begin(&epochs->merge);
   trax_pool_run_rounds(epochs->pool, epochs->job, quanta, simulate, serve);
-  if (!trax_merge_has_failed(&epochs->merge))
+  if (!trax_merge_has_failed(&epochs->merge)) {
+    trax_merge_unite(&epochs->merge);
     run_pool(epochs, CHECK);
+  }
   return trax_merge_end(&epochs->merge);
 }
 

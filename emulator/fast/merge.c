@@ -2,7 +2,6 @@
 
 #include "fast/chip.h"
 #include "fast/store_buffer.h"
-#include "trax/grow.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -10,26 +9,22 @@
 /* The writer of a word: a TM, or one of these. */
 enum { BY_SEVERAL = TRAX_MAX_TMS, BY_CONTROLLER };
 
-enum { SLOTS = 4096 };
-
 struct trax_merge_undo {
-  uint32_t address, word; /* word: as written in the current epoch; when this is over, as it was before */
-  uint32_t writer;
-  uint32_t next; /* the number of the next one in its slot, + 1; 0: there is none */
+  uint32_t address;
+  uint8_t bytes[TRAX_WRITTEN_BYTES];
 };
 
 bool trax_merge_create(struct trax_merge *merge, struct trax_chip *chip) {
   merge->chip = chip;
   merge->buffers = calloc(chip->tms, sizeof *merge->buffers);
-  merge->slots = calloc(SLOTS, sizeof *merge->slots);
-  return merge->buffers && merge->slots;
+  return merge->buffers;
 }
 
 void trax_merge_destroy(struct trax_merge *merge) {
   for (uint32_t i = 0; merge->buffers && i < merge->chip->tms; i++)
     trax_store_buffer_destroy(&merge->buffers[i]);
   free(merge->buffers);
-  free(merge->slots);
+  free(merge->written.lines);
   free(merge->order.cycles);
   free(merge->printed);
   free(merge->increments);
@@ -73,35 +68,12 @@ static inline uint64_t next_of(struct trax_merge_order *order) {
 
 /* --- writes --- */
 
-static inline uint32_t *slot_of(const struct trax_merge *merge, uint32_t address) {
-  return &merge->slots[(address >> 2) * 0x9E3779B1u / (UINT32_MAX / SLOTS + 1)];
-}
-
-/* Returns what is known of a word that was written in this epoch. NULL: it was not. */
-static inline struct trax_merge_undo *find_written(const struct trax_merge *merge, uint32_t address) {
-  struct trax_merge_undo *undo = NULL;
-  for (uint32_t i = *slot_of(merge, address); i; i = undo->next)
-    if ((undo = &merge->undo[i - 1])->address == address)
-      return undo;
-  return NULL;
-}
-
-/* Returns the word of the write set, which a TM or the controller is about to write. NULL: out of memory. */
-static struct trax_merge_undo *record_writer(struct trax_merge *merge, uint32_t address, uint32_t tm) {
-  struct trax_merge_undo *undo = find_written(merge, address &= ~3u);
-  if (undo) {
-    if (undo->writer != tm)
-      undo->writer = BY_SEVERAL;
-    return undo;
-  }
-  if (!trax_grow((void **)&merge->undo, merge->undo_count, &merge->undo_capacity, sizeof *merge->undo))
-    return NULL;
-  uint32_t *const slot = slot_of(merge, address);
-  undo = &merge->undo[merge->undo_count++];
-  *undo = (struct trax_merge_undo){.address = address, .writer = tm, .next = *slot};
-  memcpy(&undo->word, merge->chip->machine->space.bytes + address, sizeof undo->word);
-  *slot = (uint32_t)merge->undo_count;
-  return undo;
+/* Notes who writes some bytes of a line of the write set. */
+static void note_writer(struct trax_written_line *line, uint32_t bits, uint32_t writer) {
+  for (unsigned word = 0; bits; word++, bits >>= 4)
+    if (bits & 15)
+      line->writer[word] =
+          (uint8_t)(line->written >> 4 * word & 15 && line->writer[word] != writer ? BY_SEVERAL : writer);
 }
 
 static bool hold_character(struct trax_merge *merge, uint32_t character) {
@@ -126,10 +98,12 @@ static bool perform(struct trax_merge *merge, const struct trax_store_buffer_ent
     return hold_character(merge, write->value);
   if (write->bytes == TRAX_INCREMENT)
     return record_issue(merge, write->address);
-  struct trax_merge_undo *const written = record_writer(merge, write->address, tm);
-  if (written)
-    memcpy((uint8_t *)&written->word + (write->address & 3), &write->value, write->bytes);
-  return written;
+  struct trax_written_line *const line = trax_written_put(&merge->written, write->address / TRAX_WRITTEN_BYTES);
+  if (!line)
+    return false;
+  note_writer(line, trax_written_bits(write->address, write->bytes), tm);
+  trax_written_store(line, write->address, write->value, write->bytes);
+  return true;
 }
 
 /* Submits the requests of cycle t and performs its stores, up to which all are done. */
@@ -155,10 +129,15 @@ static bool take_cycle(struct trax_merge *merge, unsigned side, uint64_t t) {
 /* An increment by the controller. */
 static uint32_t increment(void *context, uint32_t address) {
   struct trax_merge *merge = context;
-  struct trax_merge_undo *const written = record_writer(merge, address, BY_CONTROLLER);
-  if (!written)
+  struct trax_written_line *const line = trax_written_put(&merge->written, address / TRAX_WRITTEN_BYTES);
+  if (!line) {
     give_up(merge);
-  return written ? written->word++ : 0;
+    return 0;
+  }
+  const uint32_t word = trax_written_load(line, &merge->chip->machine->space, address, sizeof word);
+  note_writer(line, trax_written_bits(address, sizeof word), BY_CONTROLLER);
+  trax_written_store(line, address, word + 1, sizeof word);
+  return word;
 }
 
 void trax_merge_quantum(struct trax_merge *merge, unsigned side, uint64_t t, uint64_t end) {
@@ -196,23 +175,72 @@ void trax_merge_take(struct trax_merge *merge, struct trax_tm *tm) {
   tm->buffer = NULL;
 }
 
+/* Makes the blocks with these bytes of a line SHARED, so that the next epoch has no such conflict. */
+static void give_up_line(struct trax_merge *merge, uint32_t number, uint32_t bits) {
+  for (; bits; bits &= bits - 1)
+    trax_fast_share(&merge->chip->blocks, number * TRAX_WRITTEN_BYTES + trax_first(bits));
+  give_up(merge);
+}
+
+/* Whether it matters if bytes of the write set were written before or after a TM's. */
+static bool is_ordered(const struct trax_written_line *line, const struct trax_written_line *own, uint32_t bits) {
+  for (; bits; bits &= bits - 1)
+    if (line->bytes[trax_first(bits)] != own->bytes[trax_first(bits)] ||
+        line->writer[trax_first(bits) / 4] == BY_CONTROLLER)
+      return true;
+  return false;
+}
+
+/* Adds a line of a TM's stores to the write set, but for those to SHARED blocks, which are there. */
+static void unite(struct trax_merge *merge, const struct trax_written_line *own, uint32_t tm) {
+  uint32_t bits = own->written;
+  for (uint32_t at = 0; at < TRAX_WRITTEN_BYTES; at += TRAX_BLOCK)
+    if (trax_fast_is_shared(&merge->chip->blocks, own->number * TRAX_WRITTEN_BYTES + at))
+      bits &= ~(TRAX_WRITTEN_BLOCK << at);
+  struct trax_written_line *const line = bits ? trax_written_put(&merge->written, own->number) : NULL;
+  if (!line || is_ordered(line, own, line->written & bits)) {
+    if (bits)
+      give_up_line(merge, own->number, line ? line->written & bits : 0);
+    return;
+  }
+  note_writer(line, bits, tm);
+  trax_written_copy(line->bytes, own->bytes, bits);
+  line->written |= bits;
+}
+
+void trax_merge_unite(struct trax_merge *merge) {
+  for (uint32_t tm = 0; tm < merge->chip->tms; tm++)
+    for (size_t i = 0; i < merge->buffers[tm].written.count && !merge->failed; i++)
+      unite(merge, &merge->buffers[tm].written.lines[i], tm);
+}
+
+/* Returns those of the bytes of a line that others than a TM have written, word by word. */
+static uint32_t written_by_others(const struct trax_written_line *line, uint32_t bits, uint32_t tm) {
+  bits &= line->written;
+  for (unsigned word = 0; word < TRAX_WRITTEN_BYTES / 4; word++)
+    if (line->writer[word] == tm)
+      bits &= ~(15u << 4 * word);
+  return bits;
+}
+
 void trax_merge_check(struct trax_merge *merge, struct trax_tm *tm) {
   struct trax_chip *const chip = merge->chip;
-  const struct trax_store_buffer *const buffer = &merge->buffers[tm->number];
-  const size_t count = merge->undo_count - merge->epoch_undo;
+  const struct trax_written *const own = &merge->buffers[tm->number].written;
+  struct trax_written *const all = &merge->written;
   for (unsigned side = 0; side < TRAX_SIDES; side++)
     trax_tm_receive(tm, side);
-  for (size_t i = 0; count && i < buffer->read_count; i++) {
-    const struct trax_merge_undo *written = find_written(merge, buffer->reads[i]);
-    if (written && written->writer != tm->number) {
-      trax_fast_share(&chip->blocks, buffer->reads[i]);
-      give_up(merge);
-    }
+  for (size_t i = 0; all->count && i < own->count; i++) {
+    const struct trax_written_line *line = own->lines[i].read ? trax_written_find(all, own->lines[i].number) : NULL;
+    const uint32_t bits = line ? written_by_others(line, own->lines[i].read, tm->number) : 0;
+    if (bits)
+      give_up_line(merge, line->number, bits);
   }
-  const size_t end = merge->epoch_undo + count * (tm->number + 1) / chip->tms;
-  for (size_t i = merge->epoch_undo + count * tm->number / chip->tms; i < end; i++)
-    if (merge->undo[i].writer != BY_CONTROLLER && trax_fast_is_loaded(&chip->blocks, merge->undo[i].address))
-      give_up(merge);
+  const size_t end = all->count * (tm->number + 1) / chip->tms;
+  for (size_t i = all->count * tm->number / chip->tms; i < end; i++)
+    for (uint32_t at = 0; at < TRAX_WRITTEN_BYTES; at += TRAX_BLOCK)
+      if (all->lines[i].written >> at & TRAX_WRITTEN_BLOCK &&
+          trax_fast_is_loaded(&chip->blocks, all->lines[i].number * TRAX_WRITTEN_BYTES + at))
+        give_up(merge);
 }
 
 /* --- an epoch --- */
@@ -221,6 +249,7 @@ void trax_merge_begin(struct trax_merge *merge) {
   struct trax_chip *chip = merge->chip;
   merge->failed = false;
   merge->increment_count = 0;
+  trax_written_empty(&merge->written);
   chip->memory.increment = increment;
   chip->memory.context = merge;
 }
@@ -235,33 +264,30 @@ static bool share_incremented(struct trax_merge *merge) {
   return true;
 }
 
-/* The words of the write set take effect. */
-static void write_all(struct trax_merge *merge) {
+/* The write set takes effect. False: out of memory. */
+static bool write_all(struct trax_merge *merge) {
   struct trax_chip *const chip = merge->chip;
-  for (; merge->epoch_undo < merge->undo_count; merge->epoch_undo++) {
-    struct trax_merge_undo *const undo = &merge->undo[merge->epoch_undo];
-    const uint32_t word = undo->word;
-    memcpy(&undo->word, chip->machine->space.bytes + undo->address, sizeof word);
-    memcpy(chip->machine->space.bytes + undo->address, &word, sizeof word);
-    trax_fast_set_written(&chip->blocks, undo->address, TRAX_BLOCK_WRITTEN);
-    *slot_of(merge, undo->address) = 0;
+  const struct trax_written *const written = &merge->written;
+  if (!trax_grow_to((void **)&merge->undo, merge->undo_count + written->count, &merge->undo_capacity,
+                    sizeof *merge->undo))
+    return false;
+  for (size_t i = 0; i < written->count; i++) {
+    const struct trax_written_line *const line = &written->lines[i];
+    struct trax_merge_undo *const undo = &merge->undo[merge->undo_count++];
+    uint8_t *const bytes = chip->machine->space.bytes + (undo->address = line->number * TRAX_WRITTEN_BYTES);
+    memcpy(undo->bytes, bytes, sizeof undo->bytes);
+    trax_written_copy(bytes, line->bytes, line->written);
+    for (uint32_t at = 0; at < TRAX_WRITTEN_BYTES; at += TRAX_BLOCK)
+      if (line->written >> at & TRAX_WRITTEN_BLOCK)
+        trax_fast_set_written(&chip->blocks, undo->address + at, TRAX_BLOCK_WRITTEN);
   }
-}
-
-/* Forgets the write set. */
-static void forget_all(struct trax_merge *merge) {
-  while (merge->undo_count > merge->epoch_undo)
-    *slot_of(merge, merge->undo[--merge->undo_count].address) = 0;
+  return true;
 }
 
 bool trax_merge_end(struct trax_merge *merge) {
   struct trax_chip *chip = merge->chip;
   const bool goes_on = trax_chip_running(chip); /* the end of the run must be simulated cycle by cycle */
-  const bool good = !merge->failed && goes_on && share_incremented(merge);
-  if (good)
-    write_all(merge);
-  else
-    forget_all(merge);
+  const bool good = !merge->failed && goes_on && share_incremented(merge) && write_all(merge);
   chip->memory.increment = trax_fast_increment_outside;
   chip->memory.context = chip;
   chip->memory.side = 0;
@@ -271,7 +297,7 @@ bool trax_merge_end(struct trax_merge *merge) {
 void trax_merge_keep(struct trax_merge *merge) {
   if (merge->printed_count)
     trax_host_print(merge->chip->machine, merge->chip->tm->output, merge->printed, merge->printed_count);
-  merge->printed_count = merge->undo_count = merge->epoch_undo = 0;
+  merge->printed_count = merge->undo_count = 0;
   trax_transfer_log_release(&merge->chip->transfers);
 }
 
@@ -280,7 +306,6 @@ void trax_merge_roll_back(struct trax_merge *merge) {
   merge->printed_count = 0;
   while (merge->undo_count) {
     const struct trax_merge_undo *undo = &merge->undo[--merge->undo_count];
-    memcpy(merge->chip->machine->space.bytes + undo->address, &undo->word, sizeof undo->word);
+    memcpy(merge->chip->machine->space.bytes + undo->address, undo->bytes, sizeof undo->bytes);
   }
-  merge->epoch_undo = 0;
 }

@@ -1,9 +1,11 @@
 /* The merge of the TMs' store buffers in an epoch: the requests of a quantum come to the memory controller, in the
-   order of cycles and TMs, while TMs simulate the next quantum. So nothing here touches what they use: increments and
-   stores change the write set, whose words take effect at the end of the epoch. */
+   order of cycles and TMs, while TMs simulate the next quantum. So nothing here touches what they use: increments, and
+   in the same order stores to SHARED blocks, change the write set, which takes effect at the end of the epoch. Other
+   stores are added when all quanta are over: if their order matters, the epoch is given up. */
 #ifndef TRAX_FAST_MERGE_H
 #define TRAX_FAST_MERGE_H
 
+#include "fast/written.h"
 #include "machine/config.h"
 
 #include <stdbool.h>
@@ -29,11 +31,9 @@ struct trax_merge {
   size_t printed_count, printed_capacity;
   uint32_t *increments; /* [increment_count]: words whose increments were issued in the epoch, in blocks not SHARED */
   size_t increment_count, increment_capacity;
-  /* [undo_count]: words of global memory before they were written since the snapshot. Those from epoch_undo on are the
-     write set of the epoch, with the words as written: `slots` are a hash table of them. */
-  struct trax_merge_undo *undo;
-  size_t undo_count, undo_capacity, epoch_undo;
-  uint32_t *slots;
+  struct trax_written written;  /* the epoch's write set */
+  struct trax_merge_undo *undo; /* [undo_count]: lines of memory as they were before each epoch since the snapshot */
+  size_t undo_count, undo_capacity;
 };
 
 /* False: out of memory. It must be destroyed in either case. */
@@ -56,8 +56,10 @@ void trax_merge_take(struct trax_merge *merge, struct trax_tm *tm);
 /* Serves the requests of a quantum, the cycles from t to `end`, and merges its stores. */
 void trax_merge_quantum(struct trax_merge *merge, unsigned side, uint64_t t, uint64_t end);
 
-/* After all quanta: prepares the TM for the next epoch, and looks for conflicts of its reads, and of part `tm->number`
-   of the write set with the read set of the run. Threads may do so for several TMs at the same time. */
+/* After all quanta: completes the write set. */
+void trax_merge_unite(struct trax_merge *merge);
+/* Then: prepares the TM for the next epoch, and looks for conflicts of its reads, and of part `tm->number` of the write
+   set with the read set of the run. Threads may do so for several TMs at the same time. */
 void trax_merge_check(struct trax_merge *merge, struct trax_tm *tm);
 /* Ends an epoch: its stores take effect. False: it must be given up. */
 bool trax_merge_end(struct trax_merge *merge);

@@ -28,7 +28,7 @@ static void visit_icache(const struct trax_visitor *visitor, struct trax_icache 
 static void visit_dcache(const struct trax_visitor *visitor, struct trax_dcache *dcache, uint32_t tps) {
   TRAX_VISIT_WITHIN(trax_dcache, TRAX_DCACHE_STATE, dcache, 1);
   TRAX_VISIT_ALL(trax_mshr, TRAX_MSHR_STATE, dcache->mshr, dcache->mshr_limit);
-  TRAX_VISIT_NUMBERS(uint16_t, dcache->next_waiter, (size_t)tps * TRAX_NUM_REGISTERS);
+  TRAX_VISIT_NUMBERS(uint16_t, dcache->next_waiter, (size_t)tps *TRAX_NUM_REGISTERS);
   visit_tags(visitor, &dcache->tags);
 }
 

@@ -167,7 +167,7 @@ static void check_states(struct checker *checker, const struct trax_tm *tm) {
   const uint64_t all = trax_group_mask(0, tm->tps);
   uint64_t any = tm->awake, fetching = 0;
   bool good = !(tm->holding & ~all);
-#define ADD(MASK) (good &= !((MASK)&any), any |= (MASK))
+#define ADD(MASK) (good &= !((MASK) & any), any |= (MASK))
   ADD(tm->ended);
   ADD(tm->awaiting);
   for (unsigned slot = 0; slot < TRAX_WHEEL; slot++)

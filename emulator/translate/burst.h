@@ -15,7 +15,8 @@ enum {
 };
 
 /* The state of a block of global memory in the run (fast/function/blocks.h). */
-enum { TRAX_BLOCK_SHIFT = 4, TRAX_BLOCK_LOADED = 1, TRAX_BLOCK_WRITTEN, TRAX_BLOCK_SHARED, TRAX_BLOCK_HOLE };
+enum { TRAX_BLOCK_SHIFT = 4, TRAX_BLOCK = 1 << TRAX_BLOCK_SHIFT };
+enum { TRAX_BLOCK_LOADED = 1, TRAX_BLOCK_WRITTEN, TRAX_BLOCK_SHARED, TRAX_BLOCK_HOLE };
 
 enum { TRAX_STEP_BANK_SHIFT = 4 /* a data bank's place in a step */ };
 
@@ -40,10 +41,10 @@ struct trax_burst {
 
 /* The facts that translated bursts depend on. */
 struct trax_burst_facts {
-  const uint16_t *step;  /* [instruction]: its step, unless an address decides it */
-  const uint16_t *line;  /* [instruction]: the index of its line */
-  uint8_t *blocks;       /* the states of blocks */
-  uint32_t load_step;    /* is added to the step of a load of global memory, with the bits bank_mask of address * 4 */
+  const uint16_t *step; /* [instruction]: its step, unless an address decides it */
+  const uint16_t *line; /* [instruction]: the index of its line */
+  uint8_t *blocks;      /* the states of blocks */
+  uint32_t load_step;   /* is added to the step of a load of global memory, with the bits bank_mask of address * 4 */
   uint32_t bank_mask;
   uint32_t slow_local, slow_jump; /* are added to the steps of loads of local memory, and of taken jumps */
   bool end_at_calls;              /* bursts end before what trax_changes_stack */

@@ -42,6 +42,11 @@ typedef void action(struct program *program);
 static void store_word(struct program *program) {
   emit(program, S(SW, 4, 10, WORD));
 }
+/* What an increment makes of it, or another TM stores. */
+static void store_one(struct program *program) {
+  emit(program, I(ADDI, 4, 0, 1));
+  emit(program, S(SW, 4, 10, WORD));
+}
 static void store_past_cache(struct program *program) {
   emit(program, S(SWNT, 4, 10, WORD));
 }
@@ -75,6 +80,13 @@ static void store_and_load_word(struct program *program) {
   load_word(program);
   emit(program, I(LH, 6, 10, WORD + 2));
   emit(program, S(SW, 6, 11, 4));
+}
+/* The load is the last step of the burst, which the cycle counter ends, and beside the run that the store began. */
+static void store_and_load_beside(struct program *program) {
+  store_word(program);
+  emit(program, I(LW, 5, 10, WORD + 4));
+  emit(program, trax_encode((trax_inst){TRAX_OP_RDSR, 6, 0, 0, TRAX_SR_CYCLE}));
+  emit(program, S(SW, 5, 11, 0));
 }
 /* The second byte twice. */
 static void store_bytes_and_load_word(struct program *program) {
@@ -152,16 +164,20 @@ static const struct scenario scenarios[] = {
     {"a load past the cache of what a higher TM stores past it", true, {load_past_cache, store_past_cache}},
     {"a byte of the word that another TM stores", true, {store_word, load_second_byte}},
     {"two stores of one word", true, {store_word, store_word}},
+    {"the same store by two TMs", true, {store_one, store_one}},
+    {"the same store by two TMs, and another one", true, {store_one, store_one, store_word}},
     {"two stores of one word, and a load", true, {store_word, store_word, load_word}},
     {"bytes of a word by two TMs", true, {store_first_byte, store_second_byte}},
     {"bytes of a word by two TMs, one of which loads it", true, {store_byte_and_load_word, store_second_byte}},
     {"bytes of a word by two TMs, and a third one loads it", true, {store_first_byte, store_second_byte, load_word}},
     {"bytes of a word by one TM, which loads it", true, {store_bytes_and_load_word}},
     {"a TM's own store", true, {store_and_load_word, load_second_byte}},
+    {"a load beside a TM's own store, the last one of a burst", true, {store_and_load_beside}},
     {"a TM's own store of what nobody has stored", false, {store_and_load_word, NULL}},
     {"a load of what is incremented", true, {increment, load_word}},
     {"two increments, and a load", true, {increment, increment, load_past_cache}},
     {"a store of what is incremented", true, {store_word, increment}},
+    {"a store of what an increment makes of the word", true, {store_one, increment}},
     {"an increment of what a higher TM stores", true, {increment, store_word}},
     {"an increment of what has been loaded ahead", false, {increment, add_up}},
     {"a store of what has been loaded ahead", false, {add_up, store_word}},

@@ -146,7 +146,12 @@ MUTANTS = [
     # --- steps 3 and 4 ---
     ("fast/time/grant.h", "const unsigned pointer = tm->queue_arbiter % 64;", "const unsigned pointer = 0;"),
     ("fast/time/grant.h", "tm->load_hits & ~tm->executes_at_issue & ~", "tm->load_hits & ~"),
-    ("fast/time/grant.h", " & ~(tm->storing & *slow);", ";"),
+    ("fast/time/grant.h", "stores = won & tm->storing & *slow;", "stores = 0;"),
+    ("fast/time/grant.h", "trax_tp_stores(tp, tm->heads.load[number]) &&", "tp &&"),
+    ("fast/time/grant.h", "store_hits += count_bits(served & tm->load_hits)", "store_hits += count_bits(served)"),
+    ("fast/time/grant.h", "!(requesters & (requesters - 1)) && !unit->free_from", "!(requesters & (requesters - 1))"),
+    ("fast/time/grant.h", "    trax_arbiter_to_back(&unit->arbiter[trax_first(requesters) / kind->group_size], "
+     "trax_first(requesters));\n", ""),
     # Banks one after the other: of many data banks, and of instruction caches of any shape.
     ("fast/time/grant.h", "here & *rr_mask ? here & *rr_mask : here,", "here,", "timing-engines-test"),
     ("fast/time/grant.h", "*rr_mask = -2 * winner;", "(void)rr_mask;", "timing-engines-test"),
@@ -202,14 +207,12 @@ MUTANTS = [
     ("fast/time/cycle.c", " || inst->resource == TRAX_RESOURCE_FENCE)\n", ")\n"),
     # --- More of the fast engine, by rule ---
     # Stores combine within a block of 64 bytes.
-    ("fast/tm/tm.c", "begin / COMBINING_BLOCK == tp->run_begin / COMBINING_BLOCK &&",
-     "(begin / COMBINING_BLOCK | 1) == (tp->run_begin / COMBINING_BLOCK | 1) &&"),
+    ("fast/tm/tp.h", "address / COMBINING_BLOCK != tp->run_begin / COMBINING_BLOCK ||",
+     "(address / COMBINING_BLOCK | 1) != (tp->run_begin / COMBINING_BLOCK | 1) ||"),
     # A store that touches the run's end combines.
-    ("fast/tm/tm.c", "begin <= tp->run_end &&",
-     "begin < tp->run_end &&"),
+    ("fast/tm/tp.h", "address > tp->run_end ||", "address >= tp->run_end ||"),
     # A store that touches the run's begin combines.
-    ("fast/tm/tm.c", "end >= tp->run_begin;",
-     "end > tp->run_begin;"),
+    ("fast/tm/tp.h", "address + bytes < tp->run_begin)", "address + bytes <= tp->run_begin)"),
     # The first unusable register gives the cause.
     ("fast/tm/tp.c", "{tp->inst->wait_ra, tp->inst->more_ra + 1u}, {tp->inst->wait_rb, tp->inst->more_rb + 1u}",
      "{tp->inst->wait_rb, tp->inst->more_rb + 1u}, {tp->inst->wait_ra, tp->inst->more_ra + 1u}"),
@@ -275,7 +278,7 @@ MUTANTS = [
     ("fast/tm/tm.c", "tm->stats->combined_stores++;",
      "tm->stats->combined_stores += tp->inst->bytes == 4;"),
     # The run becomes the union.
-    ("fast/tm/tm.c", "tp->run_begin = begin < tp->run_begin ? begin : tp->run_begin;",
+    ("fast/tm/tp.h", "tp->run_begin = address < tp->run_begin ? address : tp->run_begin;",
      "tp->run_begin = tp->run_begin;"),
     # The TP that took a place moves the queue's turn.
     ("fast/tm/tm.c", "  trax_tm_request(tm, request);\n  trax_arbiter_to_back(&tm->queue_arbiter, tp);",
@@ -399,8 +402,7 @@ MUTANTS = [
     ("fast/function/blocks.c", "(tp->burst.access[i].address & ~3u) - begin < bytes",
      "(tp->burst.access[i].address & ~3u) - begin - 4 < bytes"),
     ("fast/function/blocks.c", "tm->heads.load[number] - (tm->heads.load[number] > 0)", "tm->heads.load[number]"),
-    ("fast/function/blocks.c", "i = tm->heads.load[number]; tm->watched",
-     "i = tm->heads.load[number] + 1u; tm->watched"),
+    ("fast/function/blocks.c", "i = tm->heads.load[number]; i < end", "i = tm->heads.load[number] + 1u; i < end"),
     ("fast/function/blocks.c", "  for (uint32_t i = 0; i < chip->tms; i++)\n    trax_fast_roll_back_readers",
      "  for (uint32_t i = 0; i < 1; i++)\n    trax_fast_roll_back_readers"),
     ("fast/merge.c", "  trax_fast_record_readers(tm);\n", ""),
@@ -411,13 +413,13 @@ MUTANTS = [
     ("fast/function/burst.c", "  if (!tp->again) {", "  if (true) {"),
     ("fast/function/burst.c", "tm->watched[number] = tp->stored = 0;", "tm->watched[number] = 0;",
      "timing-translated-test"),
-    ("fast/function/blocks.c", "    roll_back_word_readers(tm, address, bit);\n", ""),
+    ("fast/function/blocks.c", "if (tm->readers[trax_fast_line_hash(address)] & ~bit)", "if (0)"),
     ("fast/function/blocks.c", "i < chip->tms; i++)\n    roll_back_word_readers",
      "i < 1; i++)\n    roll_back_word_readers"),
     ("fast/function/blocks.c", "if (trax_fast_is_loaded(&chip->blocks, address))\n    return false;", ""),
     ("fast/time/head.c", "tp->alone || tp->stored ? bit : 0", "tp->alone ? bit : 0"),
-    ("fast/time/issue.h", "decoded->bytes, t))\n    trax_fast_roll_back_tp(tm, number);",
-     "decoded->bytes, t))\n    (void)tm;"),
+    ("fast/time/issue.h", "    trax_fast_roll_back_tp(tm, number);\n    return false;", "    return false;"),
+    ("fast/time/issue.h", "return tm->heads.at[number] < tm->heads.last[number];", "return true;"),
     ("fast/time/alone.c", "(trax_tp_stores(tp, load) &&", "(0 &&"),
     ("fast/function/burst.c", "tp->burst.access[load].word = value;", "tp->burst.access[load % 4].word = value;"),
     # Local memory is as it was.
@@ -454,13 +456,17 @@ MUTANTS = [
     ("fast/function/program.c", "decoded->imm == TRAX_SR_CYCLE || decoded->imm == TRAX_SR_CYCLEH",
      "decoded->imm == TRAX_SR_CYCLEH"),
     # A TM that has read too early goes back.
-    ("fast/merge.c", "if (written && written->writer != tm->number) {",
-     "if (written && written->writer != tm->number && written->writer < 64) {"),
+    ("fast/merge.c", "if (line->writer[word] == tm)", "if (line->writer[word] == tm || line->writer[word] >= 64)"),
     # A word that several wrote conflicts.
-    ("fast/merge.c", "undo->writer = BY_SEVERAL;", "undo->writer = tm;"),
+    ("fast/merge.c", "line->writer[word] != writer ? BY_SEVERAL : writer", "0 ? BY_SEVERAL : writer"),
+    # The order of two TMs' stores to a byte matters if they differ, and that of a store and an increment in any case.
+    ("fast/merge.c", "line->bytes[trax_first(bits)] != own->bytes[trax_first(bits)] ||", "0 ||"),
+    ("fast/merge.c", "line->writer[trax_first(bits) / 4] == BY_CONTROLLER)", "0)"),
+    # Stores to shared blocks have their order.
+    ("fast/function/blocks.h", "if (trax_fast_is_shared(blocks, address))\n    trax_store_buffer_record",
+     "if (0)\n    trax_store_buffer_record"),
     # Data that were loaded ahead and are written or incremented are loaded again.
-    ("fast/merge.c", "if (merge->undo[i].writer != BY_CONTROLLER && trax_fast_is_loaded(",
-     "if (merge->undo[i].writer == BY_SEVERAL && trax_fast_is_loaded("),
+    ("fast/merge.c", "written >> at & TRAX_WRITTEN_BLOCK &&", "written >> at & 1 && at &&"),
     ("fast/merge.c",
      "    if (trax_fast_is_loaded(&merge->chip->blocks, merge->increments[i]))\n      return false;\n", ""),
     # A block from which bursts have loaded is not shared without their going back.
@@ -472,14 +478,13 @@ MUTANTS = [
      "    const uint32_t tm = first ^ (order->tms[t - order->begin] >> (first ^ 1) & 1);\n"
      "    struct trax_store_buffer_side *buffer"),
     # Memory is restored.
-    ("fast/merge.c", "memcpy(merge->chip->machine->space.bytes + undo->address, &undo->word, sizeof undo->word);",
-     "memcpy(merge->chip->machine->space.bytes + undo->address, &undo->word, 1);"),
+    ("fast/merge.c", "undo->address, undo->bytes, sizeof undo->bytes);", "undo->address, undo->bytes, 1);"),
     # A miss register of the second-level cache is free again.
     ("fast/memory/l2.c", "    mshr->request.bytes = 0;\n", ""),
     # The controller is restored.
     ("fast/state.c", "VISIT_DERIVED(memory, 1);", "VISIT_DERIVED(memory, 0);"),
     # Increments are noted as writes.
-    ("fast/merge.c", "record_writer(merge, address, BY_CONTROLLER);", "record_writer(merge, address, 0);"),
+    ("fast/merge.c", "sizeof word), BY_CONTROLLER);", "sizeof word), 0);"),
     # Requests are shown in their cycle.
     ("fast/merge.c", "trax_memory_cycle(memory, chip->tm, t);", "trax_memory_cycle(memory, chip->tm, t + 1);"),
     # An epoch in which a TM stops is given up.
@@ -487,20 +492,16 @@ MUTANTS = [
     # Bursts do not load what others may increment.
     ("fast/function/blocks.h", "__ATOMIC_RELAXED) == TRAX_BLOCK_SHARED", "__ATOMIC_RELAXED) <= TRAX_BLOCK_SHARED"),
     # The write set is that of one epoch.
-    ("fast/merge.c", "    *slot_of(merge, undo->address) = 0;\n", ""),
+    ("fast/merge.c", "  trax_written_empty(&merge->written);\n", ""),
     # An epoch that is given up has written nothing.
-    ("fast/merge.c", "while (merge->undo_count > merge->epoch_undo)", "while (false)"),
+    ("fast/merge.c", "good = !merge->failed && goes_on", "good = goes_on"),
     # Stores take effect at its end, and are seen by their TM before, also in later quanta.
-    ("fast/merge.c", "&word, sizeof word);\n    trax_fast_set", "&word, 1);\n    trax_fast_set"),
+    ("fast/merge.c", "(bytes, line->bytes, line->written);", "(bytes, line->bytes, line->written & 0x11111111);"),
     ("fast/store_buffer.c", "  buffer->side = &buffer->sides[side];",
-     "  trax_map_empty(&buffer->lines, sizeof(struct trax_store_buffer_line));\n"
-     "  buffer->side = &buffer->sides[side];"),
-    # Reads of all quanta count.
-    ("fast/store_buffer.c", "  buffer->side = &buffer->sides[side];",
-     "  buffer->read_count = 0;\n  buffer->side = &buffer->sides[side];"),
+     "  trax_written_empty(&buffer->written);\n  buffer->side = &buffer->sides[side];"),
     # A quantum ahead is of half a latency.
     ("fast/epochs.c", "quantum * epochs->latency / epochs->sides", "quantum * epochs->latency"),
-    ("base/pool.c", "round - finished <= 1;", "round - finished <= 2;"),
+    ("base/pool.c", "round - seen.finished <= 1;", "round - seen.finished <= 2;"),
     # A TM receives what was served, in its quantum, and at the end of the epoch, and wakes for it.
     ("fast/merge.c", "  trax_store_buffer_begin_quantum(tm->buffer, side);\n  trax_tm_receive(tm, side);",
      "  trax_store_buffer_begin_quantum(tm->buffer, side);\n  trax_tm_receive(tm, 0);"),
@@ -513,9 +514,13 @@ MUTANTS = [
     ("fast/epochs.c", "piece_count * (part + 1) / parts;",
      "piece_count * (part + 1) / parts - part;"),
     # A TM sees its own stores.
-    ("fast/store_buffer.c", "own && i < bytes", "own && i < 1"),
-    ("fast/store_buffer.c", "if (own->entry.value >> (at + i) & 1)", "if (1)"),
-    ("fast/store_buffer.c", "((1u << bytes) - 1) << at", "1u << at"),
+    ("fast/written.h", "  old ^= (old ^ new) & trax_written_mask(line->written >> (address & 28));", "  old = new;"),
+    ("fast/written.h", "trax_written_mask(trax_written_bits(address, bytes) >> (address & 28))", "UINT32_MAX"),
+    ("fast/written.h", "line->written |= trax_written_bits(address, bytes);",
+     "line->written |= trax_written_bits(address, 1);"),
+    # Lines have what each TM stored to them.
+    ("fast/written.h", "    old ^= (old ^ new) & trax_written_mask(bits);", "    old = new;"),
+    ("fast/written.h", "if (written->lines[i - 1].number == number)", "if (true)"),
     # --- DRAM: one module of both engines, so timing-dram-test notices most ---
     ("dram/dram.c", "latest(now, bank->activate_from)", "now"),
     ("dram/dram.c", "latest(rank->activate_from, rank->window_from", "latest(now, rank->window_from"),

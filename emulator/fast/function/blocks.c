@@ -118,12 +118,16 @@ void trax_fast_roll_back_readers(struct trax_tm *tm, uint32_t address) {
 
 void trax_fast_record_readers(struct trax_tm *tm) {
   const uint8_t *const state = tm->chip->blocks.state;
-  for (unsigned number = 0; number < tm->tps; number++)
-    for (uint32_t i = tm->heads.load[number]; tm->watched[number] && i < tm->tp[number].burst.load_count; i++)
-      if (__atomic_load_n(&state[tm->tp[number].burst.access[i].address >> TRAX_BLOCK_SHIFT], __ATOMIC_RELAXED) >=
-              TRAX_BLOCK_WRITTEN &&
-          !trax_tp_stores(&tm->tp[number], i))
-        trax_store_buffer_read(tm->buffer, tm->tp[number].burst.access[i].address);
+  for (unsigned number = 0; number < tm->tps; number++) {
+    const struct trax_tp *const tp = &tm->tp[number];
+    const uint32_t end = tm->watched[number] ? tp->burst.load_count : 0;
+    for (uint32_t i = tm->heads.load[number]; i < end; i++) {
+      const uint32_t address = tp->burst.access[i].address & ~3u;
+      if (!trax_tp_stores(tp, i) &&
+          __atomic_load_n(&state[address >> TRAX_BLOCK_SHIFT], __ATOMIC_RELAXED) >= TRAX_BLOCK_WRITTEN)
+        trax_store_buffer_read(tm->buffer, address, 4);
+    }
+  }
 }
 
 /* After a roll back of all TPs: makes all blocks around an address WRITTEN, so that their first writes need no roll
@@ -153,8 +157,9 @@ bool trax_fast_store(struct trax_tm *tm, unsigned number, unsigned load, unsigne
   const uint32_t address = store->address, value = store->word;
   const uint64_t bit = (uint64_t)1 << number;
   if (tm->buffer) {
-    roll_back_word_readers(tm, address, bit);
-    trax_store_buffer_store(tm->buffer, t, address, value, bytes);
+    if (tm->readers[trax_fast_line_hash(address)] & ~bit)
+      roll_back_word_readers(tm, address, bit);
+    trax_fast_store_in_epoch(&chip->blocks, tm->buffer, t, address, value, bytes);
     return true;
   }
   if (trax_fast_is_loaded(&chip->blocks, address))

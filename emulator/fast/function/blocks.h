@@ -2,6 +2,7 @@
 #ifndef TRAX_FAST_BLOCKS_H
 #define TRAX_FAST_BLOCKS_H
 
+#include "fast/store_buffer.h"
 #include "machine/address_space.h"
 #include "translate/burst.h"
 
@@ -39,6 +40,14 @@ static inline void trax_fast_set_written(struct trax_fast_blocks *blocks, uint32
 static inline void trax_fast_share(struct trax_fast_blocks *blocks, uint32_t address) {
   if (!trax_fast_is_loaded(blocks, address))
     __atomic_store_n(&blocks->state[address >> TRAX_BLOCK_SHIFT], TRAX_BLOCK_SHARED, __ATOMIC_RELAXED);
+}
+
+/* Performs a store of a TM in an epoch. */
+static inline void trax_fast_store_in_epoch(const struct trax_fast_blocks *blocks, struct trax_store_buffer *buffer,
+                                            uint64_t t, uint32_t address, uint32_t value, unsigned bytes) {
+  trax_store_buffer_store(buffer, address, value, bytes);
+  if (trax_fast_is_shared(blocks, address))
+    trax_store_buffer_record(buffer, (struct trax_store_buffer_entry){t, address, value, bytes});
 }
 
 /* Returns the bit of a word in trax_tp.stored. */

@@ -46,7 +46,11 @@ static __attribute__((noinline)) uint64_t load_written(struct trax_tm *tm, unsig
       return NOWHERE;
     tm->watched[number] |= (uint64_t)1 << trax_fast_line_hash(address) % 64;
     tm->readers[trax_fast_line_hash(address)] |= (uint64_t)1 << number;
-    *value = trax_tm_load(tm, address, bytes);
+    *value = 0;
+    if (tm->buffer)
+      *value = trax_store_buffer_load(tm->buffer, &tm->machine->space, address, bytes);
+    else
+      memcpy(value, tm->machine->space.bytes + address, bytes);
   }
   return *value;
 }

@@ -61,6 +61,23 @@ static bool serve(struct trax_tm *tm, unsigned number, uint64_t t) {
   return true;
 }
 
+/* Serves those of the slow heads that are stores and combine with their TPs' runs, so that they make no request.
+   Returns them. */
+static uint64_t serve_combining(struct trax_tm *tm, uint64_t slow) {
+  uint64_t served = 0;
+  for (uint64_t rest = slow; rest; rest &= rest - 1) {
+    const unsigned number = trax_first(rest);
+    struct trax_tp *const tp = &tm->tp[number];
+    if (trax_tp_stores(tp, tm->heads.load[number]) &&
+        trax_tp_combine(tp, tm->heads.address[number], trax_fast_head_timing(tm, number)->decoded->bytes))
+      served |= rest & -rest;
+  }
+  tm->stats->combined_stores += count_bits(served);
+  tm->stats->store_hits += count_bits(served & tm->load_hits);
+  tm->stats->store_misses += count_bits(served & ~tm->load_hits);
+  return served;
+}
+
 static uint64_t grant_queue(struct trax_tm *tm, uint64_t requesters, uint64_t t) {
   const unsigned pointer = tm->queue_arbiter % 64;
   uint64_t granted = 0;
@@ -77,6 +94,10 @@ static uint64_t refuse_any(struct trax_tm *tm, trax_shared which, uint64_t reque
   struct trax_shared_unit *unit = &tm->unit[which];
   const struct trax_shared_kind *const kind = &unit->kind;
   uint64_t winners = 0, all;
+  if (requesters && !(requesters & (requesters - 1)) && !unit->free_from) {
+    trax_arbiter_to_back(&unit->arbiter[trax_first(requesters) / kind->group_size], trax_first(requesters));
+    return 0;
+  }
   for (uint64_t rest = requesters; rest; rest &= ~all) {
     const unsigned group = trax_first(rest) / kind->group_size;
     all = requesters & trax_group_mask(group, kind->group_size);
@@ -132,10 +153,12 @@ static ALWAYS_INLINE uint64_t grant(struct trax_tm *tm, const bool wide, struct 
   uint64_t granted = OF(0);
   uint64_t requesters;
   const trax_fast_pair fp_requesters = {OF(TRAX_STEP_FP_ADD), OF(TRAX_STEP_FP_MUL)};
-  const trax_fast_pair fp_won = grant_fp(tm, fp_requesters, t);
-  granted |= fp_won[0] | fp_won[1];
-  refused->unit[TRAX_SHARED_FP_ADD] = fp_requesters[0] & ~fp_won[0];
-  refused->unit[TRAX_SHARED_FP_MUL] = fp_requesters[1] & ~fp_won[1];
+  if (fp_requesters[0] | fp_requesters[1]) {
+    const trax_fast_pair fp_won = grant_fp(tm, fp_requesters, t);
+    granted |= fp_won[0] | fp_won[1];
+    refused->unit[TRAX_SHARED_FP_ADD] = fp_requesters[0] & ~fp_won[0];
+    refused->unit[TRAX_SHARED_FP_MUL] = fp_requesters[1] & ~fp_won[1];
+  }
   if ((requesters = OF(TRAX_STEP_INT_MUL)))
     granted |= requesters ^ (refused->unit[TRAX_SHARED_INT_MUL] = refuse_any(tm, TRAX_SHARED_INT_MUL, requesters, t));
   if ((requesters = OF(TRAX_STEP_SPECIAL)))
@@ -154,9 +177,13 @@ static ALWAYS_INLINE uint64_t grant(struct trax_tm *tm, const bool wide, struct 
                                                    : trax_fast_refuse_data4(tm->data_bank_rr_masks, asking, number);
     refused->bank = filling | losers;
     const uint64_t won = requesters & ~refused->bank;
-    if (!tm->serial_hits) /* else serve() handles them, as it does stores */
-      hits = won & tm->load_hits & ~tm->executes_at_issue & ~(tm->storing & *slow);
-    tm->stats->dcache_hits += count_bits(hits);
+    if (!tm->serial_hits) { /* else serve() handles them, as it does other stores */
+      const uint64_t stores = won & tm->storing & *slow;
+      hits = won & tm->load_hits & ~tm->executes_at_issue & ~stores;
+      tm->stats->dcache_hits += count_bits(hits);
+      if (stores && !tm->observer)
+        hits |= serve_combining(tm, stores);
+    }
     granted |= hits;
     queue_requesters |= won & ~hits;
   }

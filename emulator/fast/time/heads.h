@@ -35,18 +35,19 @@ struct trax_fast_heads {
   uint32_t address[64]; /* of the next load of global memory, from the head on */
   _Alignas(64) uint64_t next[TRAX_FAST_ROWS][8];
   uint32_t begin[TRAX_FAST_ROWS][8]; /* the index of the TP's first step in `steps`; of TPs that do not exist, TP 0's */
+  uint8_t lane[64];                  /* of each TP, in `next` and `begin` */
   uint32_t moves;                    /* number of calls of trax_fast_move_on; every fourth one fills `next` */
   const uint16_t *steps; /* of all TPs; the step of a head that executes at issue is complete after classify */
 };
 
 /* Makes the TP's step `at` its head. */
 static inline void trax_fast_set_head(struct trax_fast_heads *heads, unsigned tp, unsigned at) {
-  const unsigned row = tp / 32 * 4 + tp % 4, lane = tp % 32 / 4;
-  const uint16_t *const step = heads->steps + heads->begin[row][lane] + at;
+  const unsigned lane = heads->lane[tp];
+  const uint16_t *const step = heads->steps + heads->begin[lane / 8][lane % 8] + at;
   heads->at[tp] = (uint8_t)at;
   heads->low[tp] = (uint8_t)*step;
   heads->high[tp] = (uint8_t)(*step >> 8);
-  memcpy(&heads->next[row][lane], step, sizeof **heads->next);
+  memcpy(&heads->next[lane / 8][lane % 8], step, sizeof **heads->next);
 }
 
 #ifdef __AVX2__

@@ -57,13 +57,17 @@ static void set_result_usable(struct trax_tm *tm, unsigned number, uint64_t t) {
   }
 }
 
-/* Performs a store of a burst if the head is one, or rolls the TP back so that its head executes at issue. */
-static void store_now(struct trax_tm *tm, unsigned number, uint64_t t) {
+/* Performs a store of a burst if the head is one, or rolls the TP back so that its head executes at issue. Returns
+   whether it was not the last step: then only the next one must become the head. */
+static bool store_now(struct trax_tm *tm, unsigned number, uint64_t t) {
   const unsigned load = tm->heads.load[number];
   if ((tm->heads.low[number] & TRAX_STEP_KIND) != TRAX_STEP_BANK || !trax_tp_stores(&tm->tp[number], load))
-    return;
-  if (!trax_fast_store(tm, number, load, trax_fast_head_timing(tm, number)->decoded->bytes, t))
+    return false;
+  if (!trax_fast_store(tm, number, load, trax_fast_head_timing(tm, number)->decoded->bytes, t)) {
     trax_fast_roll_back_tp(tm, number);
+    return false;
+  }
+  return tm->heads.at[number] < tm->heads.last[number];
 }
 
 /* Tells the observer of a slow head that has been issued; one of stretches when the burst has ended. Without stretches
@@ -88,8 +92,12 @@ static void issue_slowly(struct trax_tm *tm, unsigned number, uint64_t t) {
   const uint64_t bit = (uint64_t)1 << number;
   struct trax_tp *tp = &tm->tp[number];
   const uint32_t bubble = tm->config->tp.branch_bubble_cycles;
-  if (tm->storing & bit)
-    store_now(tm, number, t);
+  if ((tm->storing & bit) && store_now(tm, number, t) && !tm->observer) {
+    tm->holding &= ~bit;
+    trax_fast_set_load(tm, number, tm->heads.load[number] + 1u);
+    trax_fast_set_head(&tm->heads, number, tm->heads.at[number] + 1u);
+    return;
+  }
   if (bubble || (tm->observer && !tm->observer->stretch))
     trax_fast_export_head(tm, number); /* inst, pc, which heads that execute at issue have */
   const struct trax_decoded *inst = tp->inst;

@@ -96,8 +96,6 @@ void trax_tm_wake_sleepers(struct trax_tm *tm, uint64_t t) {
 
 /* --- the memory queue --- */
 
-enum { COMBINING_BLOCK = 64 };
-
 void trax_tm_receive(struct trax_tm *tm, unsigned side) {
   if (!tm->queue.served[side].count)
     return;
@@ -154,13 +152,6 @@ static bool write_run(struct trax_tm *tm, unsigned number) {
   return true;
 }
 
-/* Whether the TP's store combines with the run in its buffer. */
-static bool combines(const struct trax_tp *tp) {
-  const uint32_t begin = tp->address, end = begin + tp->inst->bytes;
-  return tp->run_begin != tp->run_end && begin / COMBINING_BLOCK == tp->run_begin / COMBINING_BLOCK &&
-         begin <= tp->run_end && end >= tp->run_begin;
-}
-
 /* Combines a store with the run in its TP's write-combining buffer, or writes that run and begins a new one. False: the
    run needs a place and gets none. */
 static bool store_past_cache(struct trax_tm *tm, unsigned number) {
@@ -168,11 +159,9 @@ static bool store_past_cache(struct trax_tm *tm, unsigned number) {
   const uint32_t begin = tp->address, end = begin + tp->inst->bytes;
   if (!tm->config->memory.write_combining)
     return request_write(tm, number, begin, end);
-  if (combines(tp)) {
+  if (trax_tp_combine(tp, begin, tp->inst->bytes)) {
     tm->stats->combined_stores++;
     tp->outcome = TRAX_OUTCOME_COMBINED;
-    tp->run_begin = begin < tp->run_begin ? begin : tp->run_begin;
-    tp->run_end = end > tp->run_end ? end : tp->run_end;
     return true;
   }
   if (!write_run(tm, number))

@@ -33,25 +33,17 @@ static uint8_t *place(struct trax_tm *tm, struct trax_tp *tp, uint32_t address) 
   return address >= TRAX_LOCAL_BASE ? tp->local + (address - TRAX_LOCAL_BASE) : tm->machine->space.bytes + address;
 }
 
-uint32_t trax_tm_load(const struct trax_tm *tm, uint32_t address, unsigned bytes) {
-  uint32_t value = 0;
-  if (tm->buffer)
-    return trax_store_buffer_load(tm->buffer, &tm->machine->space, address, bytes);
-  memcpy(&value, tm->machine->space.bytes + address, bytes);
-  return value;
-}
-
 static uint32_t load(struct trax_tm *tm, struct trax_tp *tp, uint32_t address, unsigned bytes) {
   uint32_t value = 0;
-  if (address < TRAX_LOCAL_BASE)
-    return trax_tm_load(tm, address, bytes);
+  if (tm->buffer && address < TRAX_LOCAL_BASE)
+    return trax_store_buffer_load(tm->buffer, &tm->machine->space, address, bytes);
   memcpy(&value, place(tm, tp, address), bytes);
   return value;
 }
 
 static void store(struct trax_tm *tm, struct trax_tp *tp, uint32_t address, uint32_t value, unsigned bytes) {
   if (tm->buffer && address < TRAX_LOCAL_BASE)
-    trax_store_buffer_store(tm->buffer, tm->now, address, value, bytes);
+    trax_fast_store_in_epoch(&tm->chip->blocks, tm->buffer, tm->now, address, value, bytes);
   else
     memcpy(place(tm, tp, address), &value, bytes);
 }

@@ -61,6 +61,17 @@ static inline void trax_tp_set_usable(struct trax_tp *tp, unsigned rd, uint64_t 
   tp->usable_cause[rd] = (uint8_t)cause;
 }
 
+/* Combines a store of `bytes` bytes with the run in the buffer. False: it does not combine. */
+static inline bool trax_tp_combine(struct trax_tp *tp, uint32_t address, uint32_t bytes) {
+  enum { COMBINING_BLOCK = 64 };
+  if (tp->run_begin == tp->run_end || address / COMBINING_BLOCK != tp->run_begin / COMBINING_BLOCK ||
+      address > tp->run_end || address + bytes < tp->run_begin)
+    return false;
+  tp->run_begin = address < tp->run_begin ? address : tp->run_begin;
+  tp->run_end = address + bytes > tp->run_end ? address + bytes : tp->run_end;
+  return true;
+}
+
 /* Whether access `load` of the TP's burst is a store that takes effect at its issue. */
 static inline bool trax_tp_stores(const struct trax_tp *tp, unsigned load) {
   return tp->stored && tp->stores[load / 64] >> load % 64 & 1;
@@ -72,8 +83,5 @@ uint32_t trax_tp_special_register(const struct trax_tm *tm, unsigned tp, uint32_
 /* Performs the instruction in cycle t: registers, pc, memory, traps. False: it faulted (abort, puts), and the fault is
    recorded in the TM. Of an atomic increment it only changes the pc; the controller performs the increment. */
 bool trax_tp_execute(struct trax_tm *tm, unsigned number, uint64_t t);
-
-/* Loads from global memory, as a load of the TM that issues now would; in an epoch its store buffer records it. */
-uint32_t trax_tm_load(const struct trax_tm *tm, uint32_t address, unsigned bytes);
 
 #endif
