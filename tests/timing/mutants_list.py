@@ -457,6 +457,8 @@ MUTANTS = [
      "decoded->imm == TRAX_SR_CYCLEH"),
     # A TM that has read too early goes back.
     ("fast/merge.c", "if (line->writer[word] == tm)", "if (line->writer[word] == tm || line->writer[word] >= 64)"),
+    ("fast/store_buffer.h", "line->read |= trax_written_bits(address, bytes)",
+     "line->read |= trax_written_bits(address, 1)"),
     # A word that several wrote conflicts.
     ("fast/merge.c", "line->writer[word] != writer ? BY_SEVERAL : writer", "0 ? BY_SEVERAL : writer"),
     # The order of two TMs' stores to a byte matters if they differ, and that of a store and an increment in any case.
