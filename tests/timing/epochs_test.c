@@ -163,6 +163,7 @@ static const struct scenario scenarios[] = {
     {"a load of what another TM stores", true, {store_word, load_word}},
     {"a load past the cache of what a higher TM stores past it", true, {load_past_cache, store_past_cache}},
     {"a byte of the word that another TM stores", true, {store_word, load_second_byte}},
+    {"a load of a word of which another TM stores the second byte", true, {store_second_byte, load_word}},
     {"two stores of one word", true, {store_word, store_word}},
     {"the same store by two TMs", true, {store_one, store_one}},
     {"the same store by two TMs, and another one", true, {store_one, store_one, store_word}},
