@@ -221,8 +221,10 @@ static void write_program(struct program *program, const struct scenario *scenar
     emit(program, I(ADDI, 2, 0, (int32_t)tm));
     const size_t branch = program->count;
     emit(program, NOP);
-    if (scenario->written)
+    if (scenario->written) {
       emit(program, S(SW, 0, 10, OTHER));
+      emit(program, S(SW, 0, 10, WORD)); /* the data are random */
+    }
     emit(program, U(LUI, 4, (int32_t)(numbers[tm % 3] >> 16)));
     emit(program, I(ORI, 4, 4, (int32_t)(numbers[tm % 3] & 0x7FF)));
     if (act == add_up || act == add_up_locally || act == choose)
