@@ -95,8 +95,8 @@ static bool explainChecks(Module &M) {
   if (!Check)
     return false;
   IRBuilder<> Builder(M.getContext());
-  FunctionCallee Trap = M.getOrInsertFunction("__builtin_trax_trap", Builder.getVoidTy(), Builder.getInt32Ty(),
-                                              Builder.getInt32Ty());
+  FunctionCallee Trap =
+      M.getOrInsertFunction("__builtin_trax_trap", Builder.getVoidTy(), Builder.getInt32Ty(), Builder.getInt32Ty());
   DenseMap<uint64_t, Constant *> Messages;
   for (User *U : make_early_inc_range(Check->users())) {
     auto *Call = cast<CallInst>(U);

@@ -1,6 +1,6 @@
 //===- TraxCallLowering.cpp - Arguments, results and calls ---------------===//
-#include "Trax.h"
 #include "MCTargetDesc/TraxInstPrinter.h"
+#include "Trax.h"
 #include "TraxBuiltins.h"
 #include "TraxISelLowering.h"
 #include "TraxMachineFunctionInfo.h"
@@ -24,8 +24,9 @@ static void unsupported(SelectionDAG &DAG, const SDLoc &DL, const Twine &What) {
 static void checkReserved(ArrayRef<CCValAssign> Locations, const SDLoc &DL, SelectionDAG &DAG) {
   for (const CCValAssign &VA : Locations)
     if (VA.isRegLoc() && DAG.getSubtarget<TraxSubtarget>().isReserved(VA.getLocReg()))
-      unsupported(DAG, DL, Twine(TraxInstPrinter::getRegisterName(VA.getLocReg())) +
-                               " is needed for an argument or a result, and -ffixed-rN keeps it free");
+      unsupported(DAG, DL,
+                  Twine(TraxInstPrinter::getRegisterName(VA.getLocReg())) +
+                      " is needed for an argument or a result, and -ffixed-rN keeps it free");
 }
 
 static void checkCallingConv(CallingConv::ID CC, const SDLoc &DL, SelectionDAG &DAG) {
@@ -383,8 +384,7 @@ SDValue TraxTargetLowering::lowerBuiltinCall(CallLoweringInfo &CLI, SmallVectorI
     MachineMemOperand *Word = DAG.getMachineFunction().getMachineMemOperand(
         Pointer ? MachinePointerInfo(Pointer) : MachinePointerInfo(),
         MachineMemOperand::MOVolatile | MachineMemOperand::MOLoad | MachineMemOperand::MOStore, 4, Align(4));
-    SDValue Old =
-        DAG.getMemIntrinsicNode(TraxISD::AINC, DL, WordAndChain, {Chain, CLI.OutVals[0]}, MVT::i32, Word);
+    SDValue Old = DAG.getMemIntrinsicNode(TraxISD::AINC, DL, WordAndChain, {Chain, CLI.OutVals[0]}, MVT::i32, Word);
     InVals.push_back(Old);
     Chain = Old.getValue(1);
     break;

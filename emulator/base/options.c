@@ -159,7 +159,7 @@ struct parser {
   void *target;
   int count, next; /* next: the index of the next argument */
   char **arguments;
-  bool *given; /* for each row */
+  bool *given;  /* for each row */
   bool listing; /* --help-words */
 };
 

@@ -42,7 +42,7 @@ struct trax_place {
   struct trax_folder *folder; /* a reference of the place's own; NULL: released */
   enum trax_last last;        /* a name, "." or ".." */
   bool slash;                 /* after the name: it must be a folder */
-  char name[NAME_MAX + 2];    /* "." for the folder itself; one byte longer than the host allows if the name is too long */
+  char name[NAME_MAX + 2]; /* "." for the folder itself; one byte longer than the host allows if the name is too long */
 };
 
 enum trax_follow {

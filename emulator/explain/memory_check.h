@@ -152,11 +152,11 @@ struct trax_memory_check {
     struct trax_frame_variable *items;
     size_t count;
     unsigned base; /* the register from which their offsets count */
-  } * variables;
+  } *variables;
   size_t variables_count, variables_capacity;
   struct trax_memory_context {
     uint32_t parent, pc;
-  } * contexts;
+  } *contexts;
   size_t context_count, context_capacity;
   struct trax_map context_of;
   struct trax_memory_site *sites;

@@ -20,7 +20,7 @@ struct log {
   _Alignas(64) struct block {
     uint8_t *bytes;
     size_t capacity;
-  } * blocks; /* [block_count] */
+  } *blocks; /* [block_count] */
   size_t block_count, block_capacity;
   struct trax_passage **passages; /* [stretches] */
   struct trax_read_run *runs;     /* [runs] */

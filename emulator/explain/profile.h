@@ -41,7 +41,7 @@ struct trax_profile {
   struct trax_map record_of; /* (context, index) */
   struct trax_profile_latest {
     uint32_t context, record; /* its number + 1; 0: none */
-  } * latest_of;              /* [places]: the latest record of the instruction; a cache of record_of */
+  } *latest_of;               /* [places]: the latest record of the instruction; a cache of record_of */
 };
 
 static inline uint64_t trax_profile_cycles(const struct trax_profile_counts *counts) {

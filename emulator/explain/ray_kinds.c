@@ -19,7 +19,7 @@ struct ray_kinds {
   struct ray_thread {
     uint64_t cycles[TRAX_CAUSE_COUNT];        /* that are charged to kinds */
     uint8_t working;                          /* the kind of ray that the thread works for */
-  } * threads;                                /* [threads] */
+  } *threads;                                 /* [threads] */
   uint64_t outcomes[KINDS][2][TRAX_OUTCOMES]; /* of accesses through the data cache: of loads, of stores */
 };
 

@@ -39,7 +39,7 @@ struct trax_reading {
   struct cursor {
     uint64_t cycle;               /* of the log's next run; UINT64_MAX: there is none */
     size_t runs, passages;        /* of the log, that are in the order */
-  } * cursors;                    /* [tms] */
+  } *cursors;                     /* [tms] */
   struct trax_passage **passages; /* [count], in the order of the chip: the first `ordered` of them */
   size_t count, capacity, ordered;
   bool has_further;                       /* a passage is of no tally's contexts */

@@ -15,7 +15,7 @@ struct trax_read_log {
   const struct trax_read_run {
     uint64_t cycle; /* of its last passage */
     size_t end;     /* the number of the next run's first passage */
-  } * runs;         /* [run_count] */
+  } *runs;          /* [run_count] */
   size_t run_count;
 };
 

@@ -195,7 +195,8 @@ static void tell(const struct trax_explain_options *options, const char *copied,
   if (*copied)
     fprintf(out, "%s contains %s%s", options->explore, copied + 2, *left_out ? "; " : "");
   if (*left_out)
-    fprintf(out, "%s lacks %s, which --source-folder FOLDER can allow", *copied ? "it" : options->explore, left_out + 2);
+    fprintf(out, "%s lacks %s, which --source-folder FOLDER can allow", *copied ? "it" : options->explore,
+            left_out + 2);
   if (fclose(out) == 0)
     options->note(text);
   free(text);

@@ -331,10 +331,15 @@ static void destroy(void *context) {
 }
 
 #define ENGINE(NAME, MEANING)                                                                                          \
-  {                                                                                                                    \
-    .name = NAME, .meaning = MEANING, .has_warps = true, .create = create, .destroy = destroy, .advance = advance,     \
-    .collect = collect, .settle = settle, .thread = thread                                                             \
-  }
+  {.name = NAME,                                                                                                       \
+   .meaning = MEANING,                                                                                                 \
+   .has_warps = true,                                                                                                  \
+   .create = create,                                                                                                   \
+   .destroy = destroy,                                                                                                 \
+   .advance = advance,                                                                                                 \
+   .collect = collect,                                                                                                 \
+   .settle = settle,                                                                                                   \
+   .thread = thread}
 const struct trax_engine trax_functional_engine = ENGINE("functional", "what the program computes, without time");
 const struct trax_engine trax_functional_interpreted_engine = ENGINE("functional-interpreted", "without translation");
 const struct trax_engine trax_functional_translated_engine = ENGINE("functional-translated", "translation at once");

@@ -46,7 +46,7 @@ static void step(const struct trax_gdb *gdb, uint32_t thread, struct predicted *
 #define PC it->pc
 #define PRECISION gdb->machine->config.special.precision_bits
 #define LOAD(ADDRESS, BYTES) load(gdb, it, ADDRESS, BYTES)
-#define STORE(ADDRESS, VALUE, BYTES) (word = (VALUE), memcpy(it->local + ((ADDRESS)-TRAX_LOCAL_BASE), &word, BYTES))
+#define STORE(ADDRESS, VALUE, BYTES) (word = (VALUE), memcpy(it->local + ((ADDRESS) - TRAX_LOCAL_BASE), &word, BYTES))
 #define ATOMIC_INC(ADDRESS) ((void)(ADDRESS), 0u)
 #define SPECIAL_REGISTER(NUMBER) trax_special_register(&gdb->machine->config, thread, NUMBER, gdb->cycle)
 #define TRAP(VALUE, CODE) ((void)(VALUE))

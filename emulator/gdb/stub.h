@@ -89,8 +89,8 @@ struct trax_gdb {
     unsigned catch_up; /* instructions to issue before the next step counts */
     bool step_first;   /* the thread must step before another thread's event counts */
   } pretence;
-  bool eventful;     /* some thread has an event */
-  bool step_ended;   /* a stepping thread has ended */
+  bool eventful;   /* some thread has an event */
+  bool step_ended; /* a stepping thread has ended */
   uint32_t range_begin, range_end;
   struct trax_gdb_atomic *atomics; /* [threads * TRAX_NUM_REGISTERS] */
   uint32_t atomic_count;

@@ -188,7 +188,7 @@ trax_status trax_config_set(trax_config *config, const char *key_text, const cha
   if (!key)
     return TRAX_ERROR;
   double value = 0;
-  const trax_status status = key->kind == TRAX_KIND_FLAG ? parse_flag(key_text, value_text, &value, error)
+  const trax_status status = key->kind == TRAX_KIND_FLAG  ? parse_flag(key_text, value_text, &value, error)
                              : trax_config_has_words(key) ? trax_config_parse_word(key, value_text, &value, error)
                                                           : parse_number(key, value_text, &value, error);
   return status == TRAX_OK ? trax_config_store(config, key, value, error) : TRAX_ERROR;

@@ -7,16 +7,16 @@
 #include <stdint.h>
 
 #include "host/checkpoint.h"
-#include "trax/explain.h"
 #include "trax/emulator.h"
+#include "trax/explain.h"
 #include "trax/manifest.h"
 #include "trax/options.h"
 
 /* NAME=VALUE of --set, --bind, --alloc, --dump; folder and name of --dir. */
 struct trax_assignment {
   char *name;
-  const char *value; /* in name's allocation, after its NUL */
-  uint32_t bytes;    /* of --alloc */
+  const char *value;      /* in name's allocation, after its NUL */
+  uint32_t bytes;         /* of --alloc */
   uint32_t width, height; /* of --dump: a picture of this size; 0: the bytes as they are */
   bool in_manifest;       /* a --dump that the manifest wants, to a file beneath its folder */
   enum { TRAX_ASSIGN_SET, TRAX_ASSIGN_BIND, TRAX_ASSIGN_ALLOC, TRAX_ASSIGN_DUMP, TRAX_ASSIGN_DIR } kind;
@@ -45,8 +45,8 @@ struct trax_options {
 trax_parsed trax_options_parse(struct trax_options *options, int count, char **arguments, trax_error *error);
 /* Checks options that exclude or need each other, or that the engine cannot serve. */
 trax_status trax_options_check_conflicts(const struct trax_options *options, trax_error *error);
-/* Takes the machine's engine if none is named. Error: the named one cannot run the machine, or the machine's cannot serve
-   another option. */
+/* Takes the machine's engine if none is named. Error: the named one cannot run the machine, or the machine's cannot
+   serve another option. */
 trax_status trax_options_choose_engine(struct trax_options *options, const struct trax_config *config,
                                        trax_error *error);
 /* Checks that all outputs can be written. */

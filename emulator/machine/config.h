@@ -31,11 +31,9 @@ struct trax_config {
 #define TRAX_CONFIG_NOTHING(COMPONENT)
 #define TRAX_CONFIG_INITIAL(COMPONENT, KEY, DEFAULT, ...) .COMPONENT.KEY = DEFAULT,
 #define TRAX_CONFIG_DEFAULT                                                                                            \
-  {                                                                                                                    \
-    TRAX_CONFIG_KEYS(TRAX_CONFIG_NOTHING, TRAX_CONFIG_INITIAL, TRAX_CONFIG_INITIAL, TRAX_CONFIG_INITIAL,               \
-                     TRAX_CONFIG_INITIAL, TRAX_CONFIG_INITIAL, TRAX_CONFIG_INITIAL, TRAX_CONFIG_INITIAL,               \
-                     TRAX_CONFIG_NOTHING)                                                                              \
-  }
+  {TRAX_CONFIG_KEYS(TRAX_CONFIG_NOTHING, TRAX_CONFIG_INITIAL, TRAX_CONFIG_INITIAL, TRAX_CONFIG_INITIAL,                \
+                    TRAX_CONFIG_INITIAL, TRAX_CONFIG_INITIAL, TRAX_CONFIG_INITIAL, TRAX_CONFIG_INITIAL,                \
+                    TRAX_CONFIG_NOTHING)}
 
 /* One row of the table, for code that visits all keys. */
 struct trax_config_key {

@@ -1,5 +1,6 @@
-/* Mappings of addresses to the channels, ranks, banks, rows and columns of DRAM (docs/timing-memory.md, "DRAM"). A mapping is
-   a text such as "row:rank:bank:column:channel:column3". In a configuration it is a whole number below 2^49. */
+/* Mappings of addresses to the channels, ranks, banks, rows and columns of DRAM (docs/timing-memory.md, "DRAM"). A
+   mapping is a text such as "row:rank:bank:column:channel:column3". In a configuration it is a whole number below 2^49.
+ */
 #ifndef TRAX_MACHINE_DRAM_MAPPING_H
 #define TRAX_MACHINE_DRAM_MAPPING_H
 

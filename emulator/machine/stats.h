@@ -185,7 +185,7 @@ struct trax_stats {
         C->chip.clock_mhz / 1e3)                                                                                       \
   X(area_mm2, "area_mm2", "mm2 at 65 nm",                                                                              \
     "fit of the paper's Table 1: 0.64 for a TM and 0.63 for each 16 TPs; of its caches and units",                     \
-    C->chip.tms *(0.64 + 0.63 * C->chip.tps_per_tm / 16.0 + trax_shared_area(C)))                                      \
+    C->chip.tms * (0.64 + 0.63 * C->chip.tps_per_tm / 16.0 + trax_shared_area(C)))                                     \
   TRAX_SHARED_UNITS(TRAX_SHARED_FIGURE, X)                                                                             \
   X(issue_utilisation, "issue.utilisation", "fraction", "share of thread-cycles that issued an instruction",           \
     (double)S->instructions / S->cycles / S->threads)                                                                  \

@@ -49,7 +49,7 @@ const struct trax_symbol *trax_image_symbol_at(const trax_image *image, uint32_t
 struct trax_source_line {
   const char *function; /* the innermost, inlined ones included; NULL if unknown */
   const char *file;
-  int line, column; /* 0: unknown */
+  int line, column;    /* 0: unknown */
   const char *linkage; /* the function's name to the linker; NULL if unknown */
   int function_line;   /* where the function begins; 0 if unknown */
   int discriminator;   /* of blocks of one line, in LLVM's encoding */
@@ -72,7 +72,8 @@ struct trax_frame_variable {
 };
 
 /* Finds the variables that have one place in the frame of the function at pc, if it is of C, also those of inlined
-   functions. Returns their number and, in *items, an array from malloc; *base: the register from which their distances count. */
+   functions. Returns their number and, in *items, an array from malloc; *base: the register from which their distances
+   count. */
 size_t trax_image_variables(trax_image *image, uint32_t pc, struct trax_frame_variable **items, unsigned *base);
 
 /* Returns how many compilation folders the debug information names, and sets *folders to them. They are as it says, and

@@ -20,8 +20,8 @@ struct trax_image {
   size_t symbol_count;
   struct trax_name_range *names; /* in the order of addresses; symbols.c */
   size_t name_count;
-  Dwarf *dwarf;     /* opened by the first look-up; NULL: none */
-  bool dwarf_tried; /* the first look-up has been made */
+  Dwarf *dwarf;               /* opened by the first look-up; NULL: none */
+  bool dwarf_tried;           /* the first look-up has been made */
   struct trax_scopes *scopes; /* of dwarf, in lines.c; NULL: none */
 };
 

@@ -2,8 +2,8 @@
 #ifndef TRAX_PROGRAM_PROGRAM_H
 #define TRAX_PROGRAM_PROGRAM_H
 
-#include "program/image.h"
 #include "machine/machine.h"
+#include "program/image.h"
 
 /* Bytes before and behind each buffer that must not be accessed, so that a program's error is noticed. A multiple of
    the size of a way of most caches, so that buffers keep their sets. */

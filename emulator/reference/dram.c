@@ -1,4 +1,5 @@
-/* docs/timing-memory.md, "DRAM": what a channel takes from the TMs and the second-level cache. dram/dram.h has the rest. */
+/* docs/timing-memory.md, "DRAM": what a channel takes from the TMs and the second-level cache. dram/dram.h has the
+ * rest. */
 #include "reference/reference.h"
 
 static enum trax_dram_queue queue_of(const struct trax_ref_request *request) {

@@ -55,11 +55,11 @@ struct trax_ref_request {
   uint32_t bytes;
   uint32_t address;
   uint32_t tm;
-  uint32_t icache, line;                      /* lines; icache: INSTRUCTION_LINE only */
-  uint32_t tp;                                /* LOAD_PAST_CACHE, WRITE, ATOMIC: the TP that made it */
-  uint32_t rd;                                /* LOAD_PAST_CACHE, ATOMIC: the register that waits */
-  bool passing;                               /* DATA_LINE: it does not enter the cache */
-  uint32_t old_value;                         /* ATOMIC */
+  uint32_t icache, line; /* lines; icache: INSTRUCTION_LINE only */
+  uint32_t tp;           /* LOAD_PAST_CACHE, WRITE, ATOMIC: the TP that made it */
+  uint32_t rd;           /* LOAD_PAST_CACHE, ATOMIC: the register that waits */
+  bool passing;          /* DATA_LINE: it does not enter the cache */
+  uint32_t old_value;    /* ATOMIC */
   uint32_t channel;
   /* AT_BANK: it waits for its second-level bank; AT_CHANNEL: for its channel; IN_DRAM: in a queue of the DRAM */
   enum { AT_BANK, AT_CHANNEL, IN_DRAM, SERVED } stage;
@@ -105,7 +105,7 @@ struct trax_ref_tm {
   uint32_t number, tps;
   const struct trax_config *config;
   struct trax_machine *machine;
-  FILE *output; /* the guest's, or NULL */
+  FILE *output;                             /* the guest's, or NULL */
   struct trax_timing timing[TRAX_OP_COUNT]; /* as of trax_timing_of */
   struct trax_shared_kind kind[TRAX_SHARED_COUNT];
   struct trax_ref_tp tp[MOST];
@@ -114,8 +114,8 @@ struct trax_ref_tm {
   struct trax_ref_lines dcache;
   trax_ref_pointer dcache_bank[MOST];
   uint64_t dcache_fills_end[MOST]; /* by bank */
-  struct trax_ref_request *queue; /* [places], the oldest first */
-  uint32_t places;                /* number of places taken */
+  struct trax_ref_request *queue;  /* [places], the oldest first */
+  uint32_t places;                 /* number of places taken */
   trax_ref_pointer queue_pointer;
   struct trax_tm_stats *stats;
 };
@@ -130,7 +130,7 @@ struct trax_ref_l2 {
     uint64_t arrival; /* UNKNOWN while it waits for its channel or in a queue of the DRAM */
     uint64_t begun;   /* transfers of lines that had begun before its own */
     bool in_dram;     /* it is or has been in one */
-  } * miss;           /* [misses]: the miss registers in use */
+  } *miss;            /* [misses]: the miss registers in use */
   uint32_t misses;
   uint64_t begun; /* transfers of lines that have begun */
 };

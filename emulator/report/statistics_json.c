@@ -117,7 +117,8 @@ static void put_fault(struct document *document, const trax_machine *machine) {
 
 /* null: an interval that begins at 0 cycles has no greatest rate. */
 static json_t *mrps_at(const trax_machine *machine, double cycles) {
-  return cycles > 0 ? json_real((double)machine->stats.total.rays * machine->config.chip.clock_mhz / cycles) : json_null();
+  return cycles > 0 ? json_real((double)machine->stats.total.rays * machine->config.chip.clock_mhz / cycles)
+                    : json_null();
 }
 
 static void put_sampling(struct document *document, const trax_machine *machine) {

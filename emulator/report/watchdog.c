@@ -12,16 +12,16 @@
 struct trax_watchdog {
   struct trax_machine *machine;
   struct trax_watch watch;
-  uint64_t cycles;               /* checks are made before the multiples of it */
-  uint64_t last_okay;            /* cycle of the latest check that found progress */
-  uint64_t ended;                /* the cycle before which the watchdog ended the run */
-  uint64_t progress, issued;     /* counts of the latest check */
-  struct trax_tp_stats *charges; /* [threads]: of the latest check; after the end, the charges since then */
-  uint32_t *pc;                  /* [threads]: at the end of the run */
-  trax_cause *cause;             /* [threads]: the main one of the charges, for the report */
+  uint64_t cycles;                   /* checks are made before the multiples of it */
+  uint64_t last_okay;                /* cycle of the latest check that found progress */
+  uint64_t ended;                    /* the cycle before which the watchdog ended the run */
+  uint64_t progress, issued;         /* counts of the latest check */
+  struct trax_tp_stats *charges;     /* [threads]: of the latest check; after the end, the charges since then */
+  uint32_t *pc;                      /* [threads]: at the end of the run */
+  trax_cause *cause;                 /* [threads]: the main one of the charges, for the report */
   const struct trax_symbol **symbol; /* [threads]: at pc; NULL: none */
-  bool is_stuck;                 /* the watchdog has ended the run */
-  bool asleep;                   /* and no instruction was issued since last_okay */
+  bool is_stuck;                     /* the watchdog has ended the run */
+  bool asleep;                       /* and no instruction was issued since last_okay */
 };
 
 /* Counts the instructions that are progress, and all instructions. */

@@ -1,6 +1,6 @@
 /* Slot-sampled simulation of programs whose threads take numbered pieces of work, called slots, by the atomic increment
-   of a counter: some ranges of slots are simulated exactly, and the others are left out (docs/sampling.md, "Slot-sampled
-   simulation"). */
+   of a counter: some ranges of slots are simulated exactly, and the others are left out (docs/sampling.md,
+   "Slot-sampled simulation"). */
 #ifndef TRAX_SAMPLING_SLOTS_H
 #define TRAX_SAMPLING_SLOTS_H
 

@@ -26,8 +26,8 @@ const uint8_t *trax_emit_record(struct trax_translation *t, size_t begin, size_t
   const uint8_t *const entry = t->at;
   trax_emit(t, "\x41\x81\xFF", 3); /* cmp r15d, TRAX_BURST - count */
   trax_emit_word(t, (uint32_t)(TRAX_BURST - count));
-  emit_near(t, "\x0F\x8F", 2, full);                                         /* jg full */
-  if (t->count > TRAX_REACH) { /* mov eax, begin + reach; sub eax, [r14 + ...]; cmp eax, 2 reach; ja full */
+  emit_near(t, "\x0F\x8F", 2, full); /* jg full */
+  if (t->count > TRAX_REACH) {       /* mov eax, begin + reach; sub eax, [r14 + ...]; cmp eax, 2 reach; ja full */
     trax_emit_byte(t, 0xB8);
     trax_emit_word(t, (uint32_t)begin + TRAX_REACH);
     emit_member(t, "\x41\x2B\x86", 3, offsetof(struct trax_burst, first));

@@ -167,7 +167,7 @@ size_t trax_most_code(const struct trax_translation *t, const struct trax_decode
   size_t most = 0;
   for (unsigned v = 0; v < TRAX_VARIANTS; v++) {
     const struct trax_template *const template = &templates_of(t, inst->op)[v];
-    const size_t bytes = (size_t) template->hot.bytes + template->cold.bytes;
+    const size_t bytes = (size_t)template->hot.bytes + template->cold.bytes;
     most = bytes > most ? bytes : most;
   }
   return most;

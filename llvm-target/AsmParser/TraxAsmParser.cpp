@@ -164,12 +164,8 @@ class TraxAsmParser : public MCTargetAsmParser {
   ParseStatus parseSpecialRegister(OperandVector &Operands) {
     return parseNamed(Operands, TraxII::findSpecialRegister);
   }
-  ParseStatus parseTrapCode(OperandVector &Operands) {
-    return parseNamed(Operands, TraxII::findTrap);
-  }
-  ParseStatus parseFenceKind(OperandVector &Operands) {
-    return parseNamed(Operands, TraxII::findFence);
-  }
+  ParseStatus parseTrapCode(OperandVector &Operands) { return parseNamed(Operands, TraxII::findTrap); }
+  ParseStatus parseFenceKind(OperandVector &Operands) { return parseNamed(Operands, TraxII::findFence); }
 
   void emit(MCInst Inst, SMLoc Loc, MCStreamer &Out);
   void emitLoadImmediate(const MCInst &Inst, SMLoc Loc, MCStreamer &Out);
@@ -191,9 +187,7 @@ public:
     setAvailableFeatures(ComputeAvailableFeatures(STI.getFeatureBits()));
     trax::enterParser(&Parser);
   }
-  ~TraxAsmParser() override {
-    trax::enterParser(nullptr);
-  }
+  ~TraxAsmParser() override { trax::enterParser(nullptr); }
 };
 
 } // namespace

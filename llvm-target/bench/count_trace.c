@@ -9,7 +9,9 @@
 
 enum { SLOTS = 1 << 16 }; /* more than the blocks of a kernel */
 
-static struct block { uint64_t address, instructions; } blocks[SLOTS];
+static struct block {
+  uint64_t address, instructions;
+} blocks[SLOTS];
 
 static struct block *find(uint64_t address) {
   for (size_t i = 0; i < SLOTS; i++) {

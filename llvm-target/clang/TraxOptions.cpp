@@ -23,10 +23,22 @@ namespace {
 
 constexpr StringLiteral Dash[] = {"-"};
 
-OptTable::Info joined(trax::options::ID ID, StringLiteral Name, const char *Value, const char *Help,
-                      unsigned Group, unsigned Flags = 0, const char *Values = nullptr) {
-  return {Dash, Name, Help, {}, Value, ID, Option::JoinedClass, /*Param=*/0, Flags, clang::driver::options::ClangOption,
-          static_cast<unsigned short>(Group), /*AliasID=*/0, /*AliasArgs=*/nullptr, Values};
+OptTable::Info joined(trax::options::ID ID, StringLiteral Name, const char *Value, const char *Help, unsigned Group,
+                      unsigned Flags = 0, const char *Values = nullptr) {
+  return {Dash,
+          Name,
+          Help,
+          {},
+          Value,
+          ID,
+          Option::JoinedClass,
+          /*Param=*/0,
+          Flags,
+          clang::driver::options::ClangOption,
+          static_cast<unsigned short>(Group),
+          /*AliasID=*/0,
+          /*AliasArgs=*/nullptr,
+          Values};
 }
 
 } // namespace

@@ -402,8 +402,8 @@ struct ld_context {
   LD_VECTOR(ld_section *) sections;
   LD_VECTOR(ld_symbol *) symbols; /* global, in the order of first mention */
   ld_map symbol_map;              /* name -> ld_symbol * */
-  ld_map groups;  /* COMDAT signature -> the ld_object * that has it */
-  ld_map wrapped; /* --wrap: name of a reference -> name to use, const char * */
+  ld_map groups;                  /* COMDAT signature -> the ld_object * that has it */
+  ld_map wrapped;                 /* --wrap: name of a reference -> name to use, const char * */
 
   LD_VECTOR(ld_output *) outputs; /* in the order of the image */
   LD_VECTOR(ld_segment) segments; /* R-X, R--, RW-, and more where sections have addresses of their own */

@@ -91,7 +91,9 @@ static inline __attribute__((always_inline)) void prepare_ray(struct ray *ray, u
   } else
 #define LAYOUT(number, NAME, name, general, planes, ...) planes
 #include "layouts/table.def"
-  { __builtin_unreachable(); }
+  {
+    __builtin_unreachable();
+  }
   prepare_triangle_ray(&ray->triangle, origin, direction, inverse);
 }
 

@@ -58,7 +58,9 @@ static inline __attribute__((always_inline)) bool descend(uint32_t layout, const
       return false;                                                                                                    \
   } else
 #include "layouts/table.def"
-    { __builtin_unreachable(); }
+    {
+      __builtin_unreachable();
+    }
   }
   return true;
 }

@@ -22,11 +22,12 @@ static unsigned next_pixel; // the first pixel that nobody has taken
 #define TOWER(X, Z, TOP) {{X, 0, Z}, {X + 0.7f, TOP, Z + 0.7f}}
 #define STREET(Z, A, B, C, D, E)                                                                                       \
   TOWER(-2.35f, Z, A), TOWER(-1.35f, Z, B), TOWER(-0.35f, Z, C), TOWER(0.65f, Z, D), TOWER(1.65f, Z, E)
-static const struct box boxes[BOXES] = {
-    {{-30, -1, -30}, {30, 0, 30}}, // the ground
-    STREET(-2.35f, 0.6f, 1.9f, 1.2f, 0.8f, 1.4f), STREET(-1.35f, 1.1f, 0.5f, 2.6f, 1.5f, 0.7f),
-    STREET(-0.35f, 0.8f, 1.6f, 0.4f, 2.2f, 1.0f), STREET(0.65f, 0.5f, 0.9f, 1.3f, 0.6f, 0.4f),
-    STREET(1.65f, 0.3f, 0.6f, 0.5f, 0.9f, 0.3f)};
+static const struct box boxes[BOXES] = {{{-30, -1, -30}, {30, 0, 30}}, // the ground
+                                        STREET(-2.35f, 0.6f, 1.9f, 1.2f, 0.8f, 1.4f),
+                                        STREET(-1.35f, 1.1f, 0.5f, 2.6f, 1.5f, 0.7f),
+                                        STREET(-0.35f, 0.8f, 1.6f, 0.4f, 2.2f, 1.0f),
+                                        STREET(0.65f, 0.5f, 0.9f, 1.3f, 0.6f, 0.4f),
+                                        STREET(1.65f, 0.3f, 0.6f, 0.5f, 0.9f, 0.3f)};
 
 static const struct vector eye = {-4.0f, 3.6f, 6.0f};
 

@@ -99,7 +99,7 @@ struct scene_tree {
         struct scene_box box;                    /* of the triangles' parts that are in this leaf */
       };
     };
-  } * nodes; /* depth first, the root first */
+  } *nodes; /* depth first, the root first */
   uint32_t node_count, inner_count, max_leaf;
   uint32_t max_depth;      /* as in the file's header */
   uint32_t ref_count;      /* triangles in leaves; those that were split are in several */

@@ -8,7 +8,7 @@ struct trax_picture_sampling {
   trax_slot_sampling slots; /* fraction or error, and seed, are the caller's */
   struct trax_prediction prediction;
   uint64_t kinds[TRAX_RAY_KIND_COUNT]; /* of slots */
-  const char *doubt; /* trax_prediction_doubt */
+  const char *doubt;                   /* trax_prediction_doubt */
 };
 
 /* Fills in the rest, for a machine that `program` is loaded into; the picture is the native twin's. Errors: the

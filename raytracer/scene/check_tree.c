@@ -13,10 +13,10 @@ struct checker {
   uint32_t nodes_left, next_triangle;
   uint32_t next_instance, numbers; /* numbers: of triangles of the instances so far */
   uint32_t first_node, end_node;   /* of this tree's */
-  uint32_t max_depth, max_leaf; /* found */
-  struct scene_box bounds;      /* of all triangles */
-  struct scene_range *ranges;   /* of each node */
-  uint32_t *in_part;            /* of each triangle: the place of a box that does not contain it, or 0 */
+  uint32_t max_depth, max_leaf;    /* found */
+  struct scene_box bounds;         /* of all triangles */
+  struct scene_range *ranges;      /* of each node */
+  uint32_t *in_part;               /* of each triangle: the place of a box that does not contain it, or 0 */
   bool any_in_part;
 };
 

@@ -11,8 +11,7 @@
 
 enum { FOREST_TRIANGLES = 174117 };
 
-#define MATTE(...)                                                                                                     \
-  { .diffuse = {__VA_ARGS__}, .ior = 1, .opacity = 1 }
+#define MATTE(...) {.diffuse = {__VA_ARGS__}, .ior = 1, .opacity = 1}
 
 static const struct trax_mesh_material forest_materials[MATERIALS] = {
     [EARTH] = {"earth", MATTE(0.30f, 0.24f, 0.14f)},   [BARK] = {"bark", MATTE(0.28f, 0.19f, 0.12f)},

@@ -25,7 +25,7 @@ struct layout {
   uint32_t nodes_offset, triangles_offset;
   uint32_t next_triangle;
   bool has_triangles; /* all are in their places already */
-  uint32_t *numbers; /* in the mesh, of the file's triangles; NULL: nothing needs them */
+  uint32_t *numbers;  /* in the mesh, of the file's triangles; NULL: nothing needs them */
 };
 
 /* The file has the materials in use, each once, and their textures. */

@@ -172,7 +172,7 @@ struct round {
   uint32_t count, next; /* next: the first that no worker has taken */
   struct found {
     uint32_t place, parent; /* parent: of the part */
-    size_t first, end; /* of what was read */
+    size_t first, end;      /* of what was read */
     uint32_t worker;
     bool heights; /* whether it depends on heights */
   } found[ROUND];

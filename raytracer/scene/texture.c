@@ -74,7 +74,7 @@ struct shares {
   struct share {
     uint32_t source;
     float weight;
-  } * shares;
+  } *shares;
 };
 
 static bool list_shares(struct shares *shares, const struct axis *axis) {

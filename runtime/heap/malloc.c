@@ -188,7 +188,7 @@ static int add_page(struct heap *heap, unsigned class) {
   page->owner = (uint16_t)(machine_thread() + 1);
   page->size = classes[class].size;
   page->shift = classes[class].shift;
-  page->class = (uint8_t) class;
+  page->class = (uint8_t)class;
   page->reciprocal = 0xFFFFFFFFu / page->size + 1;
   page->memory = layout.start + (size_t)index * PAGE;
   for (unsigned word = 0; word < WORDS; word++)

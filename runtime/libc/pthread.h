@@ -18,14 +18,10 @@ typedef struct {
 typedef struct {
   unsigned __state;
 } pthread_once_t;
-#define PTHREAD_MUTEX_INITIALIZER                                                                                      \
-  { 0, 0, 0, 0, 0 }
-#define PTHREAD_RWLOCK_INITIALIZER                                                                                     \
-  { 0, 0, 0, 0, PTHREAD_MUTEX_RECURSIVE }
-#define PTHREAD_COND_INITIALIZER                                                                                       \
-  { 0 }
-#define PTHREAD_ONCE_INIT                                                                                              \
-  { 0 }
+#define PTHREAD_MUTEX_INITIALIZER {0, 0, 0, 0, 0}
+#define PTHREAD_RWLOCK_INITIALIZER {0, 0, 0, 0, PTHREAD_MUTEX_RECURSIVE}
+#define PTHREAD_COND_INITIALIZER {0}
+#define PTHREAD_ONCE_INIT {0}
 enum { PTHREAD_CREATE_JOINABLE, PTHREAD_CREATE_DETACHED };
 enum { PTHREAD_MUTEX_NORMAL, PTHREAD_MUTEX_RECURSIVE, PTHREAD_MUTEX_ERRORCHECK, PTHREAD_MUTEX_DEFAULT = 0 };
 

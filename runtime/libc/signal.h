@@ -1,4 +1,5 @@
-/* Signals come from raise alone: nothing interrupts a thread. A signal without a handler ends the program as abort does.
+/* Signals come from raise alone: nothing interrupts a thread. A signal without a handler ends the program as abort
+ * does.
  */
 #ifndef TRAX_SIGNAL_H
 #define TRAX_SIGNAL_H
@@ -34,7 +35,7 @@ typedef int sig_atomic_t;
 
 #define SIG_DFL ((void (*)(int))0)
 #define SIG_IGN ((void (*)(int))1)
-#define SIG_ERR ((void (*)(int))-1)
+#define SIG_ERR ((void (*)(int)) - 1)
 
 #ifdef __TRAX_ALL_NAMES
 #define NSIG 32

@@ -60,8 +60,12 @@ __TRAX_FUNCTIONS(ull, unsigned long long)
 
 #ifndef __cplusplus
 #define __TRAX_GENERIC(name, x)                                                                                        \
-  _Generic((x), unsigned char: name##_uc, unsigned short: name##_us, unsigned: name##_ui, unsigned long: name##_ul,    \
-           unsigned long long: name##_ull)(x)
+  _Generic((x),                                                                                                        \
+      unsigned char: name##_uc,                                                                                        \
+      unsigned short: name##_us,                                                                                       \
+      unsigned: name##_ui,                                                                                             \
+      unsigned long: name##_ul,                                                                                        \
+      unsigned long long: name##_ull)(x)
 #define stdc_count_ones(x) __TRAX_GENERIC(stdc_count_ones, x)
 #define stdc_count_zeros(x) __TRAX_GENERIC(stdc_count_zeros, x)
 #define stdc_leading_zeros(x) __TRAX_GENERIC(stdc_leading_zeros, x)

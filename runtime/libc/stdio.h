@@ -107,8 +107,7 @@ int vscanf(const char *__restrict format, __builtin_va_list arguments) __TRAX_SC
 int fscanf(FILE *__restrict stream, const char *__restrict format, ...) __TRAX_SCANF(2, 3);
 int vfscanf(FILE *__restrict stream, const char *__restrict format, __builtin_va_list arguments) __TRAX_SCANF(2, 0);
 int sscanf(const char *__restrict text, const char *__restrict format, ...) __TRAX_SCANF(2, 3);
-int vsscanf(const char *__restrict text, const char *__restrict format, __builtin_va_list arguments)
-    __TRAX_SCANF(2, 0);
+int vsscanf(const char *__restrict text, const char *__restrict format, __builtin_va_list arguments) __TRAX_SCANF(2, 0);
 
 #ifdef __TRAX_ALL_NAMES
 int asprintf(char **__restrict to, const char *__restrict format, ...) __TRAX_PRINTF(2, 3);

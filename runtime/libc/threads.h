@@ -21,8 +21,7 @@ typedef struct {
 typedef unsigned tss_t;
 typedef void (*tss_dtor_t)(void *);
 
-#define ONCE_FLAG_INIT                                                                                                 \
-  { 0 }
+#define ONCE_FLAG_INIT {0}
 #ifndef __cplusplus
 #define thread_local _Thread_local
 #endif

@@ -53,8 +53,8 @@ int unlink(const char *path);
 int unlinkat(int folder, const char *path, int flags);
 int faccessat(int folder, const char *path, int mode, int flags);
 int rmdir(const char *path);
-char *getcwd(char *to, size_t size); /* "/": names are those that the user gave to folders */
-int chdir(const char *path);         /* fails */
+char *getcwd(char *to, size_t size);                   /* "/": names are those that the user gave to folders */
+int chdir(const char *path);                           /* fails */
 int chown(const char *path, uid_t owner, gid_t group); /* files have no owners: does nothing */
 int fchown(int descriptor, uid_t owner, gid_t group);
 __attribute__((noreturn)) void _exit(int status);

@@ -17,7 +17,7 @@ typedef struct {
 } mbstate_t;
 #endif
 
-#define WEOF ((wint_t)-1)
+#define WEOF ((wint_t) - 1)
 #ifndef WCHAR_MAX
 #define WCHAR_MAX __WCHAR_MAX__
 #define WCHAR_MIN (-WCHAR_MAX - 1)

@@ -8,7 +8,7 @@ typedef __WINT_TYPE__ wint_t;
 typedef int (*wctype_t)(int);
 typedef int (*wctrans_t)(int);
 #ifndef WEOF
-#define WEOF ((wint_t)-1)
+#define WEOF ((wint_t) - 1)
 #endif
 
 #ifdef __cplusplus

@@ -24,7 +24,7 @@ struct counter __kmp_counters[COUNTERS];
 static struct partial { /* of a reduction, for each thread */
   unsigned is_ready;    /* until another thread has taken it */
   void *data;
-} * partials;
+} *partials;
 
 int __kmpc_global_thread_num(void *place) {
   (void)place;

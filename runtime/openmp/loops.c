@@ -26,7 +26,8 @@ static unsigned long long trips_of(unsigned long long distance, long long step) 
     (void)place;                                                                                                       \
     (void)thread;                                                                                                      \
     const unsigned size = team_size(), rank = __kmp_region.rank;                                                       \
-    const UNSIGNED distance = step < 0 ? (UNSIGNED)*lower - (UNSIGNED)*upper : (UNSIGNED)*upper - (UNSIGNED)*lower;    \
+    const UNSIGNED distance =                                                                                          \
+        step < 0 ? (UNSIGNED) * lower - (UNSIGNED) * upper : (UNSIGNED) * upper - (UNSIGNED) * lower;                  \
     if (step < 0 ? *lower < *upper : *upper < *lower) {                                                                \
       *last = 0;                                                                                                       \
       return;                                                                                                          \
@@ -48,8 +49,8 @@ static unsigned long long trips_of(unsigned long long distance, long long step) 
       *stride = (SIGNED)((UNSIGNED)trips * (UNSIGNED)step);                                                            \
       *last = length && first + length == (UNSIGNED)trips;                                                             \
     }                                                                                                                  \
-    *lower = (TYPE)((UNSIGNED)*lower + first * (UNSIGNED)step);                                                        \
-    *upper = (TYPE)((UNSIGNED)*lower + length * (UNSIGNED)step - (UNSIGNED)step);                                      \
+    *lower = (TYPE)((UNSIGNED) * lower + first * (UNSIGNED)step);                                                      \
+    *upper = (TYPE)((UNSIGNED) * lower + length * (UNSIGNED)step - (UNSIGNED)step);                                    \
   }
 STATIC_INIT(4, int, unsigned, int)
 STATIC_INIT(4u, unsigned, unsigned, int)

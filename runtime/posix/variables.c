@@ -12,7 +12,7 @@ static char **own; /* the array from malloc, if environ is that */
 static struct kept {
   struct kept *next;
   char text[];
-} * kept;
+} *kept;
 
 static char **find(const char *name, size_t length) {
   for (char **it = environ; it && *it; it++)

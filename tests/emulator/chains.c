@@ -1,5 +1,5 @@
-/* Faults at the end of a chain of calls (endings_test.py): WHERE is 8 for a load, 0 for an abort, 4 for a jump to nowhere,
-   1 for a recursion that never ends, 2 for a wait that never ends. */
+/* Faults at the end of a chain of calls (endings_test.py): WHERE is 8 for a load, 0 for an abort, 4 for a jump to
+   nowhere, 1 for a recursion that never ends, 2 for a wait that never ends. */
 #include <stdlib.h>
 #include <trax.h>
 

@@ -13,10 +13,10 @@
 #include <cmocka.h>
 #include <jansson.h>
 
-#include "report/energy.h"
 #include "machine/machine.h"
-#include "report/statistics.h"
 #include "programs.h"
+#include "report/energy.h"
+#include "report/statistics.h"
 #include "temporary.h"
 
 static const char *file_name;

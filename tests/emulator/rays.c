@@ -1,6 +1,6 @@
 /* A program for rays_test.py: items with rays of several kinds, which take loops of different lengths. */
-#include <trax/abi.h>
 #include <trax.h>
+#include <trax/abi.h>
 
 #define SAME(X, ID, NAME, NUMBER, MEANING) _Static_assert(TRAX_RAY_##ID == NUMBER, "a kind's number");
 TRAX_RAY_KINDS(SAME, )

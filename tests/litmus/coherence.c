@@ -2,7 +2,9 @@
 #define ROLES 4
 #include "litmus.h"
 
-static struct { struct shared word, stored, looked; } at[RUNS];
+static struct {
+  struct shared word, stored, looked;
+} at[RUNS];
 
 void part(unsigned role, unsigned run) {
   unsigned first = 0, second = 0;

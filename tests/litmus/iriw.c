@@ -2,7 +2,9 @@
 #define ROLES 4
 #include "litmus.h"
 
-static struct { struct shared word[2]; } at[RUNS];
+static struct {
+  struct shared word[2];
+} at[RUNS];
 
 void part(unsigned role, unsigned run) {
   const unsigned which = role % 2;

@@ -2,7 +2,9 @@
 #define ROLES 2
 #include "litmus.h"
 
-static struct { struct shared word[2]; } at[RUNS];
+static struct {
+  struct shared word[2];
+} at[RUNS];
 
 void part(unsigned role, unsigned run) {
   unsigned other;

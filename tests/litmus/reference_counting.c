@@ -2,7 +2,9 @@
 #define ROLES 2
 #include "litmus.h"
 
-static struct { struct data data[ROLES]; } at[RUNS];
+static struct {
+  struct data data[ROLES];
+} at[RUNS];
 static struct shared dropped[RUNS]; /* references to 0 - ROLES */
 
 void part(unsigned role, unsigned run) {

@@ -111,7 +111,7 @@ static inline uint32_t float_comparisons(float a, float b) {
   ({                                                                                                                   \
     type wrapped;                                                                                                      \
     uint64_t flag = operation((type)(a), (type)(b), &wrapped);                                                         \
-    (uint64_t) wrapped ^ flag << 62 ^ flag << 17;                                                                      \
+    (uint64_t)wrapped ^ flag << 62 ^ flag << 17;                                                                       \
   })
 
 #ifdef SWEEP_RUNTIME

@@ -25,13 +25,10 @@ static const struct {
   const char *name;
   double x, y, want;
 } specials[] = {
-#define ODD(name)                                                                                                      \
-  {#name, 0.0, 0, 0.0}, {                                                                                              \
-#name, -0.0, 0, -0.0                                                                                               \
-  }
+#define ODD(name) {#name, 0.0, 0, 0.0}, {#name, -0.0, 0, -0.0}
 #define INFINITE(name, below, above)                                                                                   \
   {#name, -INFINITY, 0, below}, {                                                                                      \
-#name, INFINITY, 0, above                                                                                          \
+    #name, INFINITY, 0, above                                                                                          \
   }
     ODD(sin),
     INFINITE(sin, NAN, NAN),

@@ -214,7 +214,9 @@ static void test_kinds_of_wrong_hits(void **state) {
   (void)state;
   struct trax_mesh mesh = {0};
   static const float corners[3][2] = {{-1, -1}, {1, -1}, {0, 1}};
-  static const struct { float z, size; } layers[3] = {{-1, 0.2f}, {-1.01f, 0.4f}, {-1.01f, 0.8f}};
+  static const struct {
+    float z, size;
+  } layers[3] = {{-1, 0.2f}, {-1.01f, 0.4f}, {-1.01f, 0.8f}};
   const uint32_t material = mesh_material(&mesh, 0.5f, 0.5f, 0.5f);
   for (int layer = 0; layer < 3; layer++) {
     uint32_t vertices[3];

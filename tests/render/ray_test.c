@@ -221,8 +221,7 @@ int main(void) {
   enum trax_node_layout layouts[TRAX_NODE_LAYOUTS];
   for (unsigned i = 0; i < TRAX_NODE_LAYOUTS; i++)
     layouts[i] = (enum trax_node_layout)i;
-#define OF_LAYOUT(TEST, LAYOUT)                                                                                        \
-  { #TEST ", " #LAYOUT, TEST, NULL, NULL, &layouts[TRAX_NODES_##LAYOUT] }
+#define OF_LAYOUT(TEST, LAYOUT) {#TEST ", " #LAYOUT, TEST, NULL, NULL, &layouts[TRAX_NODES_##LAYOUT]}
   const struct CMUnitTest slots[] = {cmocka_unit_test(test_slots_are_pixels),
                                      cmocka_unit_test(test_slots_of_large_pictures)};
   const struct CMUnitTest tests[] = {

@@ -155,22 +155,10 @@ static void guest_output(void **state) {
   /* Both threads put 'A' + thread; thread order within a cycle. Then "hi" from local memory. */
   struct trax_config lockstep = config;
   lockstep.icache.ports_per_bank = 64;
-  const uint32_t program[] = {U(RDSR, 1, TRAX_SR_TP),
-                              I(ADDI, 2, 1, 'A'),
-                              T(2, TRAX_TRAP_PUTC),
-                              I(ADDI, 3, 0, 'h'),
-                              S(SB, 3, 0, -8),
-                              I(ADDI, 3, 0, 'i'),
-                              S(SB, 3, 0, -7),
-                              I(ADDI, 4, 0, -8),
-                              T(4, TRAX_TRAP_PUTS),
-                              I(ADDI, 5, 0, 3),
-                              T(5, TRAX_TRAP_RAYS),
-                              U(LUI, 6, 0x2100),
-                              I(ORI, 6, 6, 0x6543),
-                              T(6, TRAX_TRAP_KINDS),
-                              T(1, TRAX_TRAP_ITEMS),
-                              HALT};
+  const uint32_t program[] = {U(RDSR, 1, TRAX_SR_TP), I(ADDI, 2, 1, 'A'),    T(2, TRAX_TRAP_PUTC),  I(ADDI, 3, 0, 'h'),
+                              S(SB, 3, 0, -8),        I(ADDI, 3, 0, 'i'),    S(SB, 3, 0, -7),       I(ADDI, 4, 0, -8),
+                              T(4, TRAX_TRAP_PUTS),   I(ADDI, 5, 0, 3),      T(5, TRAX_TRAP_RAYS),  U(LUI, 6, 0x2100),
+                              I(ORI, 6, 6, 0x6543),   T(6, TRAX_TRAP_KINDS), T(1, TRAX_TRAP_ITEMS), HALT};
   struct bench bench = bench_begin(&lockstep, program, 16);
   FILE *file = tmpfile();
   assert_non_null(file);

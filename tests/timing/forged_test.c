@@ -212,17 +212,10 @@ static bool is_counter(unsigned name) {
 /* Whether its values name elements of other arrays, or are matched with those of others. */
 static bool is_matched(unsigned name) {
   static const char *const lists[] = {
-      "trax_request.",
-      "trax_mshr.",
-      "trax_icache_pending.",
-      "trax_l2_mshr.",
-      "trax_dram_request.",
-      "queue->",
-      "l2->",
-      "dcache->",
-      "tm->",
-      "trax_waiting.",
-      "trax_l2.arriving",
+      "trax_request.", "trax_mshr.",         "trax_icache_pending.",
+      "trax_l2_mshr.", "trax_dram_request.", "queue->",
+      "l2->",          "dcache->",           "tm->",
+      "trax_waiting.", "trax_l2.arriving",
   };
   for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
     if (strncmp(names[name], lists[i], strlen(lists[i])) == 0)

@@ -436,7 +436,8 @@ struct trax_config any_machine(uint32_t tms, uint32_t tps) {
   if (!config.ray.units_per_group && !seldom(8))
     config.ray.units_per_group = 1; /* else most programs end soon, by an illegal instruction */
   if (config.tp.branch_bubble_cycles % 3 == 2)
-    config.tp.branch_bubble_cycles = 1; /* seldom met by chance, and a case of its own: no step may be taken for quick */
+    config.tp.branch_bubble_cycles =
+        1; /* seldom met by chance, and a case of its own: no step may be taken for quick */
   return config;
 }
 

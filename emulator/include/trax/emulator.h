@@ -16,7 +16,7 @@
 #define TRAX_EMULATOR_H
 
 #include "trax/processors.h" /* trax_host_processors */
-#include "trax/status.h" /* trax_status, trax_error */
+#include "trax/status.h"     /* trax_status, trax_error */
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -145,7 +145,7 @@ typedef struct trax_slot_sampling {
   /* [as costs][queues]: the predicted number of slots that each queue has handed out at the beginning of each block.
      NULL: the queues advance at the same rate. */
   const uint32_t *handed_out;
-  uint64_t rays, items; /* the totals that the whole program reports; 0: unknown, to be estimated */
+  uint64_t rays, items;  /* the totals that the whole program reports; 0: unknown, to be estimated */
   const uint64_t *kinds; /* [kinds of rays, in the order of the statistics]: whose sum `rays` is; NULL: unknown */
 } trax_slot_sampling;
 

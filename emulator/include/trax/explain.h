@@ -133,7 +133,7 @@ struct trax_explore_picture {
   /* The rays, by place, and those of one place in the order in which the program counts them. NULL: not known. */
   const struct trax_explore_ray *rays;
   size_t ray_count;
-  bool counted_apart;           /* the program counts each ray where it begins */
+  bool counted_apart; /* the program counts each ray where it begins */
   bool has_instances;
   const char *const *materials; /* names without quotation marks */
   uint32_t material_count;

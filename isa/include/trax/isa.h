@@ -57,8 +57,8 @@ enum {
 };
 
 /* How many registers an instruction reads from ra and rb on, in its flags: r31 is followed by r0, r1 and so on. */
-#define TRAX_GROUP_A(COUNT) (((COUNT)-1u) << 16)
-#define TRAX_GROUP_B(COUNT) (((COUNT)-1u) << 20)
+#define TRAX_GROUP_A(COUNT) (((COUNT) - 1u) << 16)
+#define TRAX_GROUP_B(COUNT) (((COUNT) - 1u) << 20)
 static inline unsigned trax_group_a(unsigned flags) {
   return flags & TRAX_READS_RA ? (flags >> 16 & 15) + 1 : 0;
 }

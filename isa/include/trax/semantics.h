@@ -23,9 +23,9 @@
 #define TRAX_CANONICAL_NAN 0x7FC00000u
 
 /* Subnormal operands: processors of one maker (Intel) take an assist of microcode, some 40 ns, for a multiplication,
-   division, square root or widening of one, so these go other ways below. Additions, comparisons and conversions from and
-   to integers take none there, and no result of the latter is subnormal. A subnormal result of normal operands takes one,
-   too; it is rare. */
+   division, square root or widening of one, so these go other ways below. Additions, comparisons and conversions from
+   and to integers take none there, and no result of the latter is subnormal. A subnormal result of normal operands
+   takes one, too; it is rare. */
 
 static inline float trax_to_float(uint32_t bits) {
   float value;
@@ -42,7 +42,8 @@ static inline uint32_t trax_from_float(float value) {
 static inline bool trax_is_nan(uint32_t a) {
   return (a & 0x7FFFFFFFu) > 0x7F800000u;
 }
-/* A NaN is rare. The empty statement keeps compilers from choosing without a branch: each result would wait for that. */
+/* A NaN is rare. The empty statement keeps compilers from choosing without a branch: each result would wait for that.
+ */
 static inline uint32_t trax_canonical(float value) {
   if (__builtin_expect(value != value, 0)) {
     __asm__ volatile("");

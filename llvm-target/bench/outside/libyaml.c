@@ -6,7 +6,8 @@ static char text[SIZE];
 static uint32_t used;
 
 void kernel_setup(void) {
-  static const char part[] = "- name: \"trax\"\n  list: [1, 2.5, -3e10, true, null]\n  nested: {a: {b: [c, d]}, e: 'f g'}\n  text: |\n    several\n    lines\n";
+  static const char part[] = "- name: \"trax\"\n  list: [1, 2.5, -3e10, true, null]\n  nested: {a: {b: [c, d]}, e: 'f "
+                             "g'}\n  text: |\n    several\n    lines\n";
   outside_begin();
   for (used = 0; used + sizeof part < SIZE; used += sizeof part - 1)
     memcpy(text + used, part, sizeof part - 1);

@@ -3,17 +3,17 @@
 #include <lua.h>
 #include <lualib.h>
 
-static const char script[] =
-    "local function fib(n) if n < 2 then return n end return fib(n - 1) + fib(n - 2) end\n"
-    "local t, s = {}, 0\n"
-    "for i = 1, 800 do t[i] = (i * 7919) % 1009 end\n"
-    "table.sort(t)\n"
-    "local words = {}\n"
-    "for w in (('the quick brown fox jumps over the lazy dog '):rep(8)):gmatch('%a+') do words[w] = (words[w] or 0) + 1 end\n"
-    "for _, n in pairs(words) do s = s + n end\n"
-    "local parts = {}\n"
-    "for i = 1, 60 do parts[#parts + 1] = string.format('%d:%x', i, i * i) end\n"
-    "return fib(14) + s + t[400] + #table.concat(parts, ',')\n";
+static const char script[] = "local function fib(n) if n < 2 then return n end return fib(n - 1) + fib(n - 2) end\n"
+                             "local t, s = {}, 0\n"
+                             "for i = 1, 800 do t[i] = (i * 7919) % 1009 end\n"
+                             "table.sort(t)\n"
+                             "local words = {}\n"
+                             "for w in (('the quick brown fox jumps over the lazy dog '):rep(8)):gmatch('%a+') do "
+                             "words[w] = (words[w] or 0) + 1 end\n"
+                             "for _, n in pairs(words) do s = s + n end\n"
+                             "local parts = {}\n"
+                             "for i = 1, 60 do parts[#parts + 1] = string.format('%d:%x', i, i * i) end\n"
+                             "return fib(14) + s + t[400] + #table.concat(parts, ',')\n";
 
 void kernel_setup(void) {
   outside_begin();

@@ -6,8 +6,10 @@ static char text[SIZE + 200];
 static uint32_t sum;
 
 void kernel_setup(void) {
-  static const char part[] = "# Title\n\nSome *emphasis*, **strong**, `code` and [a link](http://example.org \"t\").\n\n1. one\n2. two\n   - nested\n\n"
-                             "> quote\n\n| a | b |\n| - | - |\n| 1 | 2 |\n\n```c\nint main(void) { return 0; }\n```\n\n";
+  static const char part[] =
+      "# Title\n\nSome *emphasis*, **strong**, `code` and [a link](http://example.org \"t\").\n\n1. one\n2. two\n   - "
+      "nested\n\n"
+      "> quote\n\n| a | b |\n| - | - |\n| 1 | 2 |\n\n```c\nint main(void) { return 0; }\n```\n\n";
   outside_begin();
   for (uint32_t at = 0; at < SIZE; at += sizeof part - 1 + 400) {
     memcpy(text + at, part, sizeof part - 1 < SIZE + 200 - at ? sizeof part - 1 : 0);

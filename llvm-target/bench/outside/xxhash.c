@@ -13,5 +13,6 @@ void kernel_setup(void) {
 struct result kernel_run(void) {
   uint64_t long_hash = XXH64(text, SIZE, 1), third = XXH3_64bits(text, SIZE);
   uint32_t sum = XXH32(text, SIZE, 1);
-  return (struct result){mix(mix(sum, (uint32_t)long_hash ^ (uint32_t)(long_hash >> 32)), (uint32_t)third ^ (uint32_t)(third >> 32)), 0};
+  return (struct result){
+      mix(mix(sum, (uint32_t)long_hash ^ (uint32_t)(long_hash >> 32)), (uint32_t)third ^ (uint32_t)(third >> 32)), 0};
 }

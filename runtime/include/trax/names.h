@@ -18,8 +18,8 @@
     return result;                                                                                                     \
   }
 #define __TRAX_REFUSES(type, name, parameters, result, why)                                                            \
-  __attribute__((diagnose_if(1, "'" #name "' fails with ENOSYS: " why, "warning")))                                    \
-  __TRAX_FAILS(type, name, parameters, result)
+  __attribute__((diagnose_if(1, "'" #name "' fails with ENOSYS: " why, "warning"))) __TRAX_FAILS(type, name,           \
+                                                                                                 parameters, result)
 #else
 #define __TRAX_FAILS(type, name, parameters, result) type name parameters;
 #define __TRAX_REFUSES(type, name, parameters, result, why) type name parameters;

@@ -40,8 +40,7 @@ void trax_add_task(trax_task *task, void *context);
 struct trax_barrier {
   unsigned count, arrived, released;
 };
-#define TRAX_BARRIER(COUNT)                                                                                            \
-  { (COUNT), 0, 0 }
+#define TRAX_BARRIER(COUNT) {(COUNT), 0, 0}
 void trax_barrier_wait(struct trax_barrier *barrier);
 void trax_team_barrier(void); /* of all threads in trax_parallel */
 

@@ -1,3 +1,7 @@
 int *volatile nowhere = (int *)8;
-__attribute__((noinline)) int load(int *at) { return *at; }
-int main(void) { return load(nowhere) + 1; }
+__attribute__((noinline)) int load(int *at) {
+  return *at;
+}
+int main(void) {
+  return load(nowhere) + 1;
+}

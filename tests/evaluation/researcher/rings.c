@@ -7,13 +7,27 @@
 
 struct trax_buffer plain_nodes, plain_triangles, params, image, counters;
 unsigned next_pixel;
-struct vector { float x, y, z; };
-static struct vector at(const float *v) { return (struct vector){v[0], v[1], v[2]}; }
-static struct vector minus(struct vector a, struct vector b) { return (struct vector){a.x - b.x, a.y - b.y, a.z - b.z}; }
-static struct vector along(struct vector a, struct vector b, float t) { return (struct vector){a.x + t * b.x, a.y + t * b.y, a.z + t * b.z}; }
-static float dot(struct vector a, struct vector b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-static struct vector cross(struct vector a, struct vector b) { return (struct vector){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
-static void count(unsigned number) { trax_atomic_inc((unsigned *)counters.data + number); }
+struct vector {
+  float x, y, z;
+};
+static struct vector at(const float *v) {
+  return (struct vector){v[0], v[1], v[2]};
+}
+static struct vector minus(struct vector a, struct vector b) {
+  return (struct vector){a.x - b.x, a.y - b.y, a.z - b.z};
+}
+static struct vector along(struct vector a, struct vector b, float t) {
+  return (struct vector){a.x + t * b.x, a.y + t * b.y, a.z + t * b.z};
+}
+static float dot(struct vector a, struct vector b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+static struct vector cross(struct vector a, struct vector b) {
+  return (struct vector){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+static void count(unsigned number) {
+  trax_atomic_inc((unsigned *)counters.data + number);
+}
 static float slab(float low, float high, float from, float way, float *leave) {
   float a = (low - from) / way, b = (high - from) / way;
   *leave = fminf(*leave, fmaxf(a, b));
@@ -30,8 +44,10 @@ static float nearest(struct vector from, struct vector way, float limit) {
     if (enter > leave || leave < 0)
       continue;
     for (int i = 0; i < node->count; i++) {
-      const struct trax_plain_triangle *triangle = (const struct trax_plain_triangle *)plain_triangles.data + node->first + i;
-      struct vector e = minus(at(triangle->v1), at(triangle->v0)), f = minus(at(triangle->v2), at(triangle->v0)), p = cross(way, f);
+      const struct trax_plain_triangle *triangle =
+          (const struct trax_plain_triangle *)plain_triangles.data + node->first + i;
+      struct vector e = minus(at(triangle->v1), at(triangle->v0)), f = minus(at(triangle->v2), at(triangle->v0)),
+                    p = cross(way, f);
       struct vector t = minus(from, at(triangle->v0)), q = cross(t, e);
       float scale = 1 / dot(e, p), u = dot(t, p) * scale, v = dot(way, q) * scale, distance = dot(f, q) * scale;
       count(1);

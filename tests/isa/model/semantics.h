@@ -17,7 +17,7 @@ struct model_execution {
   uint32_t operand[MODEL_FIELDS]; /* register numbers; IMM's value */
   uint32_t next_pc;
   uint32_t named[MODEL_MOST_NAMES]; /* values, in the order of their statements */
-  enum model_fault_kind fault; /* the rest of the statement does not happen */
+  enum model_fault_kind fault;      /* the rest of the statement does not happen */
   uint32_t fault_address;
   const char *undefined; /* why the statement has no defined result */
 };

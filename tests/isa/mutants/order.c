@@ -58,7 +58,9 @@ static int current(void) {
 
 /* --- a cache of words that nobody keeps coherent, for each thread or each TM --- */
 
-static struct { uint32_t address, word; /* address 0: none */ } cached[MOST][MOST][CACHED];
+static struct {
+  uint32_t address, word; /* address 0: none */
+} cached[MOST][MOST][CACHED];
 
 static void forget(const struct trax_ref_tm *tm) {
   memset(cached[tm->number], 0, tm->tps * sizeof cached[0][0]);

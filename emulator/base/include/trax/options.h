@@ -56,33 +56,30 @@ struct trax_option {
 
 /* The member that a value is stored to; the option's kind follows from the member's type. */
 #define TRAX_OPTION_FIELD(type, member)                                                                                \
-  .offset = offsetof(type, member),                                                                                    \
-  .kind = _Generic(((type *)0)->member,                                                                                \
-      bool: TRAX_OPTION_SWITCH,                                                                                        \
-      const char *: TRAX_OPTION_TEXT,                                                                                  \
-      unsigned: TRAX_OPTION_UNSIGNED,                                                                                  \
-      uint64_t: TRAX_OPTION_UNSIGNED64)
+  .offset = offsetof(type, member), .kind = _Generic(((type *)0)->member,                                              \
+                                        bool: TRAX_OPTION_SWITCH,                                                      \
+                                        const char *: TRAX_OPTION_TEXT,                                                \
+                                        unsigned: TRAX_OPTION_UNSIGNED,                                                \
+                                        uint64_t: TRAX_OPTION_UNSIGNED64)
 
 /* Begins a group of options in --help. */
-#define TRAX_OPTION_GROUP(title)                                                                                       \
-  { .name = "", .meaning = title, .kind = TRAX_OPTION_HEADING }
+#define TRAX_OPTION_GROUP(title) {.name = "", .meaning = title, .kind = TRAX_OPTION_HEADING}
 
 #define TRAX_OPTION_HELP(key)                                                                                          \
-  { .name = "help", .letter = key, .meaning = "print this, and end", .kind = TRAX_OPTION_SHOW_HELP }
+  {.name = "help", .letter = key, .meaning = "print this, and end", .kind = TRAX_OPTION_SHOW_HELP}
 #define TRAX_OPTION_VERSION                                                                                            \
-  {.name = "version", .meaning = "print the version, and end", .kind = TRAX_OPTION_SHOW_VERSION}, {                    \
-    .name = "help-man", .instead = "the pages are in share/man, and man NAME shows one"                                \
-  }
+  {.name = "version", .meaning = "print the version, and end", .kind = TRAX_OPTION_SHOW_VERSION},                      \
+      {.name = "help-man", .instead = "the pages are in share/man, and man NAME shows one"}
 
 typedef struct trax_command {
   const char *name;
-  const char *synopsis;    /* the text after the program's name, a line for each way to call it */
-  const char *description; /* lines below the synopsis */
-  const trax_option *rows; /* ended by a row without a name */
-  const char *notes;       /* lines at the end; may be NULL */
-  const char *examples;    /* "COMMAND  # MEANING", a line each; may be NULL */
+  const char *synopsis;       /* the text after the program's name, a line for each way to call it */
+  const char *description;    /* lines below the synopsis */
+  const trax_option *rows;    /* ended by a row without a name */
+  const char *notes;          /* lines at the end; may be NULL */
+  const char *examples;       /* "COMMAND  # MEANING", a line each; may be NULL */
   const char *part, *part_of; /* a first word, such as compare, that the program part_of takes and completes */
-  unsigned column;         /* the column of the meanings in --help */
+  unsigned column;            /* the column of the meanings in --help */
 } trax_command;
 
 typedef enum trax_parsed {
