@@ -82,8 +82,8 @@ SESSIONS = {
     ],
     ("fault", "-O1", ()): [
         ("continue", "received signal SIGSEGV, Segmentation fault"),
-        ("", r"load \(at=0x8\) at .*fault.c:2"),
-        ("backtrace", r"#1 .* main \(\) at .*fault.c:3"),
+        ("", r"load \(at=0x8\) at .*fault.c:3"),
+        ("backtrace", r"#1 .* main \(\) at .*fault.c:6"),
         ("print/x $pc", r"\$1 = 0x"),
         ("continue", "Program terminated with signal SIGSEGV"),
     ],
