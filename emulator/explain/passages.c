@@ -50,9 +50,9 @@ struct trax_passages {
 /* Returns place for a passage with its arrays; NULL: out of memory. */
 static void *reserve(struct log *log, size_t bytes) {
   for (; log->now.block < log->block_count; log->now.block++, log->now.used = 0)
-    if (log->now.used + bytes + PADDING <= log->blocks[log->now.block].capacity)
+    if (log->now.used + bytes <= log->blocks[log->now.block].capacity)
       return log->blocks[log->now.block].bytes + log->now.used;
-  const size_t capacity = bytes + PADDING < BLOCK ? BLOCK : bytes + PADDING;
+  const size_t capacity = bytes < BLOCK ? BLOCK : bytes;
   if (!trax_grow((void **)&log->blocks, log->block_count, &log->block_capacity, sizeof *log->blocks))
     return NULL;
   uint8_t *const block = malloc(capacity);
@@ -119,7 +119,7 @@ static bool end_run(struct log *log) {
 static bool add(const struct trax_passages *passages, struct log *log, const struct trax_stretch *stretch,
                 const struct trax_charged *charged, size_t charged_count) {
   const struct trax_explain *explain = passages->explain;
-  const size_t refused = stretch->refused ? stretch->count : 0,
+  const size_t refused = stretch->refused ? stretch->count + PADDING : 0,
                cycles = stretch->cycles ? TRAX_CAUSE_COUNT * sizeof *stretch->cycles : 0,
                bytes = sizeof(struct trax_passage) + stretch->pieces * sizeof *stretch->piece +
                        stretch->accessed_count * sizeof *stretch->accessed + charged_count * sizeof *charged + refused +
@@ -142,7 +142,10 @@ static bool add(const struct trax_passages *passages, struct log *log, const str
   passage->piece = put(&at, stretch->piece, stretch->pieces * sizeof *stretch->piece);
   passage->accessed = put(&at, stretch->accessed, stretch->accessed_count * sizeof *stretch->accessed);
   passage->charged = put(&at, charged, charged_count * sizeof *charged);
-  passage->refused = refused ? put(&at, stretch->refused, refused) : NULL;
+  if (refused) {
+    passage->refused = put(&at, stretch->refused, stretch->count);
+    at += PADDING;
+  }
   at += -(uintptr_t)at % _Alignof(struct trax_passage);
   if (cycles) {
     uint64_t *const own = put(&at, stretch->cycles, cycles);
