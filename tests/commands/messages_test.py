@@ -99,6 +99,20 @@ def options():
                 fail(f"{program} {option} is called ambiguous: {ended.stderr}")
 
 
+def listings():
+    """What programs that pass options on ask for, and completion."""
+    given = accepted("trax-sim", "--stats", "s", "--quiet", "--explore-against", "a", "--config", "4x32",
+                     "--help-given")
+    names = ["options of trax-sim:", "--config", "--stats writes", "--explore-against reads", "--quiet"]
+    if given.stdout.splitlines() != names:
+        fail(f"--help-given: {given.stdout}")
+    words = accepted("trax-sim", "--help-words", "--quiet", "--config", "4x32", "--max-cycles", "5", "a", "an operand")
+    if words.stdout.split("\0") != ["--quiet", "--config=4x32", "--max-cycles=5", "--", "a", "an operand", ""]:
+        fail(f"--help-words: {words.stdout!r}")
+    if "complete -o filenames" not in accepted("trax-sim", "--help-completion").stdout:
+        fail("--help-completion")
+
+
 def on_terminal(program, *words, **environment):
     """What a program prints on a terminal."""
     master, slave = pty.openpty()
@@ -162,7 +176,7 @@ def notes():
 
 with tempfile.TemporaryDirectory() as directory:
     os.chdir(directory)
-    for part in (versions, empty_names, options, colours, notes):
+    for part in (versions, empty_names, options, listings, colours, notes):
         part()
     os.chdir("/")
 end()
