@@ -104,7 +104,7 @@ static void place(const struct trax_places *places, struct trax_passage *passage
   }
   const struct trax_piece *last = &passage->piece[passage->pieces - 1];
   passage->last = last->index + last->count - 1;
-  passage->inst = *trax_places_inst(places, passage->last);
+  passage->inst = passage->count == 1 ? *trax_places_inst(places, passage->last) : (trax_inst){0};
 }
 
 /* False: out of memory. */
@@ -129,19 +129,22 @@ static bool add(const struct trax_passages *passages, struct log *log, const str
       !trax_grow((void **)&log->passages, log->now.stretches, &log->passage_capacity, sizeof *log->passages))
     return false;
   uint8_t *at = (uint8_t *)(passage + 1);
-  *passage = (struct trax_passage){.thread = stretch->tm * explain->machine->config.chip.tps_per_tm + stretch->tp,
-                                   .count = (uint16_t)stretch->count,
-                                   .pieces = (uint16_t)stretch->pieces,
-                                   .accessed_count = (uint16_t)stretch->accessed_count,
-                                   .charged_count = (uint32_t)charged_count,
-                                   .kind = TRAX_NO_RAY,
-                                   .stores = stretch->stores,
-                                   .misses = stretch->misses,
-                                   .next_pc = stretch->next_pc,
-                                   .result = stretch->result};
+  passage->thread = stretch->tm * explain->machine->config.chip.tps_per_tm + stretch->tp;
+  passage->context = 0;
+  passage->count = (uint16_t)stretch->count;
+  passage->pieces = (uint16_t)stretch->pieces;
+  passage->accessed_count = (uint16_t)stretch->accessed_count;
+  passage->charged_count = (uint32_t)charged_count;
+  passage->kind = TRAX_NO_RAY;
+  passage->stores = stretch->stores;
+  passage->misses = stretch->misses;
+  passage->next_pc = stretch->next_pc;
+  passage->result = stretch->result;
   passage->piece = put(&at, stretch->piece, stretch->pieces * sizeof *stretch->piece);
   passage->accessed = put(&at, stretch->accessed, stretch->accessed_count * sizeof *stretch->accessed);
   passage->charged = put(&at, charged, charged_count * sizeof *charged);
+  passage->refused = NULL;
+  passage->cycles = NULL;
   if (refused) {
     passage->refused = put(&at, stretch->refused, stretch->count);
     at += PADDING;
