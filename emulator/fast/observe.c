@@ -104,8 +104,7 @@ void trax_fast_keep(struct trax_chip *chip, bool holds) {
 }
 
 void trax_fast_record_outcomes(struct trax_tm *tm, uint64_t issued) {
-  const uint64_t hits = tm->serial_hits ? 0 : tm->load_hits & ~tm->storing; /* of which grant() knew */
-  for (uint64_t rest = issued & ~(tm->executes_at_issue | hits); rest; rest &= rest - 1) {
+  for (uint64_t rest = issued; rest; rest &= rest - 1) {
     const unsigned number = trax_first(rest);
     tm->observed->outcomes[number][tm->heads.load[number]] =
         take_outcome(&tm->tp[number], trax_fast_head_timing(tm, number)->decoded, true);
@@ -155,16 +154,18 @@ static inline unsigned accesses_of_16(const uint16_t *step) {
   return like_16(_mm_loadu_si128((const __m128i *)step), _mm_loadu_si128((const __m128i *)(step + 8)), TRAX_STEP_KIND,
                  TRAX_STEP_BANK);
 }
-_Static_assert((int)TRAX_CHUNK >= 16, "so many steps may follow the last one");
 
-/* Returns a bit for each of the first `count` of 64 steps, at most, that `of_16` finds: few loops are left, whose ends
-   the host would have to predict. */
+/* Returns a bit for each of the first `count` of 64 steps, at most, that `of_16` finds: few branches are left that the
+   host would have to predict. Up to 31 steps behind the last one exist. */
 static ALWAYS_INLINE uint64_t find(const uint16_t *steps, unsigned count, unsigned (*of_16)(const uint16_t *steps)) {
-  uint64_t found = 0;
-  for (unsigned i = 0; i < count && i < 64; i += 16)
-    found |= (uint64_t)of_16(steps + i) << i;
+  uint64_t found = of_16(steps);
+  if (count > 16)
+    found |= (uint64_t)of_16(steps + 16) << 16;
+  if (count > 32)
+    found |= (uint64_t)of_16(steps + 32) << 32 | (uint64_t)of_16(steps + 48) << 48;
   return count < 64 ? found & (((uint64_t)1 << count) - 1) : found;
 }
+_Static_assert((int)TRAX_CHUNK >= 31, "so many steps may follow the last one");
 
 /* Lists the pieces of the steps from `begin` to `end`. */
 static size_t list_pieces(const struct trax_tm *tm, unsigned number, unsigned begin, unsigned end,
@@ -183,23 +184,29 @@ static size_t list_pieces(const struct trax_tm *tm, unsigned number, unsigned be
   return count;
 }
 
+/* Returns a bit for each of 32 outcomes: those of accesses that have not hit. */
+static inline uint32_t outcomes_of_32(const uint8_t *outcomes) {
+  const __m128i none = _mm_set1_epi8((char)TRAX_FAST_NO_OUTCOME), *const some = (const __m128i *)outcomes;
+  const unsigned first = (unsigned)_mm_movemask_epi8(_mm_cmpeq_epi8(_mm_loadu_si128(some), none)),
+                 second = (unsigned)_mm_movemask_epi8(_mm_cmpeq_epi8(_mm_loadu_si128(some + 1), none));
+  return ~(first | second << 16);
+}
+
 /* Takes the outcomes of accesses that have not hit. Returns whether there are any. */
 static bool take_outcomes(uint8_t *outcomes, struct trax_accessed *accessed, size_t count) {
   bool any = false;
-  for (size_t i = 0; i < count; i += 8) {
-    uint64_t some;
-    memcpy(&some, outcomes + i, sizeof some);
-    some = ~some & (count - i < 8 ? ((uint64_t)1 << 8 * (count - i)) - 1 : UINT64_MAX);
-    for (; __builtin_expect(some != 0, false); any = true) {
-      const unsigned byte = trax_first(some) / 8;
-      accessed[i + byte].outcome = outcomes[i + byte];
-      outcomes[i + byte] = TRAX_FAST_NO_OUTCOME;
-      some &= ~((uint64_t)UINT8_MAX << 8 * byte);
+  for (size_t i = 0; i < count; i += 32) {
+    uint32_t some = outcomes_of_32(outcomes + i);
+    if (count - i < 32)
+      some &= ((uint32_t)1 << (count - i)) - 1;
+    for (; __builtin_expect(some != 0, false); some &= some - 1, any = true) {
+      const size_t at = i + trax_first(some);
+      accessed[at].outcome = outcomes[at];
+      outcomes[at] = TRAX_FAST_NO_OUTCOME;
     }
   }
   return any;
 }
-_Static_assert(TRAX_FAST_NO_OUTCOME == UINT8_MAX, "its bits are all set");
 
 /* Lists the accesses to global memory of the steps from `begin` to `end`. *misses: not all have hit. */
 static size_t list_accesses(struct trax_tm *tm, unsigned number, unsigned begin, unsigned end,

@@ -184,7 +184,10 @@ static ALWAYS_INLINE void issue(struct trax_tm *tm, const bool wide, uint64_t gr
   slow &= granted;
   if (__builtin_expect(tm->observed != NULL, false)) {
     record_refusals(tm, wide, granted & tm->observed->tps);
-    trax_fast_record_outcomes(tm, granted & banks);
+    const uint64_t hits = tm->serial_hits ? 0 : tm->load_hits & ~tm->storing, /* of which grant() knew */
+        others = granted & banks & ~(tm->executes_at_issue | hits);
+    if (others)
+      trax_fast_record_outcomes(tm, others);
   }
   for (uint64_t loads = quick & banks; loads; loads &= loads - 1)
     trax_fast_set_load(tm, trax_first(loads), tm->heads.load[trax_first(loads)] + 1u);

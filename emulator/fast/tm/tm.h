@@ -48,8 +48,8 @@ struct trax_fast_observed {
   uint64_t tps;
   _Alignas(64) uint8_t of_head[TRAX_MAX_TPS_PER_TM]; /* trax_stretch.refused */
   uint8_t refused[TRAX_MAX_TPS_PER_TM][TRAX_BURST];  /* the same, of each step */
-  /* Of each access to global memory of the burst; they are read by eight. */
-  uint8_t outcomes[TRAX_MAX_TPS_PER_TM][TRAX_BURST + 8];
+  /* Of each access to global memory of the burst; they are read by 32. */
+  uint8_t outcomes[TRAX_MAX_TPS_PER_TM][TRAX_BURST + 32];
 };
 
 /* A TP is awake; or it sleeps until a cycle (in the wheel), until an arrival (in `awaiting`, or in the list of an
