@@ -1,4 +1,5 @@
 #define _POSIX_C_SOURCE 200809L /* open_memstream */
+#define ZLIB_CONST
 #include "explain/page.h"
 
 #include <stdlib.h>
@@ -27,6 +28,16 @@ void trax_page_number(FILE *out, uint64_t value) {
   for (; value >= 128; value >>= 7)
     putc_unlocked((int)(value & 127) | 128, out);
   putc_unlocked((int)value, out);
+}
+
+void trax_page_decimal(FILE *out, uint64_t value) {
+  char digits[20];
+  size_t at = sizeof digits;
+  do
+    digits[--at] = (char)('0' + value % 10);
+  while (value /= 10);
+  while (at < sizeof digits)
+    putc_unlocked(digits[at++], out);
 }
 
 trax_status trax_page_text(FILE *out, const char *name, trax_status (*put)(void *self, FILE *out, trax_error *error),
@@ -82,16 +93,32 @@ static void put_base64(FILE *out, const uint8_t *bytes, size_t size) {
   }
 }
 
-static trax_status put_script(FILE *out, const char *name, const char *bytes, size_t size, trax_error *error) {
-  uLongf packed_size = compressBound(size);
-  uint8_t *packed = malloc(packed_size);
-  if (!packed || compress2(packed, &packed_size, (const Bytef *)bytes, size, Z_BEST_SPEED) != Z_OK) {
+/* Packs the bytes as zlib does. strategy: of zlib. */
+static trax_status put_script(FILE *out, const char *name, const char *bytes, size_t size, int strategy,
+                              trax_error *error) {
+  enum { PART = 1 << 30, BUFFER = 3 << 14 }; /* BUFFER: a multiple of 3, for base64 */
+  uint8_t *packed = malloc(BUFFER);
+  z_stream stream = {.next_in = (const Bytef *)bytes};
+  if (!packed || deflateInit2(&stream, Z_BEST_SPEED, Z_DEFLATED, MAX_WBITS, MAX_MEM_LEVEL, strategy) != Z_OK) {
     free(packed);
     return trax_fail(error, "out of memory for the page");
   }
   fprintf(out, "<script type=\"application/octet-stream\" id=\"%s\">", name);
-  put_base64(out, packed, packed_size);
+  int state = Z_OK;
+  while (state == Z_OK) {
+    stream.next_out = packed;
+    stream.avail_out = BUFFER;
+    while (state == Z_OK && stream.avail_out) {
+      if (!stream.avail_in) {
+        stream.avail_in = size < PART ? (uInt)size : PART;
+        size -= stream.avail_in;
+      }
+      state = deflate(&stream, size ? Z_NO_FLUSH : Z_FINISH);
+    }
+    put_base64(out, packed, BUFFER - stream.avail_out);
+  }
   fputs("</script>\n", out);
+  deflateEnd(&stream);
   free(packed);
   return TRAX_OK;
 }
@@ -134,9 +161,9 @@ static trax_status put_page(void *self, FILE *out, trax_error *error) {
     status = trax_fail(error, "out of memory for the page");
   fputs(trax_page_begin, out);
   if (status == TRAX_OK)
-    status = put_script(out, "data", texts[0], sizes[0], error);
-  if (status == TRAX_OK)
-    status = put_script(out, "pixels", texts[1], sizes[1], error);
+    status = put_script(out, "data", texts[0], sizes[0], Z_DEFAULT_STRATEGY, error);
+  if (status == TRAX_OK) /* twice as fast as the default, and 5 % larger */
+    status = put_script(out, "pixels", texts[1], sizes[1], Z_RLE, error);
   fputs(trax_page_end, out);
   free(texts[0]);
   free(texts[1]);

@@ -11,6 +11,8 @@ trax_status trax_page_text(FILE *out, const char *name, trax_status (*put)(void 
 /* Writes a text as JSON. Bytes that are not UTF-8 stay as they are. */
 void trax_page_quote(FILE *out, const char *text, size_t size);
 
+/* Writes a number in decimal: much faster than fprintf, for the longest tables. */
+void trax_page_decimal(FILE *out, uint64_t value);
 /* Writes a number as LEB128. */
 void trax_page_number(FILE *out, uint64_t value);
 

@@ -30,18 +30,23 @@ struct series {
 
 /* --- rows --- */
 
+static void put_number(FILE *out, uint64_t value) {
+  putc_unlocked(',', out);
+  trax_page_decimal(out, value);
+}
+
 /* memory: the chip's; NULL for a TM. */
 static void put_row(FILE *out, const struct interval *interval, const char *tm, const struct trax_tm_stats *stats,
                     const struct trax_memory_stats *memory, uint32_t queue) {
   fprintf(out, "%" PRIu64 ",%" PRIu64 ",%s", interval->begin, interval->end, tm);
   for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
-    fprintf(out, ",%" PRIu64, stats->cycles[cause]);
+    put_number(out, stats->cycles[cause]);
 #define COUNT(ID, NAME, UNIT, MEANING)                                                                                 \
   if (strcmp(NAME, "memory.queue_peak") != 0)                                                                          \
-    fprintf(out, ",%" PRIu64, stats->ID);
+    put_number(out, stats->ID);
   TRAX_TM_COUNTERS(COUNT)
 #undef COUNT
-#define COUNT(ID, NAME, UNIT, MEANING) memory ? fprintf(out, ",%" PRIu64, memory->ID) : fputc(',', out);
+#define COUNT(ID, NAME, UNIT, MEANING) memory ? put_number(out, memory->ID) : (void)fputc(',', out);
   TRAX_MEMORY_COUNTERS(COUNT)
 #undef COUNT
   fprintf(out, ",%u\n", queue);

@@ -9,9 +9,11 @@
 #include <string.h>
 
 static void put_cycles(FILE *out, const uint32_t *cycles) {
-  for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++)
-    fprintf(out, ",%" PRIu32, cycles[cause]);
-  fputc(']', out);
+  for (unsigned cause = 0; cause < TRAX_CAUSE_COUNT; cause++) {
+    putc_unlocked(',', out);
+    trax_page_decimal(out, cycles[cause]);
+  }
+  putc_unlocked(']', out);
 }
 
 /* The causes are in the order of the statistics. */
