@@ -9,10 +9,10 @@
 
 /* The instructions in the logs with which they are full, where each stretch counts as 64 more: few while a reader finds
    much that is new (trax_explain.found), since it finds a limit (trax_observer.single) with this delay. */
-enum { TRAX_PASSAGES_FEW = 1 << 16, TRAX_PASSAGES_MANY = 3 << 18 };
+enum { TRAX_PASSAGES_FEW = 1 << 16, TRAX_PASSAGES_MANY = 3 << 19 };
 /* With stories, passages stay where they are for so many rounds of reading, trax_explain.round being the present one.
  */
-enum { TRAX_PASSAGES_ROUNDS = 8 };
+enum { TRAX_PASSAGES_ROUNDS = 4 };
 
 /* NULL: out of memory. */
 struct trax_passages *trax_passages_create(struct trax_explain *explain);
