@@ -36,6 +36,18 @@ static ALWAYS_INLINE void count_refusals(struct trax_tm *tm, const bool wide, co
     trax_fast_log_refusals(tm, full);
 }
 
+/* Records those of the first TP, and returns the rest of the TPs; of `last`, the last TP, if there is none. */
+static ALWAYS_INLINE uint64_t record_next(struct trax_tm *tm, uint64_t rest, uint64_t last) {
+  const unsigned number = trax_first(rest | last);
+  tm->observed->refused[number][tm->heads.at[number]] = tm->observed->of_head[number];
+  return rest & (rest - 1);
+}
+
+static ALWAYS_INLINE uint64_t record_four(struct trax_tm *tm, uint64_t rest, uint64_t last) {
+  rest = record_next(tm, record_next(tm, rest, last), last);
+  return record_next(tm, record_next(tm, rest, last), last);
+}
+
 /* Records the refusals of heads that issue. */
 static ALWAYS_INLINE void record_refusals(struct trax_tm *tm, const bool wide, uint64_t issued) {
   struct trax_fast_observed *const observed = tm->observed;
@@ -44,14 +56,10 @@ static ALWAYS_INLINE void record_refusals(struct trax_tm *tm, const bool wide, u
     trax_fast_log_refusals(tm, single);
   if (!in_bursts)
     return;
-  /* By eight without a branch, which the host would mispredict: after the last TP, this one again and again. */
+  /* By eight without a branch, which the host would mispredict. */
   const uint64_t last = (uint64_t)1 << (63 - __builtin_clzll(in_bursts));
   for (uint64_t rest = in_bursts; rest;)
-#pragma GCC unroll 8
-    for (unsigned i = 0; i < 8; i++, rest &= rest - 1) {
-      const unsigned number = trax_first(rest | last);
-      observed->refused[number][tm->heads.at[number]] = observed->of_head[number];
-    }
+    rest = record_four(tm, record_four(tm, rest, last), last);
   clear_bytes(observed->of_head, wide, in_bursts);
   observed->tps &= ~in_bursts;
 }
