@@ -36,12 +36,12 @@ struct trax_span {
 
 struct trax_passage {
   uint32_t thread;
-  uint32_t context;         /* the thread's call chain, a number of the profile's; 0 without one */
+  uint32_t context; /* the thread's call chain, a number of the profile's; 0 without one */
   uint32_t next_pc; /* of the last instruction */
   uint32_t last;    /* its index */
   uint32_t result;  /* trax_stretch */
   trax_inst inst;   /* if it is the only one; else illegal */
-  uint16_t count; /* instructions; 0: at the end of the run, the charges since the thread's last instruction */
+  uint16_t count;   /* instructions; 0: at the end of the run, the charges since the thread's last instruction */
   uint16_t pieces, accessed_count;
   uint8_t kind;        /* of the ray that the thread works for, the passage's included (explain/ray_kinds.h) */
   bool stores, misses; /* trax_stretch */
