@@ -457,8 +457,8 @@ MUTANTS = [
      "decoded->imm == TRAX_SR_CYCLEH"),
     # A TM that has read too early goes back.
     ("fast/merge.c", "if (line->writer[word] == tm)", "if (line->writer[word] == tm || line->writer[word] >= 64)"),
-    ("fast/store_buffer.h", "line->read |= trax_written_bits(address, bytes)",
-     "line->read |= trax_written_bits(address, 1)"),
+    ("fast/store_buffer.h", "line->read |= trax_overlay_bits(address, bytes)",
+     "line->read |= trax_overlay_bits(address, 1)"),
     # A word that several wrote conflicts.
     ("fast/merge.c", "line->writer[word] != writer ? BY_SEVERAL : writer", "0 ? BY_SEVERAL : writer"),
     # The order of two TMs' stores to a byte matters if they differ, and that of a store and an increment in any case.
@@ -468,7 +468,7 @@ MUTANTS = [
     ("fast/function/blocks.h", "if (trax_fast_is_shared(blocks, address))\n    trax_store_buffer_record",
      "if (0)\n    trax_store_buffer_record"),
     # Data that were loaded ahead and are written or incremented are loaded again.
-    ("fast/merge.c", "written >> at & TRAX_WRITTEN_BLOCK &&", "written >> at & 1 && at &&"),
+    ("fast/merge.c", "written >> at & BLOCK_BITS &&", "written >> at & 1 && at &&"),
     ("fast/merge.c",
      "    if (trax_fast_is_loaded(&merge->chip->blocks, merge->increments[i]))\n      return false;\n", ""),
     # A block from which bursts have loaded is not shared without their going back.
@@ -494,35 +494,33 @@ MUTANTS = [
     # Bursts do not load what others may increment.
     ("fast/function/blocks.h", "__ATOMIC_RELAXED) == TRAX_BLOCK_SHARED", "__ATOMIC_RELAXED) <= TRAX_BLOCK_SHARED"),
     # The write set is that of one epoch.
-    ("fast/merge.c", "  trax_written_empty(&merge->written);\n", ""),
+    ("fast/merge.c", "  trax_overlay_empty(&merge->written);\n", ""),
     # An epoch that is given up has written nothing.
     ("fast/merge.c", "good = !merge->failed && goes_on", "good = goes_on"),
     # Stores take effect at its end, and are seen by their TM before, also in later quanta.
     ("fast/merge.c", "(bytes, line->bytes, line->written);", "(bytes, line->bytes, line->written & 0x11111111);"),
-    ("fast/store_buffer.c", "  buffer->side = &buffer->sides[side];",
-     "  trax_written_empty(&buffer->written);\n  buffer->side = &buffer->sides[side];"),
+    ("fast/merge.c", "  tm->buffer->side = &tm->buffer->sides[side];",
+     "  trax_overlay_empty(&tm->buffer->written);\n  tm->buffer->side = &tm->buffer->sides[side];"),
     # A quantum ahead is of half a latency.
     ("fast/epochs.c", "quantum * epochs->latency / epochs->sides", "quantum * epochs->latency"),
     ("base/pool.c", "round - seen.finished <= 1;", "round - seen.finished <= 2;"),
     # A TM receives what was served, in its quantum, and at the end of the epoch, and wakes for it.
-    ("fast/merge.c", "  trax_store_buffer_begin_quantum(tm->buffer, side);\n  trax_tm_receive(tm, side);",
-     "  trax_store_buffer_begin_quantum(tm->buffer, side);\n  trax_tm_receive(tm, 0);"),
+    ("fast/merge.c", "done = 0;\n  trax_tm_receive(tm, side);", "done = 0;\n  trax_tm_receive(tm, 0);"),
     ("fast/merge.c", "  for (unsigned side = 0; side < TRAX_SIDES; side++)\n    trax_tm_receive(tm, side);\n", ""),
     ("fast/tm/tm.c", "    tm->next_cycle = trax_queue_oldest(&tm->queue)->completion;", "    ;"),
     # Requests arrive by their completions, those of one cycle in the order in which they were made.
     ("fast/tm/queue.c", "x->completion < y->completion", "x->completion > y->completion"),
     ("fast/tm/queue.c", "x->number < y->number", "x->number > y->number"),
     # Every part of the snapshot is copied.
-    ("fast/epochs.c", "piece_count * (part + 1) / parts;",
-     "piece_count * (part + 1) / parts - part;"),
+    ("machine/snapshot.c", "  return snapshot->count * part / parts;", "  return snapshot->count * part / parts - part / 2;"),
     # A TM sees its own stores.
-    ("fast/written.h", "  old ^= (old ^ new) & trax_written_mask(line->written >> (address & 28));", "  old = new;"),
-    ("fast/written.h", "trax_written_mask(trax_written_bits(address, bytes) >> (address & 28))", "UINT32_MAX"),
-    ("fast/written.h", "line->written |= trax_written_bits(address, bytes);",
-     "line->written |= trax_written_bits(address, 1);"),
+    ("machine/overlay.h", "  old ^= (old ^ new) & trax_overlay_mask(line->written >> (address & 28));", "  old = new;"),
+    ("machine/overlay.h", "trax_overlay_mask(trax_overlay_bits(address, bytes) >> (address & 28))", "UINT32_MAX"),
+    ("machine/overlay.h", "line->written |= trax_overlay_bits(address, bytes);",
+     "line->written |= trax_overlay_bits(address, 1);"),
     # Lines have what each TM stored to them.
-    ("fast/written.h", "    old ^= (old ^ new) & trax_written_mask(bits);", "    old = new;"),
-    ("fast/written.h", "if (written->lines[i - 1].number == number)", "if (true)"),
+    ("machine/overlay.h", "    old ^= (old ^ new) & trax_overlay_mask(bits >> at);", "    old = new;"),
+    ("machine/overlay.h", "if (overlay->lines[i - 1].number == number)", "if (true)"),
     # --- DRAM: one module of both engines, so timing-dram-test notices most ---
     ("dram/dram.c", "latest(now, bank->activate_from)", "now"),
     ("dram/dram.c", "latest(rank->activate_from, rank->window_from", "latest(now, rank->window_from"),
