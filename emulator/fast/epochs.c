@@ -33,6 +33,7 @@ struct trax_epochs {
 
   bool has_snapshot;
   uint64_t snapshot_cycle;
+  uint32_t snapshot_running;     /* threads that had not ended */
   unsigned snapshot_interval;    /* in latencies */
   struct trax_snapshot snapshot; /* but for the words of global memory, which merge has */
 
@@ -65,6 +66,7 @@ static void take_snapshot(struct trax_epochs *epochs, uint64_t t) {
   trax_merge_keep(&epochs->merge);
   epochs->has_snapshot = epochs->chip->transfers.holds = true;
   epochs->snapshot_cycle = t;
+  epochs->snapshot_running = trax_chip_running(epochs->chip);
 }
 
 void trax_epochs_commit(struct trax_epochs *epochs) {
@@ -143,7 +145,8 @@ bool trax_epochs_advance(struct trax_epochs *epochs, uint64_t *t, uint64_t until
   if (!epochs->has_snapshot) {
     epochs->snapshot_interval = FIRST_SNAPSHOT_INTERVAL;
     take_snapshot(epochs, *t);
-  } else if (chip->machine->observer && chip->machine->observer->full) {
+  } else if ((chip->machine->observer && chip->machine->observer->full) ||
+             4 * trax_chip_running(chip) < 3 * epochs->snapshot_running) { /* the last epoch of the run is given up */
     take_snapshot(epochs, *t);
   } else if (*t - epochs->snapshot_cycle >= epochs->snapshot_interval * epochs->latency ||
              epochs->merge.undo_count >= MOST_UNDO) {

@@ -73,7 +73,9 @@ static inline uint64_t next_of(struct trax_merge_order *order) {
 
 /* Notes who writes some bytes of a line of the write set. */
 static void note_writer(struct trax_overlay_line *line, uint32_t bits, uint32_t writer) {
-  for (unsigned word = 0; bits; word++, bits >>= 4)
+  if (!line->written) /* who wrote the other words does not matter */
+    memset(line->writer, (int)writer, sizeof line->writer);
+  for (unsigned word = 0; line->written && bits; word++, bits >>= 4)
     if (bits & 15)
       line->writer[word] =
           (uint8_t)(line->written >> 4 * word & 15 && line->writer[word] != writer ? BY_SEVERAL : writer);

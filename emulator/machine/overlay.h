@@ -70,6 +70,10 @@ static inline uint32_t trax_overlay_mask(uint32_t bits) {
 
 /* Copies those of a line's bytes that are in a mask. */
 static inline void trax_overlay_copy(uint8_t *to, const uint8_t *from, uint32_t bits) {
+  if (bits == UINT32_MAX) {
+    memcpy(to, from, TRAX_OVERLAY_BYTES);
+    return;
+  }
   for (unsigned at = 0; at < TRAX_OVERLAY_BYTES; at += 4) {
     uint32_t old, new;
     memcpy(&old, to + at, sizeof old);
@@ -82,20 +86,23 @@ static inline void trax_overlay_copy(uint8_t *to, const uint8_t *from, uint32_t 
 /* Returns the bytes of an aligned access as the line and the memory below it have them. */
 static inline uint32_t trax_overlay_load(const struct trax_overlay_line *line, const uint8_t *memory, uint32_t address,
                                          unsigned bytes) {
+  const uint32_t written = line->written >> (address & 28) & 15;
   uint32_t old, new;
   memcpy(&old, memory + (address & ~3u), sizeof old);
   memcpy(&new, line->bytes + (address & 28), sizeof new);
-  old ^= (old ^ new) & trax_overlay_mask(line->written >> (address & 28));
+  if (bytes == sizeof old && (!written || written == 15))
+    return written ? new : old;
+  old ^= (old ^ new) & trax_overlay_mask(written);
   return old >> address % 4 * 8 & UINT32_MAX >> (32 - 8 * bytes);
 }
 
 static inline void trax_overlay_store(struct trax_overlay_line *line, uint32_t address, uint32_t value,
                                       unsigned bytes) {
-  uint32_t word;
-  memcpy(&word, line->bytes + (address & 28), sizeof word);
-  word ^= (word ^ value << address % 4 * 8) & trax_overlay_mask(trax_overlay_bits(address, bytes) >> (address & 28));
-  memcpy(line->bytes + (address & 28), &word, sizeof word);
   line->written |= trax_overlay_bits(address, bytes);
+  if (__builtin_expect(bytes == sizeof value, true))
+    memcpy(line->bytes + address % TRAX_OVERLAY_BYTES, &value, sizeof value);
+  else
+    memcpy(line->bytes + address % TRAX_OVERLAY_BYTES, &value, bytes);
 }
 
 #endif

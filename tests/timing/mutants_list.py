@@ -147,10 +147,15 @@ MUTANTS = [
     ("fast/time/grant.h", "const unsigned pointer = tm->queue_arbiter % 64;", "const unsigned pointer = 0;"),
     ("fast/time/grant.h", "tm->load_hits & ~tm->executes_at_issue & ~", "tm->load_hits & ~"),
     ("fast/time/grant.h", "stores = won & tm->storing & *slow;", "stores = 0;"),
-    ("fast/time/grant.h", "trax_tp_stores(tp, tm->heads.load[number]) &&", "tp &&"),
+    ("fast/time/grant.h", "if (!trax_tp_stores(tp, load) ||", "if ("),
     ("fast/time/grant.h", "store_hits += count_bits(served & tm->load_hits)", "store_hits += count_bits(served)"),
-    ("fast/time/grant.h", "!(requesters & (requesters - 1)) && !unit->free_from", "!(requesters & (requesters - 1))"),
-    ("fast/time/grant.h", "    trax_arbiter_to_back(&unit->arbiter[trax_first(requesters) / kind->group_size], "
+    # One that combines takes effect at once: not before a head that executes at issue, a burst's end, or a reader.
+    ("fast/time/grant.h", "at_once = tm->buffer && !(tm->ready & tm->executes_at_issue)", "at_once = tm->buffer"),
+    ("fast/time/grant.h", "if (at_once && tm->heads.at[number] < tm->heads.last[number] &&", "if (at_once &&"),
+    ("fast/time/grant.h", "trax_fast_find_readers(tm, store->address, bit))) {", "0)) {"),
+    ("fast/time/grant.h", "      *slow ^= bit;\n", ""),
+    ("fast/time/grant.h", "(requesters & (requesters - 1)) || unit->free_from)", "(requesters & (requesters - 1)))"),
+    ("fast/time/grant.h", "  trax_arbiter_to_back(&unit->arbiter[trax_first(requesters) / unit->kind.group_size], "
      "trax_first(requesters));\n", ""),
     # Banks one after the other: of many data banks, and of instruction caches of any shape.
     ("fast/time/grant.h", "here & *rr_mask ? here & *rr_mask : here,", "here,", "timing-engines-test"),
@@ -362,8 +367,9 @@ MUTANTS = [
     ("fast/time/head.c", "trax_fast_set_resident(tm, number, evicted - 1, false);",
      "(void)tm;"),
     # Lines of programs of more than 64 may be missing, too.
-    ("fast/time/head.c", "if (next != line && !trax_fast_is_resident(tm, icache, next))",
-     "if (next != line && tm->chip->program.lines <= 64 && !trax_fast_is_resident(tm, icache, next))"),
+    ("fast/time/head.c", "if (!trax_fast_is_resident(tm, icache, at))",
+     "if (tm->chip->program.lines <= 64 && !trax_fast_is_resident(tm, icache, at))"),
+    ("fast/time/head.c", "at <= line[(steps < count - i ? steps : count - i) - 1]; at++)", "at <= line[0]; at++)"),
     # Heads whose line has gone are looked at again.
     ("fast/time/head.c", "      tm->uncertain |= (uint64_t)1 << tp;",
      "      tm->uncertain |= 0;"),
@@ -399,12 +405,16 @@ MUTANTS = [
     # Bursts that load from written blocks are watched, in every word, and in every epoch.
     ("fast/function/burst.c", "tm->watched[number] |= (uint64_t)1 <<", "tm->watched[number] |= (uint64_t)0 <<"),
     ("fast/function/burst.c", "tm->readers[trax_fast_line_hash(address)] |= (uint64_t)1 << number;", ";"),
-    ("fast/function/blocks.c", "(tp->burst.access[i].address & ~3u) - begin < bytes",
-     "(tp->burst.access[i].address & ~3u) - begin - 4 < bytes"),
+    ("fast/function/blocks.c", "any |= (tp->burst.access[i].address & ~3u) == word;",
+     "any |= tp->burst.access[i].address == word;"),
+    ("fast/function/blocks.c", "if ((tp->burst.access[i].address & ~3u) == word && !trax_tp_stores(tp, i))",
+     "if (tp->burst.access[i].address == word && !trax_tp_stores(tp, i))"),
+    ("fast/function/blocks.c", "    if (!(tm->watched[trax_first(rest)] >> line % 64 & 1))", "    if (true)"),
     ("fast/function/blocks.c", "tm->heads.load[number] - (tm->heads.load[number] > 0)", "tm->heads.load[number]"),
     ("fast/function/blocks.c", "i = tm->heads.load[number]; i < end", "i = tm->heads.load[number] + 1u; i < end"),
-    ("fast/function/blocks.c", "  for (uint32_t i = 0; i < chip->tms; i++)\n    trax_fast_roll_back_readers",
-     "  for (uint32_t i = 0; i < 1; i++)\n    trax_fast_roll_back_readers"),
+    ("fast/function/blocks.c", "i < chip->tms; i++)\n    trax_fast_roll_back_readers(&chip->tm[i], address, 0);",
+     "i < 1; i++)\n    trax_fast_roll_back_readers(&chip->tm[i], address, 0);"),
+    ("fast/function/blocks.c", "      if (chip->tm[i].watched[tp])\n", "      if (0)\n"),
     ("fast/merge.c", "  trax_fast_record_readers(tm);\n", ""),
     # Stores of bursts: their words are not loaded again; at their issue they take effect, in order; others roll back.
     ("fast/function/burst.c", "if (has_stored(tp, address, load))", "if (has_stored(tp, address, load) && 0)"),
@@ -413,9 +423,9 @@ MUTANTS = [
     ("fast/function/burst.c", "  if (!tp->again) {", "  if (true) {"),
     ("fast/function/burst.c", "tm->watched[number] = tp->stored = 0;", "tm->watched[number] = 0;",
      "timing-translated-test"),
-    ("fast/function/blocks.c", "if (tm->readers[trax_fast_line_hash(address)] & ~bit)", "if (0)"),
-    ("fast/function/blocks.c", "i < chip->tms; i++)\n    roll_back_word_readers",
-     "i < 1; i++)\n    roll_back_word_readers"),
+    ("fast/function/blocks.c", "    trax_fast_roll_back_readers(tm, address, bit);\n", ""),
+    ("fast/function/blocks.c", "i < chip->tms; i++)\n    trax_fast_roll_back_readers(&chip->tm[i], address, &",
+     "i < 1; i++)\n    trax_fast_roll_back_readers(&chip->tm[i], address, &"),
     ("fast/function/blocks.c", "if (trax_fast_is_loaded(&chip->blocks, address))\n    return false;", ""),
     ("fast/time/head.c", "tp->alone || tp->stored ? bit : 0", "tp->alone ? bit : 0"),
     ("fast/time/issue.h", "    trax_fast_roll_back_tp(tm, number);\n    return false;", "    return false;"),
@@ -514,8 +524,9 @@ MUTANTS = [
     # Every part of the snapshot is copied.
     ("machine/snapshot.c", "  return snapshot->count * part / parts;", "  return snapshot->count * part / parts - part / 2;"),
     # A TM sees its own stores.
-    ("machine/overlay.h", "  old ^= (old ^ new) & trax_overlay_mask(line->written >> (address & 28));", "  old = new;"),
-    ("machine/overlay.h", "trax_overlay_mask(trax_overlay_bits(address, bytes) >> (address & 28))", "UINT32_MAX"),
+    ("machine/overlay.h", "  old ^= (old ^ new) & trax_overlay_mask(written);", "  old = new;"),
+    ("machine/overlay.h", "if (__builtin_expect(bytes == sizeof value, true))", "if (true)"),
+    ("machine/overlay.h", "    return written ? new : old;", "    return new;"),
     ("machine/overlay.h", "line->written |= trax_overlay_bits(address, bytes);",
      "line->written |= trax_overlay_bits(address, 1);"),
     # Lines have what each TM stored to them.
