@@ -32,31 +32,26 @@ struct trax_store_buffer {
   bool stop;                   /* the epoch must be given up: output, or out of memory */
 };
 
-/* Remembers that the TM has read some bytes of a line, which it returns. NULL: out of memory. */
-static inline struct trax_overlay_line *trax_store_buffer_read(struct trax_store_buffer *buffer, uint32_t address,
-                                                               unsigned bytes) {
+/* Returns the line of an address. NULL: out of memory. */
+static inline struct trax_overlay_line *trax_store_buffer_line(struct trax_store_buffer *buffer, uint32_t address) {
   struct trax_overlay_line *const line = trax_overlay_put(&buffer->written, address / TRAX_OVERLAY_BYTES);
-  if (line)
-    line->read |= trax_overlay_bits(address, bytes);
   buffer->stop |= !line;
   return line;
 }
 
-/* Performs an aligned load of global memory, which must have been checked. */
-static inline uint32_t trax_store_buffer_load(struct trax_store_buffer *buffer, const struct trax_space *space,
+/* Performs an aligned load of global memory from its line, and remembers it. */
+static inline uint32_t trax_store_buffer_load(struct trax_overlay_line *line, const struct trax_space *space,
                                               uint32_t address, unsigned bytes) {
-  const struct trax_overlay_line *const line = trax_store_buffer_read(buffer, address, bytes);
-  return line ? trax_overlay_load(line, space->bytes, address, bytes) : 0;
+  line->read |= trax_overlay_bits(address, bytes);
+  return trax_overlay_load(line, space->bytes, address, bytes);
 }
 
-/* The same for a store; one to a SHARED block must be recorded, too. */
+/* Performs an aligned store; one to a SHARED block must be recorded, too. */
 static inline void trax_store_buffer_store(struct trax_store_buffer *buffer, uint32_t address, uint32_t value,
                                            unsigned bytes) {
-  struct trax_overlay_line *const line = trax_overlay_put(&buffer->written, address / TRAX_OVERLAY_BYTES);
+  struct trax_overlay_line *const line = trax_store_buffer_line(buffer, address);
   if (line)
     trax_overlay_store(line, address, value, bytes);
-  else
-    buffer->stop = true;
 }
 
 /* Records a store to a SHARED block, the issue of an atomic increment, a character that the program prints, or a

@@ -416,6 +416,8 @@ MUTANTS = [
      "i < 1; i++)\n    trax_fast_roll_back_readers(&chip->tm[i], address, 0);"),
     ("fast/function/blocks.c", "      if (chip->tm[i].watched[tp])\n", "      if (0)\n"),
     ("fast/merge.c", "  trax_fast_record_readers(tm);\n", ""),
+    ("fast/function/burst.c", "if (!*line || (*line)->number != address / TRAX_OVERLAY_BYTES) {", "if (!*line) {"),
+    ("fast/function/blocks.c", "if (!line || line->number != address / TRAX_OVERLAY_BYTES)", "if (!line)"),
     # Stores of bursts: their words are not loaded again; at their issue they take effect, in order; others roll back.
     ("fast/function/burst.c", "if (has_stored(tp, address, load))", "if (has_stored(tp, address, load) && 0)"),
     ("fast/function/burst.c", "!((tp->burst.access[i].address ^ address) & ~3u)",

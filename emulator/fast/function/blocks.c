@@ -121,11 +121,16 @@ void trax_fast_record_readers(struct trax_tm *tm) {
   for (unsigned number = 0; number < tm->tps; number++) {
     const struct trax_tp *const tp = &tm->tp[number];
     const uint32_t end = tm->watched[number] ? tp->burst.load_count : 0;
+    struct trax_overlay_line *line = NULL;
     for (uint32_t i = tm->heads.load[number]; i < end; i++) {
       const uint32_t address = tp->burst.access[i].address & ~3u;
-      if (!trax_tp_stores(tp, i) &&
-          __atomic_load_n(&state[address >> TRAX_BLOCK_SHIFT], __ATOMIC_RELAXED) >= TRAX_BLOCK_WRITTEN)
-        trax_store_buffer_read(tm->buffer, address, 4);
+      if (trax_tp_stores(tp, i) ||
+          __atomic_load_n(&state[address >> TRAX_BLOCK_SHIFT], __ATOMIC_RELAXED) < TRAX_BLOCK_WRITTEN)
+        continue;
+      if (!line || line->number != address / TRAX_OVERLAY_BYTES)
+        line = trax_store_buffer_line(tm->buffer, address);
+      if (line)
+        line->read |= trax_overlay_bits(address, 4);
     }
   }
 }
