@@ -3,11 +3,11 @@
    of one TM at a time. */
 #include "fast/chip.h"
 #include "fast/merge.h"
+#include "machine/snapshot.h"
 #include "trax/pool.h"
 
 #include <assert.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum {
   LEAST_EPOCH = 16,             /* cycles; shorter epochs do not pay */
@@ -19,12 +19,6 @@ enum {
   MOST_UNDO = 1 << 16,     /* lines written to global memory after which a snapshot is taken in any case */
   FIRST_PAUSE = 64,        /* cycles simulated one by one after the epoch of a conflict; doubles with each */
   LONGEST_PAUSE = 1 << 20, /* conflict until a snapshot */
-};
-
-/* A piece of the chip's state. */
-struct piece {
-  uint8_t *bytes;
-  size_t size, place; /* place: in the snapshot */
 };
 
 struct trax_epochs {
@@ -39,10 +33,9 @@ struct trax_epochs {
 
   bool has_snapshot;
   uint64_t snapshot_cycle;
-  unsigned snapshot_interval; /* in latencies */
-  struct piece *pieces;       /* [piece_count] */
-  size_t piece_count, snapshot_size;
-  uint8_t *snapshot; /* what is in the pieces; merge has the words of global memory */
+  uint32_t snapshot_running;     /* threads that had not ended */
+  unsigned snapshot_interval;    /* in latencies */
+  struct trax_snapshot snapshot; /* but for the words of global memory, which merge has */
 
   uint64_t cautious_from, cautious_until; /* these cycles are simulated one by one */
   uint64_t pause;
@@ -50,45 +43,14 @@ struct trax_epochs {
 
 /* --- snapshots --- */
 
-/* Counts the section, or lists it if there is a list. No piece is within another one: threads that copy parts of the
-   list must not meet in the same bytes. */
-static void add_section(void *context, const struct trax_section *section) {
-  struct trax_epochs *epochs = context;
-  const size_t size = section->size * section->count;
-  if (!size || section->within)
-    return;
-  if (epochs->pieces)
-    epochs->pieces[epochs->piece_count] = (struct piece){section->bytes, size, epochs->snapshot_size};
-  epochs->piece_count++;
-  epochs->snapshot_size += size;
-}
-
-static bool list_pieces(struct trax_epochs *epochs) {
-  trax_state_visit(epochs->chip, add_section, epochs);
-  if (!(epochs->pieces = calloc(epochs->piece_count, sizeof *epochs->pieces)))
-    return false;
-  epochs->piece_count = epochs->snapshot_size = 0;
-  trax_state_visit(epochs->chip, add_section, epochs);
-  return true;
-}
-
-/* Copies a part of the pieces to the snapshot, or back. */
-static void copy_pieces(const struct trax_epochs *epochs, uint32_t part) {
-  const uint32_t parts = epochs->chip->tms;
-  const size_t end = epochs->piece_count * (part + 1) / parts;
-  for (size_t i = epochs->piece_count * part / parts; i < end; i++) {
-    const struct piece *piece = &epochs->pieces[i];
-    uint8_t *const copy = epochs->snapshot + piece->place;
-    memcpy(epochs->work == SAVE ? copy : piece->bytes, epochs->work == SAVE ? piece->bytes : copy, piece->size);
-  }
-}
-
 static void work(void *context, uint32_t item) {
   struct trax_epochs *epochs = context;
   if (epochs->work == CHECK)
     trax_merge_check(&epochs->merge, &epochs->chip->tm[item]);
+  else if (epochs->work == SAVE)
+    trax_snapshot_save(&epochs->snapshot, item, epochs->chip->tms);
   else
-    copy_pieces(epochs, item);
+    trax_snapshot_restore(&epochs->snapshot, item, epochs->chip->tms);
 }
 
 static void run_pool(struct trax_epochs *epochs, unsigned work) {
@@ -104,6 +66,7 @@ static void take_snapshot(struct trax_epochs *epochs, uint64_t t) {
   trax_merge_keep(&epochs->merge);
   epochs->has_snapshot = epochs->chip->transfers.holds = true;
   epochs->snapshot_cycle = t;
+  epochs->snapshot_running = trax_chip_running(epochs->chip);
 }
 
 void trax_epochs_commit(struct trax_epochs *epochs) {
@@ -182,7 +145,8 @@ bool trax_epochs_advance(struct trax_epochs *epochs, uint64_t *t, uint64_t until
   if (!epochs->has_snapshot) {
     epochs->snapshot_interval = FIRST_SNAPSHOT_INTERVAL;
     take_snapshot(epochs, *t);
-  } else if (chip->machine->observer && chip->machine->observer->full) {
+  } else if ((chip->machine->observer && chip->machine->observer->full) ||
+             4 * trax_chip_running(chip) < 3 * epochs->snapshot_running) { /* the last epoch of the run is given up */
     take_snapshot(epochs, *t);
   } else if (*t - epochs->snapshot_cycle >= epochs->snapshot_interval * epochs->latency ||
              epochs->merge.undo_count >= MOST_UNDO) {
@@ -219,8 +183,7 @@ trax_status trax_epochs_create(struct trax_chip *chip, struct trax_run *run, tra
   epochs->chip = chip;
   epochs->latency = latency;
   epochs->pause = FIRST_PAUSE;
-  if (!trax_merge_create(&epochs->merge, chip) || !list_pieces(epochs) ||
-      !(epochs->snapshot = malloc(epochs->snapshot_size)))
+  if (!trax_merge_create(&epochs->merge, chip) || !trax_snapshot_create(&epochs->snapshot, trax_state_visit, chip))
     return trax_fail(error, "out of memory");
   if (!(epochs->pool = trax_run_pool(run, error)))
     return TRAX_ERROR;
@@ -233,7 +196,6 @@ void trax_epochs_destroy(struct trax_epochs *epochs) {
   if (!epochs)
     return;
   trax_merge_destroy(&epochs->merge);
-  free(epochs->pieces);
-  free(epochs->snapshot);
+  trax_snapshot_destroy(&epochs->snapshot);
   free(epochs);
 }

@@ -3,15 +3,15 @@
 #include "fast/chip.h"
 #include "fast/store_buffer.h"
 
-#include <stdlib.h>
-#include <string.h>
+/* The bits of the bytes of a line's first block. */
+#define BLOCK_BITS ((1u << TRAX_BLOCK) - 1)
 
 /* The writer of a word: a TM, or one of these. */
 enum { BY_SEVERAL = TRAX_MAX_TMS, BY_CONTROLLER };
 
 struct trax_merge_undo {
   uint32_t address;
-  uint8_t bytes[TRAX_WRITTEN_BYTES];
+  uint8_t bytes[TRAX_OVERLAY_BYTES];
 };
 
 bool trax_merge_create(struct trax_merge *merge, struct trax_chip *chip) {
@@ -21,10 +21,13 @@ bool trax_merge_create(struct trax_merge *merge, struct trax_chip *chip) {
 }
 
 void trax_merge_destroy(struct trax_merge *merge) {
-  for (uint32_t i = 0; merge->buffers && i < merge->chip->tms; i++)
-    trax_store_buffer_destroy(&merge->buffers[i]);
+  for (uint32_t i = 0; merge->buffers && i < merge->chip->tms; i++) {
+    trax_overlay_destroy(&merge->buffers[i].written);
+    for (unsigned side = 0; side < TRAX_SIDES; side++)
+      free(merge->buffers[i].sides[side].entries);
+  }
   free(merge->buffers);
-  free(merge->written.lines);
+  trax_overlay_destroy(&merge->written);
   free(merge->order.cycles);
   free(merge->printed);
   free(merge->increments);
@@ -69,8 +72,10 @@ static inline uint64_t next_of(struct trax_merge_order *order) {
 /* --- writes --- */
 
 /* Notes who writes some bytes of a line of the write set. */
-static void note_writer(struct trax_written_line *line, uint32_t bits, uint32_t writer) {
-  for (unsigned word = 0; bits; word++, bits >>= 4)
+static void note_writer(struct trax_overlay_line *line, uint32_t bits, uint32_t writer) {
+  if (!line->written) /* who wrote the other words does not matter */
+    memset(line->writer, (int)writer, sizeof line->writer);
+  for (unsigned word = 0; line->written && bits; word++, bits >>= 4)
     if (bits & 15)
       line->writer[word] =
           (uint8_t)(line->written >> 4 * word & 15 && line->writer[word] != writer ? BY_SEVERAL : writer);
@@ -98,11 +103,11 @@ static bool perform(struct trax_merge *merge, const struct trax_store_buffer_ent
     return hold_character(merge, write->value);
   if (write->bytes == TRAX_INCREMENT)
     return record_issue(merge, write->address);
-  struct trax_written_line *const line = trax_written_put(&merge->written, write->address / TRAX_WRITTEN_BYTES);
+  struct trax_overlay_line *const line = trax_overlay_put(&merge->written, write->address / TRAX_OVERLAY_BYTES);
   if (!line)
     return false;
-  note_writer(line, trax_written_bits(write->address, write->bytes), tm);
-  trax_written_store(line, write->address, write->value, write->bytes);
+  note_writer(line, trax_overlay_bits(write->address, write->bytes), tm);
+  trax_overlay_store(line, write->address, write->value, write->bytes);
   return true;
 }
 
@@ -129,14 +134,14 @@ static bool take_cycle(struct trax_merge *merge, unsigned side, uint64_t t) {
 /* An increment by the controller. */
 static uint32_t increment(void *context, uint32_t address) {
   struct trax_merge *merge = context;
-  struct trax_written_line *const line = trax_written_put(&merge->written, address / TRAX_WRITTEN_BYTES);
+  struct trax_overlay_line *const line = trax_overlay_put(&merge->written, address / TRAX_OVERLAY_BYTES);
   if (!line) {
     give_up(merge);
     return 0;
   }
-  const uint32_t word = trax_written_load(line, &merge->chip->machine->space, address, sizeof word);
-  note_writer(line, trax_written_bits(address, sizeof word), BY_CONTROLLER);
-  trax_written_store(line, address, word + 1, sizeof word);
+  const uint32_t word = trax_overlay_load(line, merge->chip->machine->space.bytes, address, sizeof word);
+  note_writer(line, trax_overlay_bits(address, sizeof word), BY_CONTROLLER);
+  trax_overlay_store(line, address, word + 1, sizeof word);
   return word;
 }
 
@@ -159,13 +164,15 @@ void trax_merge_quantum(struct trax_merge *merge, unsigned side, uint64_t t, uin
 
 void trax_merge_begin_tm(struct trax_merge *merge, struct trax_tm *tm) {
   tm->buffer = &merge->buffers[tm->number];
-  trax_store_buffer_begin(tm->buffer);
+  tm->buffer->stop = false;
+  trax_overlay_empty(&tm->buffer->written);
   trax_fast_record_readers(tm);
 }
 
 void trax_merge_give(struct trax_merge *merge, struct trax_tm *tm, unsigned side) {
   tm->buffer = &merge->buffers[tm->number];
-  trax_store_buffer_begin_quantum(tm->buffer, side);
+  tm->buffer->side = &tm->buffer->sides[side];
+  tm->buffer->side->count = tm->buffer->side->done = 0;
   trax_tm_receive(tm, side);
 }
 
@@ -178,12 +185,12 @@ void trax_merge_take(struct trax_merge *merge, struct trax_tm *tm) {
 /* Makes the blocks with these bytes of a line SHARED, so that the next epoch has no such conflict. */
 static void give_up_line(struct trax_merge *merge, uint32_t number, uint32_t bits) {
   for (; bits; bits &= bits - 1)
-    trax_fast_share(&merge->chip->blocks, number * TRAX_WRITTEN_BYTES + trax_first(bits));
+    trax_fast_share(&merge->chip->blocks, number * TRAX_OVERLAY_BYTES + trax_first(bits));
   give_up(merge);
 }
 
 /* Whether it matters if bytes of the write set were written before or after a TM's. */
-static bool is_ordered(const struct trax_written_line *line, const struct trax_written_line *own, uint32_t bits) {
+static bool is_ordered(const struct trax_overlay_line *line, const struct trax_overlay_line *own, uint32_t bits) {
   for (; bits; bits &= bits - 1)
     if (line->bytes[trax_first(bits)] != own->bytes[trax_first(bits)] ||
         line->writer[trax_first(bits) / 4] == BY_CONTROLLER)
@@ -192,19 +199,19 @@ static bool is_ordered(const struct trax_written_line *line, const struct trax_w
 }
 
 /* Adds a line of a TM's stores to the write set, but for those to SHARED blocks, which are there. */
-static void unite(struct trax_merge *merge, const struct trax_written_line *own, uint32_t tm) {
+static void unite(struct trax_merge *merge, const struct trax_overlay_line *own, uint32_t tm) {
   uint32_t bits = own->written;
-  for (uint32_t at = 0; at < TRAX_WRITTEN_BYTES; at += TRAX_BLOCK)
-    if (trax_fast_is_shared(&merge->chip->blocks, own->number * TRAX_WRITTEN_BYTES + at))
-      bits &= ~(TRAX_WRITTEN_BLOCK << at);
-  struct trax_written_line *const line = bits ? trax_written_put(&merge->written, own->number) : NULL;
+  for (uint32_t at = 0; at < TRAX_OVERLAY_BYTES; at += TRAX_BLOCK)
+    if (trax_fast_is_shared(&merge->chip->blocks, own->number * TRAX_OVERLAY_BYTES + at))
+      bits &= ~(BLOCK_BITS << at);
+  struct trax_overlay_line *const line = bits ? trax_overlay_put(&merge->written, own->number) : NULL;
   if (!line || is_ordered(line, own, line->written & bits)) {
     if (bits)
       give_up_line(merge, own->number, line ? line->written & bits : 0);
     return;
   }
   note_writer(line, bits, tm);
-  trax_written_copy(line->bytes, own->bytes, bits);
+  trax_overlay_copy(line->bytes, own->bytes, bits);
   line->written |= bits;
 }
 
@@ -215,9 +222,9 @@ void trax_merge_unite(struct trax_merge *merge) {
 }
 
 /* Returns those of the bytes of a line that others than a TM have written, word by word. */
-static uint32_t written_by_others(const struct trax_written_line *line, uint32_t bits, uint32_t tm) {
+static uint32_t written_by_others(const struct trax_overlay_line *line, uint32_t bits, uint32_t tm) {
   bits &= line->written;
-  for (unsigned word = 0; word < TRAX_WRITTEN_BYTES / 4; word++)
+  for (unsigned word = 0; word < TRAX_OVERLAY_BYTES / 4; word++)
     if (line->writer[word] == tm)
       bits &= ~(15u << 4 * word);
   return bits;
@@ -225,21 +232,21 @@ static uint32_t written_by_others(const struct trax_written_line *line, uint32_t
 
 void trax_merge_check(struct trax_merge *merge, struct trax_tm *tm) {
   struct trax_chip *const chip = merge->chip;
-  const struct trax_written *const own = &merge->buffers[tm->number].written;
-  struct trax_written *const all = &merge->written;
+  const struct trax_overlay *const own = &merge->buffers[tm->number].written;
+  struct trax_overlay *const all = &merge->written;
   for (unsigned side = 0; side < TRAX_SIDES; side++)
     trax_tm_receive(tm, side);
   for (size_t i = 0; all->count && i < own->count; i++) {
-    const struct trax_written_line *line = own->lines[i].read ? trax_written_find(all, own->lines[i].number) : NULL;
+    const struct trax_overlay_line *line = own->lines[i].read ? trax_overlay_find(all, own->lines[i].number) : NULL;
     const uint32_t bits = line ? written_by_others(line, own->lines[i].read, tm->number) : 0;
     if (bits)
       give_up_line(merge, line->number, bits);
   }
   const size_t end = all->count * (tm->number + 1) / chip->tms;
   for (size_t i = all->count * tm->number / chip->tms; i < end; i++)
-    for (uint32_t at = 0; at < TRAX_WRITTEN_BYTES; at += TRAX_BLOCK)
-      if (all->lines[i].written >> at & TRAX_WRITTEN_BLOCK &&
-          trax_fast_is_loaded(&chip->blocks, all->lines[i].number * TRAX_WRITTEN_BYTES + at))
+    for (uint32_t at = 0; at < TRAX_OVERLAY_BYTES; at += TRAX_BLOCK)
+      if (all->lines[i].written >> at & BLOCK_BITS &&
+          trax_fast_is_loaded(&chip->blocks, all->lines[i].number * TRAX_OVERLAY_BYTES + at))
         give_up(merge);
 }
 
@@ -249,7 +256,7 @@ void trax_merge_begin(struct trax_merge *merge) {
   struct trax_chip *chip = merge->chip;
   merge->failed = false;
   merge->increment_count = 0;
-  trax_written_empty(&merge->written);
+  trax_overlay_empty(&merge->written);
   chip->memory.increment = increment;
   chip->memory.context = merge;
 }
@@ -267,18 +274,18 @@ static bool share_incremented(struct trax_merge *merge) {
 /* The write set takes effect. False: out of memory. */
 static bool write_all(struct trax_merge *merge) {
   struct trax_chip *const chip = merge->chip;
-  const struct trax_written *const written = &merge->written;
+  const struct trax_overlay *const written = &merge->written;
   if (!trax_grow_to((void **)&merge->undo, merge->undo_count + written->count, &merge->undo_capacity,
                     sizeof *merge->undo))
     return false;
   for (size_t i = 0; i < written->count; i++) {
-    const struct trax_written_line *const line = &written->lines[i];
+    const struct trax_overlay_line *const line = &written->lines[i];
     struct trax_merge_undo *const undo = &merge->undo[merge->undo_count++];
-    uint8_t *const bytes = chip->machine->space.bytes + (undo->address = line->number * TRAX_WRITTEN_BYTES);
+    uint8_t *const bytes = chip->machine->space.bytes + (undo->address = line->number * TRAX_OVERLAY_BYTES);
     memcpy(undo->bytes, bytes, sizeof undo->bytes);
-    trax_written_copy(bytes, line->bytes, line->written);
-    for (uint32_t at = 0; at < TRAX_WRITTEN_BYTES; at += TRAX_BLOCK)
-      if (line->written >> at & TRAX_WRITTEN_BLOCK)
+    trax_overlay_copy(bytes, line->bytes, line->written);
+    for (uint32_t at = 0; at < TRAX_OVERLAY_BYTES; at += TRAX_BLOCK)
+      if (line->written >> at & BLOCK_BITS)
         trax_fast_set_written(&chip->blocks, undo->address + at, TRAX_BLOCK_WRITTEN);
   }
   return true;

@@ -5,11 +5,10 @@
 #ifndef TRAX_FAST_MERGE_H
 #define TRAX_FAST_MERGE_H
 
-#include "fast/written.h"
 #include "machine/config.h"
+#include "machine/overlay.h"
 
 #include <stdbool.h>
-#include <stddef.h>
 
 struct trax_chip;
 struct trax_tm;
@@ -31,7 +30,7 @@ struct trax_merge {
   size_t printed_count, printed_capacity;
   uint32_t *increments; /* [increment_count]: words whose increments were issued in the epoch, in blocks not SHARED */
   size_t increment_count, increment_capacity;
-  struct trax_written written;  /* the epoch's write set */
+  struct trax_overlay written;  /* the epoch's write set */
   struct trax_merge_undo *undo; /* [undo_count]: lines of memory as they were before each epoch since the snapshot */
   size_t undo_count, undo_capacity;
 };

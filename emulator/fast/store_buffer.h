@@ -5,10 +5,8 @@
 #define TRAX_FAST_STORE_BUFFER_H
 
 #include "fast/tm/queue.h"
-#include "fast/written.h"
-
-#include <stdbool.h>
-#include <stddef.h>
+#include "machine/address_space.h"
+#include "machine/overlay.h"
 
 struct trax_store_buffer_entry {
   uint64_t cycle;
@@ -29,45 +27,41 @@ struct trax_store_buffer_side {
 
 struct trax_store_buffer {
   struct trax_store_buffer_side *side, sides[TRAX_SIDES]; /* side: of the quantum that the TM simulates */
-  struct trax_written written; /* as the TM's own stores have changed memory; read: the words that loads have read from
+  struct trax_overlay written; /* as the TM's own stores have changed memory; read: the words that loads have read from
                                   blocks that are written; docs/fast-engine.md, read set */
   bool stop;                   /* the epoch must be given up: output, or out of memory */
 };
 
-void trax_store_buffer_destroy(struct trax_store_buffer *buffer);
-/* Empties the buffer for a new epoch; the side for a new quantum. */
-void trax_store_buffer_begin(struct trax_store_buffer *buffer);
-void trax_store_buffer_begin_quantum(struct trax_store_buffer *buffer, unsigned side);
-
-/* Remembers that the TM has read some bytes of a line, which it returns. NULL: out of memory. */
-static inline struct trax_written_line *trax_store_buffer_read(struct trax_store_buffer *buffer, uint32_t address,
-                                                               unsigned bytes) {
-  struct trax_written_line *const line = trax_written_put(&buffer->written, address / TRAX_WRITTEN_BYTES);
-  if (line)
-    line->read |= trax_written_bits(address, bytes);
+/* Returns the line of an address. NULL: out of memory. */
+static inline struct trax_overlay_line *trax_store_buffer_line(struct trax_store_buffer *buffer, uint32_t address) {
+  struct trax_overlay_line *const line = trax_overlay_put(&buffer->written, address / TRAX_OVERLAY_BYTES);
   buffer->stop |= !line;
   return line;
 }
 
-/* Performs an aligned load of global memory, which must have been checked. */
-static inline uint32_t trax_store_buffer_load(struct trax_store_buffer *buffer, const struct trax_space *space,
+/* Performs an aligned load of global memory from its line, and remembers it. */
+static inline uint32_t trax_store_buffer_load(struct trax_overlay_line *line, const struct trax_space *space,
                                               uint32_t address, unsigned bytes) {
-  const struct trax_written_line *const line = trax_store_buffer_read(buffer, address, bytes);
-  return line ? trax_written_load(line, space, address, bytes) : 0;
+  line->read |= trax_overlay_bits(address, bytes);
+  return trax_overlay_load(line, space->bytes, address, bytes);
 }
 
-/* The same for a store; one to a SHARED block must be recorded, too. */
+/* Performs an aligned store; one to a SHARED block must be recorded, too. */
 static inline void trax_store_buffer_store(struct trax_store_buffer *buffer, uint32_t address, uint32_t value,
                                            unsigned bytes) {
-  struct trax_written_line *const line = trax_written_put(&buffer->written, address / TRAX_WRITTEN_BYTES);
+  struct trax_overlay_line *const line = trax_store_buffer_line(buffer, address);
   if (line)
-    trax_written_store(line, address, value, bytes);
-  else
-    buffer->stop = true;
+    trax_overlay_store(line, address, value, bytes);
 }
 
 /* Records a store to a SHARED block, the issue of an atomic increment, a character that the program prints, or a
    request, which has taken a place in the memory queue. */
-void trax_store_buffer_record(struct trax_store_buffer *buffer, struct trax_store_buffer_entry entry);
+static inline void trax_store_buffer_record(struct trax_store_buffer *buffer, struct trax_store_buffer_entry entry) {
+  struct trax_store_buffer_side *const side = buffer->side;
+  if (trax_grow((void **)&side->entries, side->count, &side->capacity, sizeof *side->entries))
+    side->entries[side->count++] = entry;
+  else
+    buffer->stop = true; /* the epoch is given up */
+}
 
 #endif

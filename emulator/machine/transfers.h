@@ -8,6 +8,7 @@
 #define TRAX_MACHINE_TRANSFERS_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 /* Identifier, word in traces. The numbers are those of the binary trace. */
@@ -41,5 +42,22 @@ struct trax_transfers {
   void (*transfer)(void *context, const struct trax_transfer *transfer);
   bool lost; /* set by the engine: memory ran out, and transfers were lost */
 };
+
+/* The transfers of an engine that may go back and repeat them. While it holds them, the listener does not learn of
+ * them.
+ */
+struct trax_transfer_log {
+  struct trax_transfers *to;
+  bool holds;
+  struct trax_transfer *held; /* [count] */
+  size_t count, capacity;
+};
+
+void trax_transfer_log_add(struct trax_transfer_log *log, const struct trax_transfer *transfer);
+/* Hands the held ones over, which will not be repeated. */
+void trax_transfer_log_release(struct trax_transfer_log *log);
+/* Discards the held ones: the engine goes back. */
+void trax_transfer_log_discard(struct trax_transfer_log *log);
+void trax_transfer_log_destroy(struct trax_transfer_log *log);
 
 #endif

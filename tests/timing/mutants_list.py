@@ -147,10 +147,15 @@ MUTANTS = [
     ("fast/time/grant.h", "const unsigned pointer = tm->queue_arbiter % 64;", "const unsigned pointer = 0;"),
     ("fast/time/grant.h", "tm->load_hits & ~tm->executes_at_issue & ~", "tm->load_hits & ~"),
     ("fast/time/grant.h", "stores = won & tm->storing & *slow;", "stores = 0;"),
-    ("fast/time/grant.h", "trax_tp_stores(tp, tm->heads.load[number]) &&", "tp &&"),
+    ("fast/time/grant.h", "if (!trax_tp_stores(tp, load) ||", "if ("),
     ("fast/time/grant.h", "store_hits += count_bits(served & tm->load_hits)", "store_hits += count_bits(served)"),
-    ("fast/time/grant.h", "!(requesters & (requesters - 1)) && !unit->free_from", "!(requesters & (requesters - 1))"),
-    ("fast/time/grant.h", "    trax_arbiter_to_back(&unit->arbiter[trax_first(requesters) / kind->group_size], "
+    # One that combines takes effect at once: not before a head that executes at issue, a burst's end, or a reader.
+    ("fast/time/grant.h", "at_once = tm->buffer && !(tm->ready & tm->executes_at_issue)", "at_once = tm->buffer"),
+    ("fast/time/grant.h", "if (at_once && tm->heads.at[number] < tm->heads.last[number] &&", "if (at_once &&"),
+    ("fast/time/grant.h", "trax_fast_find_readers(tm, store->address, bit))) {", "0)) {"),
+    ("fast/time/grant.h", "      *slow ^= bit;\n", ""),
+    ("fast/time/grant.h", "(requesters & (requesters - 1)) || unit->free_from)", "(requesters & (requesters - 1)))"),
+    ("fast/time/grant.h", "  trax_arbiter_to_back(&unit->arbiter[trax_first(requesters) / unit->kind.group_size], "
      "trax_first(requesters));\n", ""),
     # Banks one after the other: of many data banks, and of instruction caches of any shape.
     ("fast/time/grant.h", "here & *rr_mask ? here & *rr_mask : here,", "here,", "timing-engines-test"),
@@ -362,8 +367,9 @@ MUTANTS = [
     ("fast/time/head.c", "trax_fast_set_resident(tm, number, evicted - 1, false);",
      "(void)tm;"),
     # Lines of programs of more than 64 may be missing, too.
-    ("fast/time/head.c", "if (next != line && !trax_fast_is_resident(tm, icache, next))",
-     "if (next != line && tm->chip->program.lines <= 64 && !trax_fast_is_resident(tm, icache, next))"),
+    ("fast/time/head.c", "if (!trax_fast_is_resident(tm, icache, at))",
+     "if (tm->chip->program.lines <= 64 && !trax_fast_is_resident(tm, icache, at))"),
+    ("fast/time/head.c", "at <= line[(steps < count - i ? steps : count - i) - 1]; at++)", "at <= line[0]; at++)"),
     # Heads whose line has gone are looked at again.
     ("fast/time/head.c", "      tm->uncertain |= (uint64_t)1 << tp;",
      "      tm->uncertain |= 0;"),
@@ -399,13 +405,19 @@ MUTANTS = [
     # Bursts that load from written blocks are watched, in every word, and in every epoch.
     ("fast/function/burst.c", "tm->watched[number] |= (uint64_t)1 <<", "tm->watched[number] |= (uint64_t)0 <<"),
     ("fast/function/burst.c", "tm->readers[trax_fast_line_hash(address)] |= (uint64_t)1 << number;", ";"),
-    ("fast/function/blocks.c", "(tp->burst.access[i].address & ~3u) - begin < bytes",
-     "(tp->burst.access[i].address & ~3u) - begin - 4 < bytes"),
+    ("fast/function/blocks.c", "any |= (tp->burst.access[i].address & ~3u) == word;",
+     "any |= tp->burst.access[i].address == word;"),
+    ("fast/function/blocks.c", "if ((tp->burst.access[i].address & ~3u) == word && !trax_tp_stores(tp, i))",
+     "if (tp->burst.access[i].address == word && !trax_tp_stores(tp, i))"),
+    ("fast/function/blocks.c", "    if (!(tm->watched[trax_first(rest)] >> line % 64 & 1))", "    if (true)"),
     ("fast/function/blocks.c", "tm->heads.load[number] - (tm->heads.load[number] > 0)", "tm->heads.load[number]"),
     ("fast/function/blocks.c", "i = tm->heads.load[number]; i < end", "i = tm->heads.load[number] + 1u; i < end"),
-    ("fast/function/blocks.c", "  for (uint32_t i = 0; i < chip->tms; i++)\n    trax_fast_roll_back_readers",
-     "  for (uint32_t i = 0; i < 1; i++)\n    trax_fast_roll_back_readers"),
+    ("fast/function/blocks.c", "i < chip->tms; i++)\n    trax_fast_roll_back_readers(&chip->tm[i], address, 0);",
+     "i < 1; i++)\n    trax_fast_roll_back_readers(&chip->tm[i], address, 0);"),
+    ("fast/function/blocks.c", "      if (chip->tm[i].watched[tp])\n", "      if (0)\n"),
     ("fast/merge.c", "  trax_fast_record_readers(tm);\n", ""),
+    ("fast/function/burst.c", "if (!*line || (*line)->number != address / TRAX_OVERLAY_BYTES) {", "if (!*line) {"),
+    ("fast/function/blocks.c", "if (!line || line->number != address / TRAX_OVERLAY_BYTES)", "if (!line)"),
     # Stores of bursts: their words are not loaded again; at their issue they take effect, in order; others roll back.
     ("fast/function/burst.c", "if (has_stored(tp, address, load))", "if (has_stored(tp, address, load) && 0)"),
     ("fast/function/burst.c", "!((tp->burst.access[i].address ^ address) & ~3u)",
@@ -413,9 +425,9 @@ MUTANTS = [
     ("fast/function/burst.c", "  if (!tp->again) {", "  if (true) {"),
     ("fast/function/burst.c", "tm->watched[number] = tp->stored = 0;", "tm->watched[number] = 0;",
      "timing-translated-test"),
-    ("fast/function/blocks.c", "if (tm->readers[trax_fast_line_hash(address)] & ~bit)", "if (0)"),
-    ("fast/function/blocks.c", "i < chip->tms; i++)\n    roll_back_word_readers",
-     "i < 1; i++)\n    roll_back_word_readers"),
+    ("fast/function/blocks.c", "    trax_fast_roll_back_readers(tm, address, bit);\n", ""),
+    ("fast/function/blocks.c", "i < chip->tms; i++)\n    trax_fast_roll_back_readers(&chip->tm[i], address, &",
+     "i < 1; i++)\n    trax_fast_roll_back_readers(&chip->tm[i], address, &"),
     ("fast/function/blocks.c", "if (trax_fast_is_loaded(&chip->blocks, address))\n    return false;", ""),
     ("fast/time/head.c", "tp->alone || tp->stored ? bit : 0", "tp->alone ? bit : 0"),
     ("fast/time/issue.h", "    trax_fast_roll_back_tp(tm, number);\n    return false;", "    return false;"),
@@ -457,8 +469,8 @@ MUTANTS = [
      "decoded->imm == TRAX_SR_CYCLEH"),
     # A TM that has read too early goes back.
     ("fast/merge.c", "if (line->writer[word] == tm)", "if (line->writer[word] == tm || line->writer[word] >= 64)"),
-    ("fast/store_buffer.h", "line->read |= trax_written_bits(address, bytes)",
-     "line->read |= trax_written_bits(address, 1)"),
+    ("fast/store_buffer.h", "line->read |= trax_overlay_bits(address, bytes)",
+     "line->read |= trax_overlay_bits(address, 1)"),
     # A word that several wrote conflicts.
     ("fast/merge.c", "line->writer[word] != writer ? BY_SEVERAL : writer", "0 ? BY_SEVERAL : writer"),
     # The order of two TMs' stores to a byte matters if they differ, and that of a store and an increment in any case.
@@ -468,7 +480,7 @@ MUTANTS = [
     ("fast/function/blocks.h", "if (trax_fast_is_shared(blocks, address))\n    trax_store_buffer_record",
      "if (0)\n    trax_store_buffer_record"),
     # Data that were loaded ahead and are written or incremented are loaded again.
-    ("fast/merge.c", "written >> at & TRAX_WRITTEN_BLOCK &&", "written >> at & 1 && at &&"),
+    ("fast/merge.c", "written >> at & BLOCK_BITS &&", "written >> at & 1 && at &&"),
     ("fast/merge.c",
      "    if (trax_fast_is_loaded(&merge->chip->blocks, merge->increments[i]))\n      return false;\n", ""),
     # A block from which bursts have loaded is not shared without their going back.
@@ -494,35 +506,34 @@ MUTANTS = [
     # Bursts do not load what others may increment.
     ("fast/function/blocks.h", "__ATOMIC_RELAXED) == TRAX_BLOCK_SHARED", "__ATOMIC_RELAXED) <= TRAX_BLOCK_SHARED"),
     # The write set is that of one epoch.
-    ("fast/merge.c", "  trax_written_empty(&merge->written);\n", ""),
+    ("fast/merge.c", "  trax_overlay_empty(&merge->written);\n", ""),
     # An epoch that is given up has written nothing.
     ("fast/merge.c", "good = !merge->failed && goes_on", "good = goes_on"),
     # Stores take effect at its end, and are seen by their TM before, also in later quanta.
     ("fast/merge.c", "(bytes, line->bytes, line->written);", "(bytes, line->bytes, line->written & 0x11111111);"),
-    ("fast/store_buffer.c", "  buffer->side = &buffer->sides[side];",
-     "  trax_written_empty(&buffer->written);\n  buffer->side = &buffer->sides[side];"),
+    ("fast/merge.c", "  tm->buffer->side = &tm->buffer->sides[side];",
+     "  trax_overlay_empty(&tm->buffer->written);\n  tm->buffer->side = &tm->buffer->sides[side];"),
     # A quantum ahead is of half a latency.
     ("fast/epochs.c", "quantum * epochs->latency / epochs->sides", "quantum * epochs->latency"),
     ("base/pool.c", "round - seen.finished <= 1;", "round - seen.finished <= 2;"),
     # A TM receives what was served, in its quantum, and at the end of the epoch, and wakes for it.
-    ("fast/merge.c", "  trax_store_buffer_begin_quantum(tm->buffer, side);\n  trax_tm_receive(tm, side);",
-     "  trax_store_buffer_begin_quantum(tm->buffer, side);\n  trax_tm_receive(tm, 0);"),
+    ("fast/merge.c", "done = 0;\n  trax_tm_receive(tm, side);", "done = 0;\n  trax_tm_receive(tm, 0);"),
     ("fast/merge.c", "  for (unsigned side = 0; side < TRAX_SIDES; side++)\n    trax_tm_receive(tm, side);\n", ""),
     ("fast/tm/tm.c", "    tm->next_cycle = trax_queue_oldest(&tm->queue)->completion;", "    ;"),
     # Requests arrive by their completions, those of one cycle in the order in which they were made.
     ("fast/tm/queue.c", "x->completion < y->completion", "x->completion > y->completion"),
     ("fast/tm/queue.c", "x->number < y->number", "x->number > y->number"),
     # Every part of the snapshot is copied.
-    ("fast/epochs.c", "piece_count * (part + 1) / parts;",
-     "piece_count * (part + 1) / parts - part;"),
+    ("machine/snapshot.c", "  return snapshot->count * part / parts;", "  return snapshot->count * part / parts - part / 2;"),
     # A TM sees its own stores.
-    ("fast/written.h", "  old ^= (old ^ new) & trax_written_mask(line->written >> (address & 28));", "  old = new;"),
-    ("fast/written.h", "trax_written_mask(trax_written_bits(address, bytes) >> (address & 28))", "UINT32_MAX"),
-    ("fast/written.h", "line->written |= trax_written_bits(address, bytes);",
-     "line->written |= trax_written_bits(address, 1);"),
+    ("machine/overlay.h", "  old ^= (old ^ new) & trax_overlay_mask(written);", "  old = new;"),
+    ("machine/overlay.h", "if (__builtin_expect(bytes == sizeof value, true))", "if (true)"),
+    ("machine/overlay.h", "    return written ? new : old;", "    return new;"),
+    ("machine/overlay.h", "line->written |= trax_overlay_bits(address, bytes);",
+     "line->written |= trax_overlay_bits(address, 1);"),
     # Lines have what each TM stored to them.
-    ("fast/written.h", "    old ^= (old ^ new) & trax_written_mask(bits);", "    old = new;"),
-    ("fast/written.h", "if (written->lines[i - 1].number == number)", "if (true)"),
+    ("machine/overlay.h", "    old ^= (old ^ new) & trax_overlay_mask(bits >> at);", "    old = new;"),
+    ("machine/overlay.h", "if (overlay->lines[i - 1].number == number)", "if (true)"),
     # --- DRAM: one module of both engines, so timing-dram-test notices most ---
     ("dram/dram.c", "latest(now, bank->activate_from)", "now"),
     ("dram/dram.c", "latest(rank->activate_from, rank->window_from", "latest(now, rank->window_from"),

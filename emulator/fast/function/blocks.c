@@ -86,34 +86,34 @@ void trax_fast_roll_back(void *context) {
       trax_fast_roll_back_tp(&chip->tm[i], tp);
 }
 
-/* Whether the TP's burst has loaded from a range of words, as far as the loads may not have been issued: heads.load is
-   behind a quick head that is being issued in the cycle of a store past the cache. */
-static bool reads(const struct trax_tm *tm, unsigned number, uint32_t begin, uint32_t bytes) {
+/* Whether the TP's burst has loaded a word, as far as the loads may not have been issued: heads.load is behind a quick
+   head that is being issued in the cycle of a store past the cache. */
+static bool reads(const struct trax_tm *tm, unsigned number, uint32_t word) {
   const struct trax_tp *tp = &tm->tp[number];
-  for (uint32_t i = tm->heads.load[number] - (tm->heads.load[number] > 0); i < tp->burst.load_count; i++)
-    if ((tp->burst.access[i].address & ~3u) - begin < bytes && !trax_tp_stores(tp, i))
+  const uint32_t first = tm->heads.load[number] - (tm->heads.load[number] > 0), end = tp->burst.load_count;
+  uint32_t any = 0;
+  for (uint32_t i = first; i < end; i++) /* without branches, so that the host's vectors do it */
+    any |= (tp->burst.access[i].address & ~3u) == word;
+  for (uint32_t i = first; any && i < end; i++)
+    if ((tp->burst.access[i].address & ~3u) == word && !trax_tp_stores(tp, i))
       return true;
   return false;
 }
 
-/* Rolls back the TPs whose bursts have loaded from WRITTEN blocks in a range of words. */
-static void roll_back_readers(struct trax_tm *tm, uint64_t tps, uint32_t begin, uint32_t bytes) {
-  for (; tps; tps &= tps - 1)
-    if (tm->watched[trax_first(tps)] && reads(tm, trax_first(tps), begin, bytes))
-      trax_fast_roll_back_tp(tm, trax_first(tps));
-}
-
-/* The same for a word that one of the TPs `but` writes: it has issued its own loads of it. */
-static void roll_back_word_readers(struct trax_tm *tm, uint32_t address, uint64_t but) {
+uint64_t trax_fast_find_readers(struct trax_tm *tm, uint32_t address, uint64_t but) {
   const unsigned line = trax_fast_line_hash(address);
+  uint64_t found = 0;
   for (uint64_t rest = tm->readers[line] & ~but; rest; rest &= rest - 1)
     if (!(tm->watched[trax_first(rest)] >> line % 64 & 1)) /* of an earlier burst */
       tm->readers[line] &= ~(rest & -rest);
-  roll_back_readers(tm, tm->readers[line] & ~but, address & ~3u, 4);
+    else if (reads(tm, trax_first(rest), address & ~3u))
+      found |= rest & -rest;
+  return found;
 }
 
-void trax_fast_roll_back_readers(struct trax_tm *tm, uint32_t address) {
-  roll_back_word_readers(tm, address, 0);
+void trax_fast_roll_back_readers(struct trax_tm *tm, uint32_t address, uint64_t but) {
+  for (uint64_t rest = trax_fast_find_readers(tm, address, but); rest; rest &= rest - 1)
+    trax_fast_roll_back_tp(tm, trax_first(rest));
 }
 
 void trax_fast_record_readers(struct trax_tm *tm) {
@@ -121,11 +121,16 @@ void trax_fast_record_readers(struct trax_tm *tm) {
   for (unsigned number = 0; number < tm->tps; number++) {
     const struct trax_tp *const tp = &tm->tp[number];
     const uint32_t end = tm->watched[number] ? tp->burst.load_count : 0;
+    struct trax_overlay_line *line = NULL;
     for (uint32_t i = tm->heads.load[number]; i < end; i++) {
       const uint32_t address = tp->burst.access[i].address & ~3u;
-      if (!trax_tp_stores(tp, i) &&
-          __atomic_load_n(&state[address >> TRAX_BLOCK_SHIFT], __ATOMIC_RELAXED) >= TRAX_BLOCK_WRITTEN)
-        trax_store_buffer_read(tm->buffer, address, 4);
+      if (trax_tp_stores(tp, i) ||
+          __atomic_load_n(&state[address >> TRAX_BLOCK_SHIFT], __ATOMIC_RELAXED) < TRAX_BLOCK_WRITTEN)
+        continue;
+      if (!line || line->number != address / TRAX_OVERLAY_BYTES)
+        line = trax_store_buffer_line(tm->buffer, address);
+      if (line)
+        line->read |= trax_overlay_bits(address, 4);
     }
   }
 }
@@ -147,7 +152,7 @@ void trax_fast_word_written(struct trax_chip *chip, uint32_t address, uint8_t st
     widen(&chip->blocks, address);
   }
   for (uint32_t i = 0; i < chip->tms; i++)
-    trax_fast_roll_back_readers(&chip->tm[i], address);
+    trax_fast_roll_back_readers(&chip->tm[i], address, 0);
   trax_fast_set_written(&chip->blocks, address, state);
 }
 
@@ -157,15 +162,14 @@ bool trax_fast_store(struct trax_tm *tm, unsigned number, unsigned load, unsigne
   const uint32_t address = store->address, value = store->word;
   const uint64_t bit = (uint64_t)1 << number;
   if (tm->buffer) {
-    if (tm->readers[trax_fast_line_hash(address)] & ~bit)
-      roll_back_word_readers(tm, address, bit);
+    trax_fast_roll_back_readers(tm, address, bit);
     trax_fast_store_in_epoch(&chip->blocks, tm->buffer, t, address, value, bytes);
     return true;
   }
   if (trax_fast_is_loaded(&chip->blocks, address))
     return false;
   for (uint32_t i = 0; i < chip->tms; i++)
-    roll_back_word_readers(&chip->tm[i], address, &chip->tm[i] == tm ? bit : 0);
+    trax_fast_roll_back_readers(&chip->tm[i], address, &chip->tm[i] == tm ? bit : 0);
   trax_fast_set_written(&chip->blocks, address, TRAX_BLOCK_WRITTEN);
   memcpy(chip->machine->space.bytes + address, &value, bytes);
   return true;
@@ -190,5 +194,7 @@ void trax_fast_range_written(void *context, uint32_t address, uint32_t bytes) {
     trax_fast_set_written(&chip->blocks, (uint32_t)at, TRAX_BLOCK_WRITTEN);
   }
   for (uint32_t i = 0; i < chip->tms; i++)
-    roll_back_readers(&chip->tm[i], trax_group_mask(0, chip->tm[i].tps), address & ~3u, bytes + 4);
+    for (unsigned tp = 0; tp < chip->tm[i].tps; tp++)
+      if (chip->tm[i].watched[tp])
+        trax_fast_roll_back_tp(&chip->tm[i], tp);
 }

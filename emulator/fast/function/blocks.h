@@ -55,9 +55,9 @@ static inline uint64_t trax_fast_word_bit(uint32_t address) {
   return (uint64_t)1 << ((address >> 2) * 0x9E3779B1u >> 26);
 }
 
-/* Returns the number of 32 bytes in trax_tm.readers: a TP's bursts often load from neighbouring words. */
+/* Returns the number of 64 bytes in trax_tm.readers: a TP's bursts often load from neighbouring words. */
 static inline unsigned trax_fast_line_hash(uint32_t address) {
-  return (address >> 5) * 0x9E3779B1u >> 24;
+  return (address >> 6) * 0x9E3779B1u >> 22;
 }
 
 trax_status trax_fast_blocks_create(struct trax_fast_blocks *blocks, const struct trax_space *space, trax_error *error);
@@ -73,9 +73,11 @@ bool trax_fast_store(struct trax_tm *tm, unsigned tp, unsigned load, unsigned by
 uint32_t trax_fast_increment_outside(void *chip, uint32_t address);
 /* As trax_fast_word_written for a range, before a host call writes it. */
 void trax_fast_range_written(void *chip, uint32_t address, uint32_t bytes);
-/* Rolls back the TPs of a TM whose bursts have loaded the word from a WRITTEN block, before the issue of the load: in
-   an epoch, before the TM stores to it. */
-void trax_fast_roll_back_readers(struct trax_tm *tm, uint32_t address);
+/* Returns the TPs of a TM, but for one that stores to the word, whose bursts have loaded it from a WRITTEN block before
+   the issue of the load. */
+uint64_t trax_fast_find_readers(struct trax_tm *tm, uint32_t address, uint64_t but);
+/* Rolls them back. To be called before the store; in an epoch for the TM that makes it. */
+void trax_fast_roll_back_readers(struct trax_tm *tm, uint32_t address, uint64_t but);
 /* Records the loads of all bursts from WRITTEN blocks in the TM's store buffer, at the beginning of an epoch. */
 void trax_fast_record_readers(struct trax_tm *tm);
 /* Rolls a TP back to what it has issued; its head executes at issue then. */

@@ -36,19 +36,23 @@ static bool has_stored(const struct trax_tp *tp, uint32_t address, unsigned load
 
 /* Performs load `load` of a burst, from a WRITTEN block: before the word is written again, the TP rolls back. If the
    burst is executed again, the word may have been written after the issue of the load, so that the first value counts.
-   NOWHERE: the burst has stored to the word, and ends. */
+   NOWHERE: the burst has stored to the word, and ends. *line: in an epoch, that of the burst's latest such load. */
 static __attribute__((noinline)) uint64_t load_written(struct trax_tm *tm, unsigned number, unsigned load,
-                                                       uint32_t address, unsigned bytes) {
+                                                       uint32_t address, unsigned bytes,
+                                                       struct trax_overlay_line **line) {
   struct trax_tp *const tp = &tm->tp[number];
   uint32_t *const value = &tp->burst.access[load].word;
   if (!tp->again) {
     if (has_stored(tp, address, load))
       return NOWHERE;
-    tm->watched[number] |= (uint64_t)1 << trax_fast_line_hash(address) % 64;
-    tm->readers[trax_fast_line_hash(address)] |= (uint64_t)1 << number;
+    if (!*line || (*line)->number != address / TRAX_OVERLAY_BYTES) {
+      tm->watched[number] |= (uint64_t)1 << trax_fast_line_hash(address) % 64;
+      tm->readers[trax_fast_line_hash(address)] |= (uint64_t)1 << number;
+      *line = tm->buffer ? trax_store_buffer_line(tm->buffer, address) : NULL;
+    }
     *value = 0;
-    if (tm->buffer)
-      *value = trax_store_buffer_load(tm->buffer, &tm->machine->space, address, bytes);
+    if (*line)
+      *value = trax_store_buffer_load(*line, &tm->machine->space, address, bytes);
     else
       memcpy(value, tm->machine->space.bytes + address, bytes);
   }

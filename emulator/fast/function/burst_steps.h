@@ -30,6 +30,7 @@ static unsigned BURST(struct trax_chip *chip, struct trax_tm *tm, unsigned numbe
   uint64_t resume_pc = tp->resume_pc; /* the latest jump's target, needed if it is no text */
   int64_t *const count_deltas = tm->count_deltas;
   uint64_t lines = 0;
+  struct trax_overlay_line *line = NULL;
   /* A burst that is executed again may have loaded from a block before it was SHARED. Its limit is less. */
   const bool alone = tp->alone;
   const uint8_t last_loadable = limit < TRAX_BURST || alone ? TRAX_BLOCK_SHARED : TRAX_BLOCK_WRITTEN;
@@ -65,7 +66,7 @@ static unsigned BURST(struct trax_chip *chip, struct trax_tm *tm, unsigned numbe
           if (!state && !alone) {                                                                                      \
             __atomic_store_n(block, TRAX_BLOCK_LOADED, __ATOMIC_RELAXED);                                              \
           } else if (!alone) {                                                                                         \
-            const uint64_t written = load_written(tm, number, loads, address, BYTES);                                  \
+            const uint64_t written = load_written(tm, number, loads, address, BYTES, &line);                           \
             if (written == NOWHERE)                                                                                    \
               goto stop;                                                                                               \
             word = (uint32_t)written;                                                                                  \

@@ -86,9 +86,19 @@ uint64_t trax_memory_increment(struct trax_memory *memory, unsigned number, stru
 
 void trax_memory_notify(struct trax_memory *memory, unsigned number, trax_request_id id,
                         const struct trax_request *request, uint64_t t) {
+  const bool is_l2 = id >= TRAX_LINE_REQUEST;
   if (memory->transfers)
-    trax_transfer_log_add(memory->transfers, t, number, id >> TRAX_REQUEST_BITS, request);
+    trax_transfer_log_add(memory->transfers, &(struct trax_transfer){
+                                                 .cycle = t,
+                                                 .address = request->address,
+                                                 .bytes = request->bytes,
+                                                 .tm = is_l2 ? TRAX_TRANSFER_NO_TM : (int16_t)(id >> TRAX_REQUEST_BITS),
+                                                 .kind = is_l2 ? TRAX_TRANSFER_L2_LINE : request->kind,
+                                                 .channel = (uint8_t)number});
 }
+_Static_assert((int)TRAX_REQUEST_DATA_LINE == (int)TRAX_TRANSFER_DATA_LINE &&
+                   (int)TRAX_REQUEST_ATOMIC == (int)TRAX_TRANSFER_ATOMIC,
+               "requests have the numbers of their transfers");
 
 void trax_memory_count(const struct trax_memory *memory, unsigned number, uint32_t bytes) {
   memory->stats->transfers++;

@@ -5,11 +5,11 @@
 #define TRAX_FAST_MEMORY_H
 
 #include "dram/dram.h"
-#include "fast/memory/transfers.h"
 #include "fast/tm/arbiter.h"
 #include "fast/tm/queue.h"
 #include "machine/config.h"
 #include "machine/stats.h"
+#include "machine/transfers.h"
 
 struct trax_tm;
 struct trax_l2;

@@ -62,15 +62,26 @@ static bool serve(struct trax_tm *tm, unsigned number, uint64_t t) {
 }
 
 /* Serves those of the slow heads that are stores and combine with their TPs' runs, so that they make no request.
-   Returns them. */
-static uint64_t serve_combining(struct trax_tm *tm, uint64_t slow) {
+   Returns them. In an epoch, one whose word no burst has loaded ahead also takes effect, and becomes quick, unless a
+   head that executes at issue may come before it. */
+static uint64_t serve_combining(struct trax_tm *tm, uint64_t stores, uint64_t *slow, uint64_t t) {
+  const bool at_once = tm->buffer && !(tm->ready & tm->executes_at_issue);
   uint64_t served = 0;
-  for (uint64_t rest = slow; rest; rest &= rest - 1) {
-    const unsigned number = trax_first(rest);
+  for (uint64_t rest = stores; rest; rest &= rest - 1) {
+    const unsigned number = trax_first(rest), load = tm->heads.load[number];
+    const uint64_t bit = (uint64_t)1 << number;
     struct trax_tp *const tp = &tm->tp[number];
-    if (trax_tp_stores(tp, tm->heads.load[number]) &&
-        trax_tp_combine(tp, tm->heads.address[number], trax_fast_head_timing(tm, number)->decoded->bytes))
-      served |= rest & -rest;
+    const struct trax_burst_access *const store = &tp->burst.access[load];
+    const unsigned bytes = trax_fast_head_timing(tm, number)->decoded->bytes;
+    if (!trax_tp_stores(tp, load) || !trax_tp_combine(tp, store->address, bytes))
+      continue;
+    served |= bit;
+    if (at_once && tm->heads.at[number] < tm->heads.last[number] &&
+        !((tm->readers[trax_fast_line_hash(store->address)] & ~bit) &&
+          trax_fast_find_readers(tm, store->address, bit))) {
+      trax_fast_store_in_epoch(&tm->chip->blocks, tm->buffer, t, store->address, store->word, bytes);
+      *slow ^= bit;
+    }
   }
   tm->stats->combined_stores += count_bits(served);
   tm->stats->store_hits += count_bits(served & tm->load_hits);
@@ -90,14 +101,11 @@ static uint64_t grant_queue(struct trax_tm *tm, uint64_t requesters, uint64_t t)
 }
 
 /* Grants units of a kind to requesters, group by group; returns the losers. */
-static uint64_t refuse_any(struct trax_tm *tm, trax_shared which, uint64_t requesters, uint64_t t) {
+static __attribute__((noinline)) uint64_t refuse_several(struct trax_tm *tm, trax_shared which, uint64_t requesters,
+                                                         uint64_t t) {
   struct trax_shared_unit *unit = &tm->unit[which];
   const struct trax_shared_kind *const kind = &unit->kind;
   uint64_t winners = 0, all;
-  if (requesters && !(requesters & (requesters - 1)) && !unit->free_from) {
-    trax_arbiter_to_back(&unit->arbiter[trax_first(requesters) / kind->group_size], trax_first(requesters));
-    return 0;
-  }
   for (uint64_t rest = requesters; rest; rest &= ~all) {
     const unsigned group = trax_first(rest) / kind->group_size;
     all = requesters & trax_group_mask(group, kind->group_size);
@@ -115,6 +123,14 @@ static uint64_t refuse_any(struct trax_tm *tm, trax_shared which, uint64_t reque
       }
   }
   return requesters & ~winners;
+}
+
+static inline uint64_t refuse_any(struct trax_tm *tm, trax_shared which, uint64_t requesters, uint64_t t) {
+  struct trax_shared_unit *unit = &tm->unit[which];
+  if (!requesters || (requesters & (requesters - 1)) || unit->free_from)
+    return refuse_several(tm, which, requesters, t);
+  trax_arbiter_to_back(&unit->arbiter[trax_first(requesters) / unit->kind.group_size], trax_first(requesters));
+  return 0;
 }
 
 /* The same for adders and multipliers; returns the winners. */
@@ -182,7 +198,7 @@ static ALWAYS_INLINE uint64_t grant(struct trax_tm *tm, const bool wide, struct 
       hits = won & tm->load_hits & ~tm->executes_at_issue & ~stores;
       tm->stats->dcache_hits += count_bits(hits);
       if (stores && !tm->observer)
-        hits |= serve_combining(tm, stores);
+        hits |= serve_combining(tm, stores, slow, t);
     }
     granted |= hits;
     queue_requesters |= won & ~hits;

@@ -11,24 +11,6 @@ static void drop_arrived(struct trax_tp *tp) {
       tp->atomics &= ~(rest & -rest);
 }
 
-/* Whether all lines of the burst are resident. trax_burst.lines may contain lines that the burst does not execute, and
-   is ambiguous for programs of more than 64 lines: if it does not decide, the steps are checked. */
-static bool all_resident(const struct trax_tm *tm, unsigned number, unsigned count) {
-  const struct trax_tp *tp = &tm->tp[number];
-  const unsigned icache = tm->icache_of[number];
-  if (tm->chip->program.lines <= 64 && !(tp->burst.lines & ~tm->resident[icache][0]))
-    return true;
-  for (unsigned i = 0, line = TRAX_FAST_LINES; i < count; i++) {
-    const unsigned next = tm->chip->program.line[trax_fast_index(tp, i)];
-    if (next != line && !trax_fast_is_resident(tm, icache, next))
-      return false;
-    line = next;
-  }
-  return true;
-}
-
-enum { CHECK_HORIZON = 16, NO_CHECK = 255 };
-
 /* Returns how many of the 16 steps behind a step follow it and one another in the program. */
 static inline unsigned count_sequential(const uint16_t *index) {
   const __m128i *const at = (const __m128i *)index, *const next = (const __m128i *)(index + 1), one = _mm_set1_epi16(1);
@@ -36,6 +18,25 @@ static inline unsigned count_sequential(const uint16_t *index) {
   const __m128i second = _mm_cmpeq_epi16(_mm_sub_epi16(_mm_loadu_si128(next + 1), _mm_loadu_si128(at + 1)), one);
   return trax_first(~(uint64_t)(unsigned)_mm_movemask_epi8(_mm_packs_epi16(first, second)));
 }
+
+/* Whether all lines of the burst are resident. trax_burst.lines may contain lines that the burst does not execute, and
+   is ambiguous for programs of more than 64 lines: if it does not decide, the lines of the steps are checked. */
+static bool all_resident(const struct trax_tm *tm, unsigned number, unsigned count) {
+  const struct trax_tp *tp = &tm->tp[number];
+  const unsigned icache = tm->icache_of[number];
+  if (tm->chip->program.lines <= 64 && !(tp->burst.lines & ~tm->resident[icache][0]))
+    return true;
+  for (unsigned i = 0, steps; i < count; i += steps) {
+    steps = 1 + count_sequential(&tp->burst.index[i]);
+    const uint16_t *const line = &tm->chip->program.line[trax_fast_index(tp, i)];
+    for (uint32_t at = line[0]; at <= line[(steps < count - i ? steps : count - i) - 1]; at++)
+      if (!trax_fast_is_resident(tm, icache, at))
+        return false;
+  }
+  return true;
+}
+
+enum { CHECK_HORIZON = 16, NO_CHECK = 255 };
 
 void trax_fast_schedule_check(struct trax_tm *tm, unsigned number, bool fetched) {
   const struct trax_fast_timing *const timing = tm->chip->program.timing;

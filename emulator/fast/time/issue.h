@@ -14,7 +14,7 @@ static bool execute(struct trax_tm *tm, unsigned number, uint64_t t) {
     if (!tm->buffer)
       trax_fast_word_written(tm->chip, tp->address, inst->is_atomic ? TRAX_BLOCK_SHARED : TRAX_BLOCK_WRITTEN);
     else if (inst->is_store)
-      trax_fast_roll_back_readers(tm, tp->address);
+      trax_fast_roll_back_readers(tm, tp->address, 0);
   }
   if (inst->is_atomic && tm->buffer && !trax_fast_is_shared(&tm->chip->blocks, tp->address))
     trax_store_buffer_record(tm->buffer, (struct trax_store_buffer_entry){t, tp->address, 0, TRAX_INCREMENT});

@@ -122,7 +122,7 @@ struct trax_tm {
   struct trax_queue queue;
   /* [TP]: the places in WRITTEN blocks from which its burst has loaded, as bits trax_fast_line_hash % 64; 0: none.
      [trax_fast_line_hash]: the TPs with bursts that have loaded from there, and perhaps others. */
-  _Alignas(64) uint64_t watched[TRAX_MAX_TPS_PER_TM], readers[256];
+  _Alignas(64) uint64_t watched[TRAX_MAX_TPS_PER_TM], readers[1024];
   uint64_t looked_up, at_issue; /* fetches and instructions that were slow */
   struct trax_fast_refusal_counts refusal_counts;
   struct trax_shared_unit unit[TRAX_SHARED_COUNT];

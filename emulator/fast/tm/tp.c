@@ -35,8 +35,10 @@ static uint8_t *place(struct trax_tm *tm, struct trax_tp *tp, uint32_t address) 
 
 static uint32_t load(struct trax_tm *tm, struct trax_tp *tp, uint32_t address, unsigned bytes) {
   uint32_t value = 0;
-  if (tm->buffer && address < TRAX_LOCAL_BASE)
-    return trax_store_buffer_load(tm->buffer, &tm->machine->space, address, bytes);
+  if (tm->buffer && address < TRAX_LOCAL_BASE) {
+    struct trax_overlay_line *const line = trax_store_buffer_line(tm->buffer, address);
+    return line ? trax_store_buffer_load(line, &tm->machine->space, address, bytes) : 0;
+  }
   memcpy(&value, place(tm, tp, address), bytes);
   return value;
 }
