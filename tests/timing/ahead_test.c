@@ -70,6 +70,13 @@ static void load_late(struct program *program) {
   emit(program, S(SW, 5, 11, 0));
 }
 
+/* The controller performs the increment after the epoch of its issue, and its block has been loaded ahead meanwhile. */
+static void increment_late(struct program *program) {
+  emit_loop(program, 100, 0);
+  increment_and_end(program);
+  emit_loop(program, 900, 0);
+}
+
 static void store_past_cache(struct program *program) {
   emit(program, S(SW, 0, 10, WORD));
   emit_loop(program, 100, 0);
@@ -124,6 +131,7 @@ static const struct scenario {
      100,
      LITTLE,
      {increment_and_end, load_after_increment}},
+    {"a load ahead of an increment that waits", 2, 1, 100, LITTLE, {increment_late, load_late}},
     {"a roll back over a load of what has been incremented since", 1, 2, 100, PLENTY, {increment_and_store, load_both}},
     {"a store past the cache by another TM", 2, 1, 1, PLENTY, {store_past_cache, load_late}},
     {"a roll back over a store of half a word", 1, 2, 100, PLENTY, {store_in_between, store_half_word}},

@@ -173,6 +173,7 @@ static const struct scenario scenarios[] = {
     {"a fault, and stores that must not happen", false, {fault, store_for_long}},
     {"a fault of a higher TM, and stores", false, {store_for_long, fault}},
     {"an end, and stores after it", false, {end_thread, store_for_long, load_word}},
+    {"bytes of a word by two TMs, the higher of which loads it", true, {store_second_byte, store_byte_and_load_word}},
 };
 
 /* Many cycles go by in a loop. */
