@@ -91,23 +91,27 @@ class Programs(unittest.TestCase):
 
 
 class Waits(Programs):
-    def test_both_ends(self):
-        """The first line takes the bus for 4 cycles and 100 more, the second one comes 4 cycles later. The loads are
-        issued in t and t + 1, the sum of both in t + 108: from t + 2 it waits 102 cycles for the first and 4 for the
-        second. A hit has a latency of 3 here. An increment comes after 101 cycles, and so does the end of a store."""
-        (self.folder / "waits.s").write_text("""
-              .globl _start
-            _start:
-              la r1, first
-              lw r2, 0(r1)
+    AT = 0x1008  # after the two instructions of la
+
+    BOTH_ENDS = """lw r2, 0(r1)
               lw r3, 64(r1)
               add r4, r2, r3
               lw r5, 4(r1)
+              fdiv r9, r4, r4
               add r6, r5, r5
+              add r10, r9, r9
               ainc r7, 8(r1)
               add r8, r7, r7
               swnt r8, 72(r1)
-              fence w
+              fence w"""
+
+    def build(self, text):
+        """Two objects, and a program that has the address of the first one in r1."""
+        (self.folder / "waits.s").write_text(f"""
+              .globl _start
+            _start:
+              la r1, first
+              {text}
               halt
               .bss
               .balign 64
@@ -120,18 +124,14 @@ class Waits(Programs):
             """)
         command = [BIN / "clang", "--target=trax", "-nostdlib", "waits.s", "-o", "waits"]
         subprocess.run(command, cwd=self.folder, check=True)
-        at, expected = 0x1008, []  # after the two instructions of la
-        for awaited, name, waiting, cause, cycles in (
-            (0, "first", 2, "wait_memory", 102),
-            (1, "second", 2, "wait_memory", 4),
-            (3, "first", 4, "wait_dcache_hit", 2),
-            (5, "first", 6, "wait_atomic", 100),
-            (8, "", 8, "wait_memory", 101),
-        ):
-            expected.append((at + 4 * awaited, name, at + 4 * waiting, {cause: cycles}))
-        settings = ["--quiet", "--set", "dcache.hit_latency_cycles=3", "--set", "icache.line_bytes=1024"]
+
+    def expect(self, rows, *settings, status=0):
+        """Of each row: the number of the instruction that is waited for and its object, that of the waiting one."""
+        expected = [(self.AT + 4 * awaited, name, self.AT + 4 * waiting, {cause: cycles})
+                    for awaited, name, waiting, cause, cycles in rows]
+        settings = ["--quiet", "--set", "icache.line_bytes=1024", *settings]
         for engine in "reference", "fast", "simt":
-            self.run_sim(*settings, "--engine", engine, "--waits", "waits.csv", "waits")
+            self.run_sim(*settings, "--engine", engine, "--waits", "waits.csv", "waits", status=status)
             found = [
                 (
                     int(row["address"], 16),
@@ -141,7 +141,33 @@ class Waits(Programs):
                 )
                 for row in csv.DictReader((self.folder / "waits.csv").read_text().splitlines())
             ]
-            self.assertEqual(found, expected, engine)
+            self.assertEqual(found, expected, (engine, settings))
+
+    def test_both_ends(self):
+        """The first line takes the bus for 4 cycles and 100 more, the second one comes 4 cycles later. The loads are
+        issued in t and t + 1, the sum of both in t + 108: from t + 2 it waits 102 cycles for the first and 4 for the
+        second. A hit has a latency of 3 here, or of 1, and a division of 8. An increment comes after 101 cycles, and so
+        does the end of a store."""
+        self.build(self.BOTH_ENDS)
+        begin = [(0, "first", 2, "wait_memory", 102), (1, "second", 2, "wait_memory", 4)]
+        end = [(7, "first", 8, "wait_atomic", 100), (10, "", 10, "wait_memory", 101)]
+        self.expect([*begin, (3, "first", 5, "wait_dcache_hit", 1), (4, "", 6, "wait_special", 5), *end],
+                    "--set", "dcache.hit_latency_cycles=3")
+        self.expect([*begin, (4, "", 6, "wait_special", 6), *end])
+
+    def test_a_run_that_is_cut(self):
+        """The instructions are there after 164 cycles, so the first sum waits from cycle 168 on."""
+        self.build(self.BOTH_ENDS)
+        self.expect([(0, "first", 2, "wait_memory", 32)], "--max-cycles", "200", status=124)
+
+    def test_a_miss_before_a_division(self):
+        """The passage that has the miss writes the quotient, too."""
+        self.build("lw r2, 0(r1); fdiv r3, r0, r0; add r4, r3, r3")
+        self.expect([(1, "", 2, "wait_special", 7)])
+
+    def test_local_memory(self):
+        self.build("sw r0, -8(r0); lw r2, -8(r0); add r3, r2, r2")
+        self.expect([(1, "(local memory)", 2, "wait_local", 2)], "--set", "tp.local_latency_cycles=3")
 
 
 class Stacks(Programs):

@@ -2,11 +2,11 @@
    while others read, write or increment it, in every order and distance within an epoch. Threads are quiet for so long
    that epochs are running when it happens, and after it. */
 #include "compare.h"
+#include "program.h"
 
 #include <string.h>
 
 enum {
-  MOST_WORDS = 1024,
   LATENCY = 17,     /* and so about the length of an epoch */
   QUIET = 200,      /* turns of a loop of two instructions */
   AFTERWARDS = 800, /* so many that no state is kept from before when the run ends, which is found cycle by cycle */
@@ -16,25 +16,6 @@ enum {
   WRITES = 12,
   WORD = 0,
 };
-
-struct program {
-  uint32_t words[MOST_WORDS];
-  size_t count;
-};
-
-static void emit(struct program *program, uint32_t word) {
-  assert_true(program->count < MOST_WORDS);
-  program->words[program->count++] = word;
-}
-
-static void emit_loop(struct program *program, unsigned turns, uint32_t body) {
-  emit(program, I(ADDI, 3, 0, (int32_t)turns));
-  const size_t loop = program->count;
-  if (body)
-    emit(program, body);
-  emit(program, I(ADDI, 3, 3, -1));
-  emit(program, B(BNE, 3, 0, ((int32_t)loop - (int32_t)program->count) * 4));
-}
 
 /* What a TM does when it is time; r10 is DATA, r11 where its results go, r4 a number of its own. */
 typedef void action(struct program *program);
@@ -192,6 +173,7 @@ static const struct scenario scenarios[] = {
     {"a fault, and stores that must not happen", false, {fault, store_for_long}},
     {"a fault of a higher TM, and stores", false, {store_for_long, fault}},
     {"an end, and stores after it", false, {end_thread, store_for_long, load_word}},
+    {"bytes of a word by two TMs, the higher of which loads it", true, {store_second_byte, store_byte_and_load_word}},
 };
 
 /* Many cycles go by in a loop. */

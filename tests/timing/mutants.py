@@ -23,7 +23,8 @@ AVX2 = "traxfast_v3" if "avx2" in pathlib.Path("/proc/cpuinfo").read_text() else
 ENGINES = ["--jobs", "1", "--stop", "--engine"]
 # The quickest first, since it decides about most mutants. Seconds of a processor, some five times as many as without a
 # mutant; the only part that is tested; test and words.
-TESTS = [(3, "", "timing-rules-test", "docs/timing-rules.md"), (3, "dram", "timing-dram-test")]
+TESTS = [(3, "", "timing-rules-test", "docs/timing-rules.md"), (3, "dram", "timing-dram-test"),
+         (3, "fast", "timing-ahead-test")]
 TESTS += [(3, engine, f"timing-{name}-test") for engine in ("fast", "reference") for name in ("runs", "faults")]
 TESTS += [(10, "", "timing-engines-test", *ENGINES, "fast-translated", "--count", "15"),
           *((15, "fast", f"timing-{name}-test")
@@ -32,7 +33,7 @@ TESTS += [(10, "", "timing-engines-test", *ENGINES, "fast-translated", "--count"
 TESTS += [(120, "", "timing-engines-test", *ENGINES, engine, "--count", "200")
           for engine in ("fast-translated", "fast")]
 PARTS = {"fast": "fast", "translate": "fast", "reference": "reference"}  # the others are parts of both engines
-BY_COMPARISON = ("timing-engines", "timing-state", "timing-epochs", "timing-checkpoint", "timing-translated")
+BY_COMPARISON = ("timing-engines", "timing-ahead", "timing-state", "timing-epochs", "timing-checkpoint", "timing-translated")
 
 
 def tests_of(mutant):

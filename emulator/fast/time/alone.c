@@ -142,6 +142,6 @@ bool trax_fast_run_alone(struct trax_tm *tm, uint64_t t, uint64_t end) {
   trax_fast_set_load(tm, number, load);
   trax_fast_set_head(&tm->heads, number, at);
   tm->now = t - 1;
-  tm->next_cycle = trax_tm_next_cycle(tm, t - 1);
+  tm->next_cycle = t;
   return true;
 }

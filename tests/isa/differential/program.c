@@ -156,20 +156,78 @@ static void emit_corner(struct program *program, unsigned reg) {
     emit(program, I(LW, reg, program->role[CONSTANTS], 4 * (int32_t)any(0, COMMON_BYTES / 4 - 1)));
 }
 
-/* Small floats in registers that follow one another, so that rays meet boxes and triangles. Returns the first. */
-static uint8_t emit_group(struct program *program, unsigned count, unsigned other) {
+/* Returns the first of registers that follow one another. If possible, all may be written, and none is in `taken`. */
+static uint8_t any_group(const struct program *program, unsigned count, uint32_t taken) {
   unsigned first = 0;
   for (unsigned tries = 0, good = 0; tries < 64 && good < count; tries++) {
     first = any_register();
     for (good = 0; good < count && may_be_written(program, (first + good) % TRAX_NUM_REGISTERS) &&
-                   (first + good) % TRAX_NUM_REGISTERS != other;)
+                   !(taken >> (first + good) % TRAX_NUM_REGISTERS & 1);)
       good++;
   }
-  for (unsigned i = 0; i < count; i++)
-    if (may_be_written(program, (first + i) % TRAX_NUM_REGISTERS))
-      emit(program,
-           U(LUI, (first + i) % TRAX_NUM_REGISTERS, (int32_t)(any(0, 1) << 15 | any(122, 129) << 7 | any(0, 127))));
   return (uint8_t)first;
+}
+
+static uint32_t upper_half(int32_t value) {
+  const float as_float = (float)value;
+  uint32_t word;
+  memcpy(&word, &as_float, sizeof word);
+  return word >> 16;
+}
+
+/* Upper halves of floats, in the order of ftri's groups. */
+struct ray_and_triangle {
+  uint32_t origin[3], way[3], corners[3][3];
+};
+
+/* A ray that meets a triangle inside it, on an edge or in a corner: small integers, so nothing is rounded. */
+static void meet_exactly(struct ray_and_triangle *values) {
+  const int32_t along = (int32_t)any(0, 4), up = (int32_t)any(0, 4 - (uint32_t)along), far = (int32_t)any(1, 3);
+  for (unsigned axis = 0; axis < 3; axis++) {
+    const int32_t corner = (int32_t)any(0, 8) - 4, a = (int32_t)any(0, 4) - 2, b = (int32_t)any(0, 4) - 2;
+    const int32_t step = (int32_t)any(0, 6) - 3;
+    values->origin[axis] = upper_half(corner + along * a + up * b - far * step);
+    values->way[axis] = upper_half(step);
+    values->corners[0][axis] = upper_half(corner);
+    values->corners[1][axis] = upper_half(corner + 4 * a);
+    values->corners[2][axis] = upper_half(corner + 4 * b);
+  }
+}
+
+/* A ray along an axis through the first corner: it meets both edges there, however their area is rounded. */
+static void meet_corner(struct ray_and_triangle *values) {
+  const unsigned along = any(0, 2);
+  for (unsigned axis = 0; axis < 3; axis++)
+    if (axis != along)
+      values->origin[axis] = values->corners[0][axis], values->way[axis] = 0;
+}
+
+/* Groups of small floats, so that rays meet boxes and triangles. */
+static void emit_groups(struct program *program, trax_inst *inst) {
+  union {
+    struct ray_and_triangle meeting;
+    uint32_t all[sizeof(struct ray_and_triangle) / 4];
+  } values;
+  const unsigned flags = trax_op_table[inst->op].flags, first = trax_group_a(flags), second = trax_group_b(flags);
+  uint32_t taken = 1u << inst->rd;
+  inst->rb = any_group(program, second, taken); /* the longer one, while there is room */
+  for (unsigned i = 0; i < second; i++)
+    taken |= 1u << (inst->rb + i) % TRAX_NUM_REGISTERS;
+  inst->ra = any_group(program, first, taken);
+  for (unsigned i = 0; i < sizeof values / 4; i++)
+    values.all[i] = any(0, 1) << 15 | any(122, 129) << 7 | any(0, 127);
+  const unsigned kind = inst->op == TRAX_OP_FTRI ? any(0, 2) : 0;
+  if (kind == 1)
+    meet_exactly(&values.meeting);
+  else if (kind == 2)
+    meet_corner(&values.meeting);
+  for (unsigned i = 0; i < first + second; i++) {
+    const unsigned reg = (i < first ? inst->ra + i : inst->rb + i - first) % TRAX_NUM_REGISTERS;
+    if (may_be_written(program, reg))
+      emit(program, U(LUI, reg, (int32_t)values.all[i]));
+  }
+  if (inst->rd)
+    emit_constant(program, inst->rd, 0x7F800000);
 }
 
 /* Corner values come as often as results of earlier instructions, which soon have none. */
@@ -197,12 +255,8 @@ static void emit_computation(struct program *program) {
     emit_corner(program, inst.rb);
   }
   const unsigned flags = trax_op_table[op].flags;
-  if (trax_group_b(flags) > 1 && one_in(2)) {
-    inst.ra = emit_group(program, trax_group_a(flags), inst.rd);
-    inst.rb = emit_group(program, trax_group_b(flags), inst.rd);
-    if (inst.rd)
-      emit_constant(program, inst.rd, 0x7F800000);
-  }
+  if (trax_group_b(flags) > 1 && one_in(2))
+    emit_groups(program, &inst);
   emit(program, trax_encode(inst));
 }
 
