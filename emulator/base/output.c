@@ -88,11 +88,11 @@ static char *behind_links(const char *path) {
   char *at = strdup(path);
   for (int links = 0; at; links++) {
     char *target = trax_link_target(at);
-    if (!target)
+    if (!target && errno != ENOMEM)
       return at;
     free(at);
     at = target;
-    if (links == TRAX_MOST_LINKS) {
+    if (at && links == TRAX_MOST_LINKS) {
       free(at);
       errno = ELOOP;
       return NULL;
