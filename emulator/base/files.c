@@ -48,7 +48,8 @@ static bool find_folder(struct trax_file_use *use, const char *path) {
       free(folder);
       return true;
     }
-    if (links < TRAX_MOST_LINKS && (target = trax_link_target(folder))) { /* a link to a file that does not exist */
+    if (links < TRAX_MOST_LINKS && ((target = trax_link_target(folder)) || errno == ENOMEM)) {
+      /* a link to a file that does not exist */
       free(folder);
       folder = target;
       links++;

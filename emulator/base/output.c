@@ -46,6 +46,23 @@ int trax_output_descriptor(const char *path) {
   return -1;
 }
 
+/* Returns 0, or errno: the descriptor is closed or only for reading. */
+static int refusal_of(int descriptor) {
+  const int flags = fcntl(descriptor, F_GETFL);
+  return flags < 0 ? errno : (flags & O_ACCMODE) == O_RDONLY ? EBADF : 0;
+}
+
+/* NULL with errno: there is no stream, and the descriptor, which may be negative, is closed. */
+static FILE *stream_of(int descriptor, const char *mode) {
+  FILE *file = descriptor < 0 ? NULL : fdopen(descriptor, mode);
+  if (!file && descriptor >= 0) {
+    const int code = errno;
+    close(descriptor);
+    errno = code;
+  }
+  return file;
+}
+
 static trax_status fail_closed(trax_output *output, int code, trax_error *error) {
   trax_status status = trax_fail(error, "%s: cannot be written: %s", output->path, strerror(code));
   trax_output_discard(output);
@@ -71,11 +88,11 @@ static char *behind_links(const char *path) {
   char *at = strdup(path);
   for (int links = 0; at; links++) {
     char *target = trax_link_target(at);
-    if (!target)
+    if (!target && errno != ENOMEM)
       return at;
     free(at);
     at = target;
-    if (links == TRAX_MOST_LINKS) {
+    if (at && links == TRAX_MOST_LINKS) {
       free(at);
       errno = ELOOP;
       return NULL;
@@ -115,27 +132,23 @@ static trax_status open_temporary(trax_output *output, mode_t mode, trax_error *
     return fail_closed(output, code, error);
   }
   fchmod(descriptor, mode);
-  output->file = fdopen(descriptor, "wb");
-  if (!output->file) {
-    int code = errno;
-    close(descriptor);
-    return fail_closed(output, code, error);
-  }
-  return TRAX_OK;
+  output->file = stream_of(descriptor, "wb");
+  return output->file ? TRAX_OK : fail_closed(output, errno, error);
 }
 
 trax_status trax_output_open(trax_output *output, const char *path, trax_error *error) {
   *output = (trax_output){.path = strdup(path)};
   if (!output->path)
     return trax_fail(error, "%s: out of memory", path);
-  const int shared = trax_output_descriptor(path);
+  const int shared = trax_output_descriptor(path), refusal = shared < 0 ? 0 : refusal_of(shared);
+  if (refusal)
+    return fail_closed(output, refusal, error);
   if (shared == STDOUT_FILENO) {
     output->file = stdout;
     return TRAX_OK;
   }
   if (shared >= 0) { /* to open it again would overwrite a file from its beginning */
-    const int copy = dup(shared);
-    output->file = copy < 0 ? NULL : fdopen(copy, "ab");
+    output->file = stream_of(dup(shared), "ab");
     return output->file ? TRAX_OK : fail_closed(output, errno, error);
   }
   struct stat existing;
@@ -143,8 +156,8 @@ trax_status trax_output_open(trax_output *output, const char *path, trax_error *
   if (exists && !S_ISREG(existing.st_mode)) {
     if (S_ISDIR(existing.st_mode))
       return fail_closed(output, EISDIR, error);
-    const int descriptor = open(path, O_WRONLY | O_CLOEXEC | O_NOCTTY); /* creates nothing if it is gone meanwhile */
-    output->file = descriptor < 0 ? NULL : fdopen(descriptor, "wb");
+    /* creates nothing if it is gone meanwhile */
+    output->file = stream_of(open(path, O_WRONLY | O_CLOEXEC | O_NOCTTY), "wb");
     return output->file ? TRAX_OK : fail_closed(output, errno, error);
   }
   if (exists && trax_reads_has(&existing))
@@ -164,14 +177,16 @@ static void make_executable(trax_output *output) {
     fchmod(descriptor, (status.st_mode & 07777) | usual_mode(0111));
 }
 
+/* Flushes the stream. Returns 0, or the errno of what could not be written since it was opened. */
+static int flush(FILE *file) {
+  if (!ferror(file))
+    return fflush(file) == 0 ? 0 : errno;
+  clearerr(file); /* errno of that failure may be lost: another write fails for the same reason */
+  return fputc('\n', file) == EOF || fflush(file) != 0 ? errno : EIO;
+}
+
 trax_status trax_output_commit(trax_output *output, trax_error *error) {
-  int failure = 0;
-  if (ferror(output->file)) { /* errno of that failure may be lost: another write fails for the same reason */
-    clearerr(output->file);
-    failure = fputc('\n', output->file) == EOF || fflush(output->file) != 0 ? errno : EIO;
-  } else if (fflush(output->file) != 0) {
-    failure = errno;
-  }
+  int failure = flush(output->file);
   if (output->file == stdout) {
     if (failure == EPIPE) /* the reader has closed the pipe; main reports that by its exit status */
       failure = 0;
@@ -215,16 +230,15 @@ void trax_output_discard(trax_output *output) {
 }
 
 trax_status trax_output_flush(trax_error *error) {
-  return fflush(stdout) == 0 && !ferror(stdout)
-             ? TRAX_OK
-             : trax_fail(error, "standard output cannot be written: %s", strerror(errno));
+  const int failure = flush(stdout);
+  return failure ? trax_fail(error, "standard output cannot be written: %s", strerror(failure)) : TRAX_OK;
 }
 
 trax_status trax_output_check(const char *path, trax_error *error) {
   struct stat existing;
-  const int shared = trax_output_descriptor(path);
+  const int shared = trax_output_descriptor(path), refusal = shared < 0 ? 0 : refusal_of(shared);
   if (shared >= 0)
-    return fcntl(shared, F_GETFL) >= 0 ? TRAX_OK : trax_fail(error, "%s: cannot be written: %s", path, strerror(errno));
+    return refusal ? trax_fail(error, "%s: cannot be written: %s", path, strerror(refusal)) : TRAX_OK;
   /* Opening a pipe or a device may wait or have effects, so only its permissions are checked. */
   if (stat(path, &existing) == 0 && !S_ISREG(existing.st_mode) && !S_ISDIR(existing.st_mode))
     return access(path, W_OK) == 0 ? TRAX_OK : trax_fail(error, "%s: cannot be written: %s", path, strerror(errno));

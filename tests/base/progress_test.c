@@ -86,6 +86,29 @@ static void test_near_the_end(void **state) {
   free(text);
 }
 
+/* What is printed beside the line erases it first. */
+static void test_output(void **state) {
+  (void)state;
+  trax_progress_line line = begin();
+  FILE *const before = stdout, *output = trax_progress_line_output(&line);
+  char *printed;
+  size_t length;
+  assert_non_null(output);
+  trax_progress_line_show(&line, "running", -1, NULL);
+  shown(&line, "\rtool: running\033[K");
+  FILE *const other = stdout = open_memstream(&printed, &length);
+  fputs("a line\n", output);
+  fclose(output);
+  stdout = before;
+  fclose(other); /* which is still open */
+  assert_string_equal(printed, "a line\n");
+  shown(&line, "\r\033[K");
+  assert_false(line.drawn);
+  fclose(line.terminal);
+  free(printed);
+  free(text);
+}
+
 static void test_nobody(void **state) {
   (void)state;
   trax_progress_line line = {.program = "tool"};
@@ -100,6 +123,7 @@ static void test_nobody(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_line), cmocka_unit_test(test_resumed),
-                                     cmocka_unit_test(test_near_the_end), cmocka_unit_test(test_nobody)};
+                                     cmocka_unit_test(test_near_the_end), cmocka_unit_test(test_output),
+                                     cmocka_unit_test(test_nobody)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

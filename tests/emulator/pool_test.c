@@ -11,6 +11,9 @@
 #include "trax/pool.h"
 
 #include <dirent.h>
+#include <errno.h>
+#include <limits.h>
+#include <pthread.h>
 #include <sched.h>
 #include <stdatomic.h>
 #include <stdio.h>
@@ -180,9 +183,39 @@ static void idles_without_cost(void **state) {
   }
 }
 
+static unsigned startable = UINT_MAX, joined; /* number of threads that the host lets start, and of those that ended */
+
+int __real_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*run)(void *), void *argument);
+int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*run)(void *), void *argument);
+int __real_pthread_join(pthread_t thread, void **result);
+int __wrap_pthread_join(pthread_t thread, void **result);
+
+int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*run)(void *), void *argument) {
+  return startable && startable-- ? __real_pthread_create(thread, attributes, run, argument) : EAGAIN;
+}
+
+int __wrap_pthread_join(pthread_t thread, void **result) {
+  joined++;
+  return __real_pthread_join(thread, result);
+}
+
+/* If the host has no more threads, those that were started end. */
+static void refuses_without_threads(void **state) {
+  (void)state;
+  for (unsigned most = 0; most < THREADS - 1; most++) {
+    trax_error error;
+    startable = most;
+    joined = 0;
+    assert_null(trax_pool_create(THREADS, &error));
+    assert_string_equal(error.message, "cannot start a thread of the host");
+    assert_int_equal(joined, most);
+  }
+  startable = UINT_MAX;
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(every_item_once), cmocka_unit_test(finishes_rounds_in_order),
-                                     cmocka_unit_test(jobs_in_turns), cmocka_unit_test(sleeps_while_waiting),
-                                     cmocka_unit_test(idles_without_cost)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(every_item_once),    cmocka_unit_test(finishes_rounds_in_order),
+                                     cmocka_unit_test(jobs_in_turns),      cmocka_unit_test(sleeps_while_waiting),
+                                     cmocka_unit_test(idles_without_cost), cmocka_unit_test(refuses_without_threads)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* How many processors the quotas of control groups allow (trax/processors.h): files as the kernel writes them,
    in a folder that stands for the root. */
-#define _XOPEN_SOURCE 700
+#define _GNU_SOURCE /* sched_getaffinity */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -12,8 +12,10 @@
 #include "trax/emulator.h"
 #include "trax/processors.h"
 
+#include <errno.h>
 #include <ftw.h>
 #include <limits.h>
+#include <sched.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -91,7 +93,38 @@ static void this_host(void **state) {
   assert_true(processors >= 1 && processors <= (unsigned)sysconf(_SC_NPROCESSORS_CONF));
 }
 
+static size_t mask_bytes; /* of an invented host, on which all processors may be used; 0: this host */
+
+int __real_sched_getaffinity(pid_t process, size_t size, cpu_set_t *set);
+int __wrap_sched_getaffinity(pid_t process, size_t size, cpu_set_t *set);
+
+int __wrap_sched_getaffinity(pid_t process, size_t size, cpu_set_t *set) {
+  if (!mask_bytes)
+    return __real_sched_getaffinity(process, size, set);
+  memset(set, 0, size);
+  if (size < mask_bytes) {
+    errno = EINVAL;
+    return -1;
+  }
+  memset(set, 0xFF, mask_bytes);
+  return 0;
+}
+
+/* A host with more processors than a cpu_set_t has bits; one that says nothing has a processor. */
+static void many_processors(void **state) {
+  (void)state;
+  static const unsigned processors[][2] = {{64, 64}, {1024, 1024}, {2048, 2048}, {65536, 65536}, {131072, 1}};
+  const unsigned quota = trax_quota_processors("");
+  for (size_t i = 0; i < sizeof processors / sizeof *processors; i++) {
+    const unsigned expected = processors[i][1];
+    mask_bytes = processors[i][0] / CHAR_BIT;
+    assert_int_equal(trax_host_processors(), expected < quota ? expected : quota);
+  }
+  mask_bytes = 0;
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(quotas), cmocka_unit_test(this_host)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(quotas), cmocka_unit_test(this_host),
+                                     cmocka_unit_test(many_processors)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,9 +2,10 @@
    mistyped names, and the list of files that a run reads and writes follow.
 
      static const trax_option rows[] = {
-         {.name = "output", .letter = 'o', .argument = "FILE", .meaning = "the picture", TRAX_OPTION_FIELD(struct my,
-   path)}, TRAX_OPTION_HELP('h'), {0}}; static const trax_command command = {.name = "my-program", .synopsis =
-   "[options] MESH", .rows = rows};
+         {"output", 'o', .argument = "FILE", .meaning = "the picture", TRAX_OPTION_FIELD(struct my, path)},
+         TRAX_OPTION_HELP('h'),
+         {0}};
+     static const trax_command command = {.name = "my-program", .synopsis = "[options] MESH", .rows = rows};
 
    The table does not say which options exclude or need each other. The program checks such rules after parsing, with
    messages that give the reason. */

@@ -44,8 +44,8 @@ trax_status trax_write_file(const char *path, const void *bytes, size_t size, tr
 /* The same. executable: for everyone whom the umask permits. */
 trax_status trax_write_whole(const char *path, const void *bytes, size_t size, bool executable, trax_error *error);
 
-/* Returns the target of a symbolic link, from malloc; NULL if path is not a symbolic link. A path with more than
-   TRAX_MOST_LINKS of them in a row is none. */
+/* Returns the target of a symbolic link, from malloc; NULL if path is not a symbolic link, or with ENOMEM in errno. A
+   path with more than TRAX_MOST_LINKS of them in a row is none. */
 char *trax_link_target(const char *path);
 enum { TRAX_MOST_LINKS = 40 };
 
