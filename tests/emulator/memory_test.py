@@ -199,7 +199,7 @@ int main(void) {
 # Programs of tests/c whose errors are what they test, or that leave blocks.
 WRONG = {"abort_double_free.c", "buffers.c", "fault_memory_ends.c", "local_memory.c", "parallel.c"}
 SOME = ["bitfields.c", "string_edges.c", "varargs.c", "vla.c", "setjmp_longjmp.c", "struct_large.c", "unions.c",
-        "thread_local.c", "attributes.c", "large_alignment.c", "cxx_language.cpp"]
+        "thread_local_values.c", "attributes.c", "large_alignment.c", "cxx_language.cpp"]
 
 
 def programs(scratch):
