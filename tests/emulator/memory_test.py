@@ -106,7 +106,7 @@ int main(void) {
     program = build(scratch, source, "-O0")
     error = run(program).stderr
     lines = [re.sub(r"0x[0-9a-f]+", "X", re.sub(r"cycle \d+", "cycle N", re.sub(r"\S*/", "", line)))
-             for line in error.splitlines()]
+             for line in error.replace(f"{scratch}/", "").splitlines()]
     check(lines == [
         "trax-sim: memory: an access outside of its object",
         "  access      store of 4 bytes to X; 2 times",
