@@ -13,9 +13,12 @@ import time
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
-def children():
-    lists = pathlib.Path("/proc/self/task").glob("*/children")
-    return [int(word) for path in lists for word in path.read_text().split()]
+def children(process="self"):
+    found = []
+    for path in pathlib.Path(f"/proc/{process}/task").glob("*/children"):
+        with contextlib.suppress(OSError):  # the thread has ended
+            found += map(int, path.read_text().split())
+    return found
 
 
 def end_by_signals():

@@ -11,8 +11,8 @@ check-lit`, or some of them with lit.py -v BUILD/tests/codegen/frames.ll. Substi
   %unwind_test   compares frame information with the call chain (tests/unwind)
   %run_c         run_c.py: compiles a C program at several -O levels, runs each and compares (tests/c; lit_programs.py)
 
-LLVM's tools (FileCheck, not, split-file, yaml2obj, llvm-readelf, ...) are on the PATH. Nothing is skipped when a
-program is missing: the test fails.
+LLVM's tools (FileCheck, not, split-file, yaml2obj, llvm-readelf, ...) are on the PATH. When a program is
+missing, the test fails; only ccache.test is unsupported then.
 """
 
 import os

@@ -25,7 +25,7 @@ import sys
 import zlib
 
 ALL_LEVELS = ["-O0", "-O1", "-O2", "-O3", "-Os", "-Oz"]
-SECONDS = 120  # per step; a program that hangs is a failure, not a wait
+SECONDS = 600  # per step, on a busy machine; a program that hangs is a failure, not a wait
 PROCESS = {}  # lit_programs.py: folder and environment of the steps
 
 

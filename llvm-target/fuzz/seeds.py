@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 """Writes the initial cases of the fuzzers. Usage: seeds.py BUILD DIRECTORY
 
-BUILD is a finished build (its clang compiles) whose lit suite ld has run (its objects are taken). DIRECTORY gets
-trax-ld/ and trax-objdump/, one file a case, in the form that fuzz_case.h describes.
+BUILD is a finished build, whose clang compiles. DIRECTORY gets trax-ld/ and trax-objdump/, one file a case, in the form
+that fuzz_case.h describes.
 """
 
-import glob
 import hashlib
 import os
+import pathlib
 import subprocess
 import sys
 import tempfile
@@ -15,6 +15,7 @@ import tempfile
 if len(sys.argv) != 3:
     sys.exit(__doc__)
 build, directory = sys.argv[1:]
+HERE = os.path.dirname(os.path.abspath(__file__))
 bindir = os.path.join(build, "bin")
 LARGEST = 6000  # bytes; larger files are mutated more slowly and find no more
 
@@ -98,10 +99,11 @@ with tempfile.TemporaryDirectory() as work:
         for listing in LISTINGS:
             add("trax-objdump", listing, ("image", read(image)))
 
-for path in sorted(glob.glob(os.path.join(build, "tests", "ld", "**", "*"), recursive=True)):
-    if os.path.isfile(path) and os.path.getsize(path) < LARGEST:
-        data = read(path)
-        if data.startswith(b"\x7fELF") or data.startswith(b"!<arch>\n"):
-            add("trax-ld", "a.o", ("a.o", data))
-            add("trax-ld", "a.o --gc-sections -Map=- -w", ("a.o", data))
-            add("trax-objdump", "-x -d", ("a.o", data))
+# The objects that the tests of the linker describe.
+for path in sorted(pathlib.Path(HERE, "../../tests/ld").rglob("*.yaml")):
+    for number in range(1, path.read_text(encoding="utf-8").count("--- !") + 1):
+        made = subprocess.run(["yaml2obj-19", f"--docnum={number}", path], capture_output=True, check=False)
+        if made.returncode == 0 and len(made.stdout) < LARGEST:  # others need values
+            add("trax-ld", "a.o", ("a.o", made.stdout))
+            add("trax-ld", "a.o --gc-sections -Map=- -w", ("a.o", made.stdout))
+            add("trax-objdump", "-x -d", ("a.o", made.stdout))

@@ -50,35 +50,10 @@ template <class Number> static void all(Number x) {
 }
 
 template <class Number, class Bits> static void some(int count) {
-  static const double special[] = {0,
-                                   -0.0,
-                                   1,
-                                   -1,
-                                   0.1,
-                                   1e5,
-                                   123456,
-                                   1234567,
-                                   1e21,
-                                   1e22,
-                                   1e23,
-                                   9007199254740993.0,
-                                   5e-324,
-                                   2.2250738585072014e-308,
-                                   1.7976931348623157e308,
-                                   5.684341886080801e-14,
-                                   1e-7,
-                                   0.001,
-                                   0.0001,
-                                   1e-5,
-                                   3.4028235e38,
-                                   1.1754944e-38,
-                                   1.4e-45,
-                                   33554432,
-                                   8.589973e9,
-                                   100,
-                                   1e16,
-                                   1e17,
-                                   0.3};
+  static const double special[] = {
+      0, -0.0, 1, -1, 0.1, 1e5, 123456, 1234567, 1e21, 1e22, 1e23, 9007199254740993.0, 5e-324,
+      2.2250738585072014e-308, 1.7976931348623157e308, 5.684341886080801e-14, 1e-7, 0.001, 0.0001, 1e-5, 3.4028235e38,
+      1.1754944e-38, 1.4e-45, 33554432, 8.589973e9, 100, 1e16, 1e17, 0.3};
   for (double x : special) {
     all(static_cast<Number>(x));
     std::printf("%08x\n", static_cast<unsigned>(hash));

@@ -9,11 +9,6 @@ static const char *const texts[] = {"12", "99999999999", "-99999999999", "7"};
 static volatile int sequence[256];
 static unsigned wrong, arrived;
 
-/* The word as it is now: an atomic load, since trax_load_nt may be moved out of a loop. */
-static unsigned now(const volatile unsigned *p) {
-  return __atomic_load_n(p, __ATOMIC_ACQUIRE);
-}
-
 int main(void) {
   unsigned thread = trax_thread();
   long value = strtol(texts[thread % 4], NULL, 10);
@@ -23,7 +18,7 @@ int main(void) {
   for (int i = 0; i < 3; i++)
     sequence[thread] = rand();
   __atomic_fetch_add(&arrived, 1, __ATOMIC_RELEASE);
-  while (now(&arrived) < trax_threads())
+  while (__atomic_load_n(&arrived, __ATOMIC_ACQUIRE) < trax_threads())
     ;
   /* All have set theirs by now. */
   if (errno != (range ? ERANGE : 0) || value != values[thread % 4])

@@ -7,11 +7,6 @@
 
 static unsigned gone;
 
-/* The word as it is now: an atomic load, since trax_load_nt may be moved out of a loop. */
-static unsigned now(const volatile unsigned *p) {
-  return __atomic_load_n(p, __ATOMIC_ACQUIRE);
-}
-
 __attribute__((noinline)) static void deep(int n) {
   if (n == 0) {
     __atomic_fetch_add(&gone, 1, __ATOMIC_RELEASE);
@@ -25,7 +20,7 @@ int main(void) {
   unsigned thread = trax_thread();
   if (thread == 1)
     deep(4);
-  while (now(&gone) == 0)
+  while (__atomic_load_n(&gone, __ATOMIC_ACQUIRE) == 0)
     ;
   if (thread == 0)
     puts("still here");

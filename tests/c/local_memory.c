@@ -9,14 +9,9 @@ static _Thread_local unsigned own[8];
 static unsigned outside, differing, mixed, arrived;
 static volatile uintptr_t place, thread_place;
 
-/* The word as it is now: an atomic load, since trax_load_nt may be moved out of a loop. */
-static unsigned now(const volatile unsigned *p) {
-  return __atomic_load_n(p, __ATOMIC_ACQUIRE);
-}
-
 __attribute__((noinline)) static void wait_for(unsigned n) {
   __atomic_fetch_add(&arrived, 1, __ATOMIC_RELEASE);
-  while (now(&arrived) < n)
+  while (__atomic_load_n(&arrived, __ATOMIC_ACQUIRE) < n)
     ;
 }
 

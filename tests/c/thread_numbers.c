@@ -7,11 +7,6 @@
 static volatile unsigned turn;
 static unsigned wrong, arrived;
 
-/* The word as it is now: an atomic load, since trax_load_nt may be moved out of a loop. */
-static unsigned now(const volatile unsigned *p) {
-  return __atomic_load_n(p, __ATOMIC_ACQUIRE);
-}
-
 __attribute__((noinline)) static unsigned check(unsigned tps) {
   unsigned thread, tm, tp, threads, low, high;
   __asm__("rdsr %0, 0" : "=r"(thread));
@@ -30,13 +25,13 @@ int main(void) {
   __atomic_fetch_add(&arrived, 1, __ATOMIC_RELEASE);
   if (thread % 9)
     return 0;
-  while (now(&turn) != thread)
+  while (__atomic_load_n(&turn, __ATOMIC_ACQUIRE) != thread)
     ;
   printf("%u:%u.%u ", thread, trax_tm(), trax_tp());
   __atomic_store_n(&turn, thread + 9, __ATOMIC_RELEASE);
   if (thread + 9 < trax_threads())
     return 0;
-  while (now(&arrived) != trax_threads())
+  while (__atomic_load_n(&arrived, __ATOMIC_ACQUIRE) != trax_threads())
     ;
   printf("wrong %u\n", wrong);
   return 0;

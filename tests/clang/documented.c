@@ -1,6 +1,5 @@
 // Statements of docs/compiler.md and docs/refusals.md that no other test shows.
 // RUN: %clang -O2 -S %s -o - | FileCheck %s
-// RUN: not %clang -DREFUSED -fsyntax-only %s 2>&1 | FileCheck %s --check-prefix=REFUSED
 // RUN: %clang -mstack=global -dM -E %s | FileCheck %s --check-prefix=STACK
 // RUN: %clang -dM -E %s | FileCheck %s --check-prefix=ABSENT
 // STACK: #define __trax_global_stack__ 1
@@ -56,20 +55,3 @@ vector elements(vector a, vector b) { return a + b; }
 // CHECK-LABEL: {{^}}address:
 // CHECK: mv r4, r1
 void *address(void) { return __builtin_return_address(0); }
-
-#ifdef REFUSED
-// REFUSED: error: __int128 is not supported on this target
-__int128 a;
-// REFUSED: error: _Float16 is not supported on this target
-_Float16 b;
-// REFUSED: error: {{.*}}_BitInt of bit sizes greater than 64 not supported
-_BitInt(65) c;
-// REFUSED: error: __float128 is not supported on this target
-__float128 d;
-// REFUSED: error: __bf16 is not supported on this target
-__bf16 e;
-// REFUSED: warning: unknown attribute 'interrupt' ignored
-__attribute__((interrupt)) void f(void);
-// REFUSED: error: ifunc is not supported: nothing resolves functions at start
-int resolved(void) __attribute__((ifunc("resolver")));
-#endif

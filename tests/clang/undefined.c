@@ -1,39 +1,8 @@
 // A check of -fsanitize=undefined that fails says which one it is, and where.
-// DEFINE: %{flags} = -g -O1 -w -fsanitize=undefined,float-cast-overflow,implicit-conversion -mstack=global
-// DEFINE: %{check} =
-// DEFINE: %{run} = %clang %{flags} -DCHECK=%{check} %s -o %t && not %trax_sim %t 2>&1 | FileCheck %s --check-prefix=SAYS-%{check}
-// REDEFINE: %{check} = ADD
-// RUN: %{run}
-// REDEFINE: %{check} = SUB
-// RUN: %{run}
-// REDEFINE: %{check} = MUL
-// RUN: %{run}
-// REDEFINE: %{check} = NEG
-// RUN: %{run}
-// REDEFINE: %{check} = DIV
-// RUN: %{run}
-// REDEFINE: %{check} = SHIFT
-// RUN: %{run}
-// REDEFINE: %{check} = INDEX
-// RUN: %{run}
-// REDEFINE: %{check} = NULL
-// RUN: %{run}
-// REDEFINE: %{check} = BOOL
-// RUN: %{run}
-// REDEFINE: %{check} = FLOAT
-// RUN: %{run}
-// REDEFINE: %{check} = CONVERT
-// RUN: %{run}
-// REDEFINE: %{check} = UNREACHABLE
-// RUN: %{run}
-// REDEFINE: %{check} = BUILTIN
-// RUN: %{run}
-// REDEFINE: %{check} = VLA
-// RUN: %{run}
-// REDEFINE: %{check} = NONNULL
-// RUN: %{run}
-// REDEFINE: %{check} = POINTER
-// RUN: %{run}
+// RUN: sh -c 'for check in ADD SUB MUL NEG DIV SHIFT INDEX NULL BOOL FLOAT CONVERT \
+// RUN:   UNREACHABLE BUILTIN VLA NONNULL POINTER; do \
+// RUN:   %clang -g -O1 -w -fsanitize=undefined,float-cast-overflow,implicit-conversion -mstack=global -DCHECK=$check %s -o %t && \
+// RUN:   not %trax_sim %t 2>&1 | FileCheck %s --check-prefix=SAYS-$check || exit 1; done'
 #include <limits.h>
 #include <stdbool.h>
 

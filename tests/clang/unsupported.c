@@ -50,6 +50,8 @@ _Float16 c;
 __float128 d;
 // WIDE: unsupported.c:[[@LINE+1]]:{{[0-9]+}}: error: GNU decimal type extension not supported
 _Decimal64 e;
+// WIDE: unsupported.c:[[@LINE+1]]:{{[0-9]+}}: error: __bf16 is not supported on this target
+__bf16 f;
 #endif
 
 #ifdef TAIL

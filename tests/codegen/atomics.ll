@@ -136,41 +136,29 @@ define void @store_byte(ptr %p, i8 %x) {
   ret void
 }
 ; CHECK-LABEL: add_two:
-; CHECK: addi r2, r2, -4
-; CHECK: sw r1, 0(r2)
 ; CHECK: li r5, 2
 ; CHECK: li r6, 5
 ; CHECK: call __atomic_fetch_add_4
-; CHECK: lw r1, 0(r2)
-; CHECK: addi r2, r2, 4
 ; CHECK: ret
 define i32 @add_two(ptr %p) {
   %r = atomicrmw add ptr %p, i32 2 seq_cst
   ret i32 %r
 }
 ; CHECK-LABEL: exchange_byte:
-; CHECK: addi r2, r2, -4
-; CHECK: sw r1, 0(r2)
 ; CHECK: andi r5, r5, 255
 ; CHECK: li r6, 2
 ; CHECK: call __atomic_exchange_1
-; CHECK: lw r1, 0(r2)
-; CHECK: addi r2, r2, 4
 ; CHECK: ret
 define zeroext i8 @exchange_byte(ptr %p, i8 %x) {
   %r = atomicrmw xchg ptr %p, i8 %x acquire
   ret i8 %r
 }
 ; CHECK-LABEL: compare_exchange:
-; CHECK: addi r2, r2, -8
-; CHECK: sw r1, 4(r2)
 ; CHECK: sw r5, 0(r2)
 ; CHECK: mv r5, r2
 ; CHECK: li r7, 4
 ; CHECK: li r8, 0
 ; CHECK: call __atomic_compare_exchange_4
-; CHECK: lw r1, 4(r2)
-; CHECK: addi r2, r2, 8
 ; CHECK: ret
 define i1 @compare_exchange(ptr %p, i32 %old, i32 %new) {
   %r = cmpxchg ptr %p, i32 %old, i32 %new acq_rel monotonic
@@ -178,20 +166,14 @@ define i1 @compare_exchange(ptr %p, i32 %old, i32 %new) {
   ret i1 %s
 }
 ; CHECK-LABEL: load_wide:
-; CHECK: addi r2, r2, -4
-; CHECK: sw r1, 0(r2)
 ; CHECK: li r5, 5
 ; CHECK: call __atomic_load_8
-; CHECK: lw r1, 0(r2)
-; CHECK: addi r2, r2, 4
 ; CHECK: ret
 define i64 @load_wide(ptr %p) {
   %r = load atomic i64, ptr %p seq_cst, align 8
   ret i64 %r
 }
 ; CHECK-LABEL: maximum:
-; CHECK: addi r2, r2, -16
-; CHECK: sw r1, 12(r2)
 ; CHECK: sw r20, 8(r2)
 ; CHECK: sw r21, 4(r2)
 ; CHECK: lw r12, 0(r4)
@@ -209,9 +191,7 @@ define i64 @load_wide(ptr %p) {
 ; CHECK: beqz r4, .LBB{{[0-9_]+}}
 ; CHECK: lw r21, 4(r2)
 ; CHECK: lw r20, 8(r2)
-; CHECK: lw r1, 12(r2)
 ; CHECK: mv r4, r12
-; CHECK: addi r2, r2, 16
 ; CHECK: ret
 define i32 @maximum(ptr %p, i32 %x) {
   %r = atomicrmw max ptr %p, i32 %x monotonic

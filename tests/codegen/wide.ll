@@ -55,11 +55,7 @@ define i64 @shift(i64 %a) {
   ret i64 %r
 }
 ; CHECK-LABEL: divide:
-; CHECK: addi r2, r2, -4
-; CHECK: sw r1, 0(r2)
 ; CHECK: call __divdi3
-; CHECK: lw r1, 0(r2)
-; CHECK: addi r2, r2, 4
 ; CHECK: ret
 define i64 @divide(i64 %a, i64 %b) {
   %r = sdiv i64 %a, %b
@@ -77,22 +73,14 @@ define i32 @less(i64 %a, i64 %b) {
   ret i32 %r
 }
 ; CHECK-LABEL: soft:
-; CHECK: addi r2, r2, -4
-; CHECK: sw r1, 0(r2)
 ; CHECK: call __muldf3
-; CHECK: lw r1, 0(r2)
-; CHECK: addi r2, r2, 4
 ; CHECK: ret
 define double @soft(double %a, double %b) {
   %r = fmul double %a, %b
   ret double %r
 }
 ; CHECK-LABEL: narrow:
-; CHECK: addi r2, r2, -4
-; CHECK: sw r1, 0(r2)
 ; CHECK: call __truncdfsf2
-; CHECK: lw r1, 0(r2)
-; CHECK: addi r2, r2, 4
 ; CHECK: ret
 define float @narrow(double %a) {
   %r = fptrunc double %a to float

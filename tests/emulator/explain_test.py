@@ -316,8 +316,7 @@ def check_host_threads(directory):
                       "threads of the host")
 
 
-def main():
-    directory = pathlib.Path(tempfile.mkdtemp())
+def main(directory):
     check_host_threads(directory)
     machine = ["--config", "2x32", "--set", "chip.tps_per_tm=8", "--set", "tp.branch_bubble_cycles=1",
                "--set", "memory.queue_depth=4"]
@@ -504,4 +503,5 @@ def main():
     sys.exit(checking.failures != 0)
 
 
-main()
+with tempfile.TemporaryDirectory() as scratch:
+    main(pathlib.Path(scratch))

@@ -46,7 +46,7 @@ def main():
         for name, content in (("watcher.c", program), ("program.c", PROGRAM)):
             with open(name, "w", encoding="utf-8") as file:
                 file.write(content)
-        run("sh", "-ec", command, env={**os.environ, "PKG_CONFIG_PATH": f"{prefix}/lib/pkgconfig"})
+        run("sh", "-ec", command, env={**os.environ, "PKG_CONFIG_PATH": "prefix/lib/pkgconfig"})
         run(f"{prefix}/bin/clang", "--target=trax", "-O1", "-o", "program.elf", "program.c")
         lines = run("./watcher", "program.elf").splitlines()
 

@@ -174,7 +174,7 @@ def programs(scratch):
         check(right.returncode == 0 and not right.stderr, name, right.stderr)
         relaxed = run(build(scratch, source, "-DRUNS=20", "-DRELAXED"), 2, 4)
         check(relaxed.returncode == 1 and RACE in relaxed.stderr, name, "relaxed", relaxed.stderr)
-    for name in ("threads.c", "heap_threads.c", "atomic_mixed.c", "atomic_announce.c", "thread_local_values.c",
+    for name in ("threads.c", "atomic_mixed.c", "atomic_announce.c", "thread_local_values.c",
                  "parallel.c", "cxx_mutex.cpp"):
         flags = ["-mstack=global", "-std=c++20"] if name.endswith(".cpp") else []
         options = ["--main-on", "0"] if name == "parallel.c" else []

@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
 """Csmith's programs on the TP against the host: their output must be equal at every optimisation level.
 
-    tests/fuzz/csmith.py --seeds 1-500                          as many programs as there are seeds, in
-    BUILD/fuzz/csmith
+    tests/fuzz/csmith.py --seeds 1-500                          as many programs, in BUILD/fuzz/csmith
     tests/fuzz/csmith.py --seeds 77-77 --levels=-O2 --again     one program once more
 
 A program that runs for too long, or that the host's sanitizer finds undefined when it fails here, is replaced by that
@@ -21,12 +20,12 @@ import shutil
 import sys
 import tempfile
 import threading
-import time
 
 import checks
 import programs
 import runner
-from toolchain import Failure, Progress, SetupError
+from progress import Progress
+from toolchain import Failure, SetupError
 
 LEVELS = "-O0,-O1,-O2,-O3,-Os"
 # Times --max-cycles: how long a program may run that the host runs in no time, before it counts as hanging.
@@ -147,7 +146,7 @@ def run_all(target, options, results):
     wanted = len(options.seeds)
     counts = collections.Counter()
     skipped = collections.Counter()
-    progress = Progress(wanted, time.monotonic)
+    progress = Progress(wanted)
     next_seed = options.seeds.start
     give_up = options.seeds.start + 4 * wanted + 100
     running = set()

@@ -8,12 +8,12 @@ import re
 import shutil
 import sys
 import tempfile
-import time
 
-from toolchain import HOST_COMPILER, Failure, Progress, SetupError, Target, require_host_compiler, require_programs, run
+from toolchain import HOST_COMPILER, Failure, SetupError, Target, require_host_compiler, require_programs, run
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 import interrupts  # noqa: E402
+from progress import Progress  # noqa: E402
 
 MAX_CYCLES = 1_000_000_000
 
@@ -118,7 +118,7 @@ def main(name, description, check, default):
         return None
 
     failed = 0
-    progress = Progress(len(options.seeds), time.monotonic)
+    progress = Progress(len(options.seeds))
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         for done, (seed, found) in enumerate(zip(options.seeds, pool.map(run_seed, options.seeds)), 1):
             if found:

@@ -10,7 +10,6 @@ import pathlib
 import shlex
 import shutil
 import subprocess
-import sys
 
 SECONDS = 1800  # for a step that has no limit of its own: a compiler that takes a minute is no failure on a busy host
 
@@ -137,22 +136,3 @@ class Target:
         if result.status == 124 and "has not ended" in result.error:
             result.status = None
         return result
-
-
-class Progress:
-    """A line of progress, with the time left, if standard error is a terminal."""
-
-    def __init__(self, total, clock):
-        self.total, self.clock, self.started = total, clock, clock()
-        self.shown = sys.stderr.isatty()
-
-    def show(self, done, text):
-        if not self.shown:
-            return
-        elapsed = self.clock() - self.started
-        left = f"{elapsed / done * (self.total - done):.0f} s left" if done else "..."
-        print(f"\r\033[K{done}/{self.total} {text}, {left}", end="", file=sys.stderr, flush=True)
-
-    def clear(self):
-        if self.shown:
-            print("\r\033[K", end="", file=sys.stderr, flush=True)

@@ -42,7 +42,7 @@
 // RUN: %trax_ld a.o -o a -e boot --section-start=.boot=0x2000 && llvm-readelf -h a | FileCheck %s --check-prefix=ENTRY
 // ENTRY: Entry point address: 0x2000
 
-// Overlaps and addresses that are none.
+// Overlaps, wrong addresses, and values of a second thread-local section.
 // RUN: not %trax_ld a.o -o no -e f1 -Tdata=0x1000 2>&1 | FileCheck %s --check-prefix=OVERLAP
 // OVERLAP: trax-ld: error: section .data, at 0x1000, overlaps section .text, at 0x1000 to 0x100c
 // RUN: printf '.section .tdata, "awT"\n.space 128\n' > values.s && %trax_mc -filetype=obj values.s -o values.o
@@ -55,6 +55,11 @@
 // WRONG: trax-ld: error: --section-start=.boot: expected NAME=ADDRESS
 // WRONG: trax-ld: error: --section-start==4: expected NAME=ADDRESS
 // WRONG: trax-ld: error: --section-start=x=y: not a 32-bit number
+// RUN: printf '.section .tdata, "awT"\n.word 1\n.section .local, "awT"\n.word 2\n.section pages, "a"\n.p2align 12\n.word 3\n' > more.s
+// RUN: %trax_mc -filetype=obj more.s -o more.o
+// RUN: not %trax_ld a.o more.o -o no -e f1 --section-start=pages=0x2040 2>&1 | FileCheck %s --check-prefix=MORE
+// MORE: trax-ld: error: --section-start=pages=0x2040: the section is aligned to 4096
+// MORE: trax-ld: error: section .local: initialised thread-local data is in .tdata already
 // RUN: not ls no
 
 // Symbols that --symbol-ordering-file lists come first, in its order, local ones and code that is hot or cold by its name

@@ -47,7 +47,7 @@
    REFUSED-NEXT: >>> -mstack=global gives the stack more room, --stack-check=none links all the same
    RUN: not ls no
 
-   Told otherwise.
+   --stack-check and its synonyms decide; the last one counts.
    RUN: %clang -DBIG=70 %s -o warned -Wl,--stack-check=warn 2>&1 | FileCheck %s --check-prefix=WARNED && ls warned
    WARNED: trax-ld: warning: the stack takes
    RUN: %clang -DBIG=70 %s -o one -Wl,--stack-check=none 2>&1 | count 0

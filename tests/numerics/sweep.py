@@ -3,8 +3,7 @@
 
     sweep.py --count 10000000 --group doubles      one group; --first splits the work between processes
     sweep.py                                       20,000 operands for all routines of the groups doubles and integers,
-                                                   and 500 for
-                                                   those of functions
+                                                   and 500 for those of functions
 
 Each routine gets the same operands everywhere (sweep.h), and only hashes of the results are compared; where one
 differs, the search for the first such operands follows, and they are printed. The groups doubles and integers are

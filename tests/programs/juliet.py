@@ -14,10 +14,12 @@ import collections
 import concurrent.futures
 import pathlib
 import re
-import shutil
 import subprocess
 import sys
 import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import interrupts  # noqa: E402
 
 LEFT_OUT = re.compile(r"w32|wchar|socket|environment|file_|fgets|fscanf|console|rand|Environment", re.IGNORECASE)
 BOUNDS = ("outside of its object", "belongs to no object", "below the stack's frame", "fault:")
@@ -127,8 +129,8 @@ def main():
     options = parser.parse_args()
     if not (options.suite / "testcasesupport" / "std_testcase.h").exists():
         sys.exit(f"juliet.py: error: {options.suite}: is not the folder of the Juliet suite")
-    is_temporary = not options.work
-    scratch = options.work or pathlib.Path(tempfile.mkdtemp(prefix="juliet-"))
+    interrupts.end_by_signals()
+    scratch = options.work or pathlib.Path(tempfile.mkdtemp())
     options.suite, options.build, options.work = options.suite.resolve(), options.build.resolve(), scratch.resolve()
     options.work.mkdir(parents=True, exist_ok=True)
     (options.work / "exhaust.c").write_text(EXHAUST)
@@ -158,8 +160,6 @@ def main():
                 print(f"NOT BUILT {case.name}: {text[:300]}", flush=True)
             elif not found and (not reason or options.verbose):
                 print(f"MISSED {case.name}: {reason or summary(text)}", flush=True)
-    if is_temporary:
-        shutil.rmtree(options.work, ignore_errors=True)
     print("| class | cases | found | missed | false alarms | leaks in good ones |")
     print("| --- | --- | --- | --- | --- | --- |")
     for cwe, row in sorted(table.items(), key=lambda item: int(item[0])):

@@ -12,45 +12,29 @@ earlier division, too. DIR keeps a work tree with the commit's runtime/ and its 
 import argparse
 import pathlib
 import shutil
-import struct
 import subprocess
 import sys
 import tempfile
 
 from unused_test import members, run
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from elf_files import ALLOC, ElfFile  # noqa: E402
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 LLVM = pathlib.Path("/usr/lib/llvm-19/bin")
 DIVISION = ("divsi.c.o", "divdi.c.o")  # every printf has it
 LAYOUTS = ("binary", "quantised", "wide4", "wide4-quantised", "wide8")
-SHT_SYMTAB, SHT_RELA, SHT_NOBITS, SHF_ALLOC = 2, 4, 8, 2
 
 
 def parts(body):
     """Yields each loaded section of an object: name, contents with relocations, and the symbols that it defines."""
-    offset, = struct.unpack_from("<I", body, 32)
-    count, names = struct.unpack_from("<HH", body, 48)
-    sections = [struct.unpack_from("<10I", body, offset + 40 * i) for i in range(count)]
-
-    def text(table, at):
-        at += sections[table][4]
-        return body[at:body.index(b"\0", at)].decode()
-
-    table = next(section for section in sections if section[1] == SHT_SYMTAB)
-    symbols = [struct.unpack_from("<IIIBBH", body, table[4] + at) for at in range(0, table[5], 16)]
-
-    def label(number):
-        name, index = symbols[number][0], symbols[number][5]
-        return text(table[6], name) or text(names, sections[index][0])
-
-    for number, section in enumerate(sections):
-        if section[2] & SHF_ALLOC and section[5]:
-            contents = b"" if section[1] == SHT_NOBITS else body[section[4]:section[4] + section[5]]
-            relocations = [(at, info & 255, label(info >> 8), addend) for other in sections
-                           if other[1] == SHT_RELA and other[7] == number for at, info, addend in
-                           (struct.unpack_from("<IIi", body, other[4] + 12 * i) for i in range(other[5] // 12))]
-            defined = [text(table[6], symbol[0]) for symbol in symbols if symbol[5] == number and symbol[0]]
-            yield text(names, section[0]), (section[5], section[8], contents, relocations), defined
+    elf = ElfFile(body)
+    for number, section in enumerate(elf.sections):
+        if section.flags & ALLOC and section.size:
+            contents = section.size, section.alignment, elf.contents(section), list(elf.relocations(number))
+            yield section.name, contents, [symbol.name for symbol in elf.symbols
+                                           if symbol.section == number and symbol.name]
 
 
 def library(archive, folder):

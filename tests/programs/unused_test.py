@@ -28,8 +28,8 @@ PROGRAMS = {
     "sorting.c": None,
     "memory.c": None,
     "threads.c": None,
-    "atomic_lock.c": None,
-    "thread_local.c": None,
+    "atomic_single.c": None,
+    "thread_local_values.c": None,
     "setjmp_longjmp.c": None,
     "overflow_checks.c": None,
     "cxx_language.cpp": "heap/malloc",  # operator new

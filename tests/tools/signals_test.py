@@ -17,6 +17,7 @@ from concurrent.futures import ThreadPoolExecutor
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
 import checking  # noqa: E402
 from checking import check  # noqa: E402
+from interrupts import children  # noqa: E402
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
@@ -30,11 +31,6 @@ def waits(program, scratch, pipe):
             "trax-scene": ([pipe, "-o", "s.trax"], ["--check", pipe]),
             "trax-sim": ([pipe], ["--config", pipe, "none"]),
             "trax-compare": ([pipe, pipe],), "trax-eval": ([pipe], ["report", pipe])}[program]
-
-
-def children(pid):
-    listed = subprocess.run(["ps", "-o", "pid=", "--ppid", str(pid)], capture_output=True, text=True).stdout
-    return [int(word) for word in listed.split()]
 
 
 def living(pid):

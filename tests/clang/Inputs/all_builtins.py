@@ -23,17 +23,13 @@ PARAMETERS = {"float": "f", "double": "d", "int": "i", "long long": "ll", "char"
               "_Complex double": "cd", "fvector": "vf", "ivector": "vi"}
 # For builtins that check their own arguments.
 SHAPES = ["", "f", "d", "i", "ll", "c", "vf", "vi", "fp", "dp", "ip", "f, f", "d, d", "i, i", "ll, ll", "vf, vf",
-          "vi, vi", "f, i", "d, i", "f, f, f",
-          "d, d, d", "vf, vf, vf", "i, i, &i", "ll, ll, &ll", "ip, i", "llp, ll", "ip, 0", "ip, ip", "ip, ip, 5",
-          "llp, llp, 5", "ip, i, 5", "llp, ll, 5",
-          "fp, f, 5", "ip, i, 5, 1", "llp, ll, 5, 1", "ip, ip, ip, 5", "ip, ip, i, 0, 5, 5", "llp, llp, ll, 0, 5, 5",
-          "ip, ip, ip, 0, 5, 5",
+          "vi, vi", "f, i", "d, i", "f, f, f", "d, d, d", "vf, vf, vf", "i, i, &i", "ll, ll, &ll", "ip, i", "llp, ll",
+          "ip, 0", "ip, ip", "ip, ip, 5", "llp, llp, 5", "ip, i, 5", "llp, ll, 5", "fp, f, 5", "ip, i, 5, 1",
+          "llp, ll, 5, 1", "ip, ip, ip, 5", "ip, ip, i, 0, 5, 5", "llp, llp, ll, 0, 5, 5", "ip, ip, ip, 0, 5, 5",
           "(_Atomic int *)ip", "(_Atomic int *)ip, 5", "(_Atomic int *)ip, i, 5", "(_Atomic long long *)llp, ll, 5",
-          "(_Atomic float *)fp, f, 5",
-          "(_Atomic int *)ip, ip, i, 5, 5", "ip, i, i", "llp, ll, ll", "f, 3", "d, 3", "f, 0x207", "d, 0x207",
-          "0, 1, 2, 3, 4, f", "0, 1, 2, 3, 4, d",
-          "vi, vi, 0, 1, 2, 3", "vf, vf, 0, 5, 2, 7", "vi, fvector", "vf, ivector", "1, i, f", "int, int", "i, 1",
-          "ip, 1, 4", "(char *)ip, 1, 4",
+          "(_Atomic float *)fp, f, 5", "(_Atomic int *)ip, ip, i, 5, 5", "ip, i, i", "llp, ll, ll", "f, 3", "d, 3",
+          "f, 0x207", "d, 0x207", "0, 1, 2, 3, 4, f", "0, 1, 2, 3, 4, d", "vi, vi, 0, 1, 2, 3", "vf, vf, 0, 5, 2, 7",
+          "vi, fvector", "vf, ivector", "1, i, f", "int, int", "i, 1", "ip, 1, 4", "(char *)ip, 1, 4",
           "ip, 4", "4", "0", "i, i, i, &i", "&i, 4, 5"]
 HEADER = """typedef float fvector __attribute__((vector_size(16)));
 typedef int ivector __attribute__((vector_size(16)));

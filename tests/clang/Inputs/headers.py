@@ -4,87 +4,20 @@ by turns (with TRAX_LEVELS=all in both, and as gnu2x, too), without warnings, tw
 is declared, and its functions are in the library. Exit status 1 and the compiler's words if not."""
 
 import os
+import pathlib
 import re
 import subprocess
 import sys
 
-# Header: functions and macros that must be usable after it alone (C17 7.x), but for WITHOUT.
-HEADERS = {
-    "alloca.h": "alloca", "assert.h": "assert", "complex.h": "complex I CMPLX CMPLXF CMPLXL " + " ".join(
-        name + suffix for suffix in ("", "f", "l") for name in
-        "cacos casin catan ccos csin ctan cacosh casinh catanh ccosh csinh ctanh cexp clog cabs cpow csqrt carg cimag "
-        "conj cproj creal"
-        .split()),
-    "ctype.h": "isalnum isalpha isblank iscntrl isdigit isgraph islower isprint ispunct isspace isupper isxdigit "
-               "tolower toupper",
-    "errno.h": "errno EDOM EILSEQ ERANGE",
-    "fenv.h": "feclearexcept fegetexceptflag feraiseexcept fesetexceptflag fetestexcept fegetround fesetround fegetenv "
-              "feholdexcept "
-    "fesetenv feupdateenv FE_TONEAREST FE_ALL_EXCEPT FE_DFL_ENV",
-    "float.h": "DBL_MAX FLT_EPSILON LDBL_DIG DBL_TRUE_MIN FLT_EVAL_METHOD DECIMAL_DIG",
-    "inttypes.h": "imaxabs imaxdiv strtoimax strtoumax wcstoimax wcstoumax PRId64 PRIxPTR SCNuMAX", "iso646.h": "",
-    "limits.h": "CHAR_BIT INT_MAX LLONG_MIN ULONG_MAX MB_LEN_MAX",
-    "math.h": "HUGE_VAL HUGE_VALF HUGE_VALL INFINITY NAN FP_ILOGB0 math_errhandling fpclassify isfinite isinf isnan "
-              "isnormal signbit "
-    "isgreater isgreaterequal isless islessequal islessgreater isunordered " + " ".join(
-        name + suffix for suffix in ("", "f", "l") for name in
-        "acos asin atan atan2 cos sin tan acosh asinh atanh cosh sinh tanh exp exp2 expm1 frexp ilogb ldexp log log10 "
-        "log1p log2 logb "
-        "modf scalbn scalbln cbrt fabs hypot pow sqrt erf erfc lgamma tgamma ceil floor nearbyint rint lrint llrint "
-        "round lround "
-        "llround trunc fmod remainder remquo copysign nan nextafter nexttoward fdim fmax fmin fma".split()),
-    "setjmp.h": "setjmp longjmp", "stdalign.h": "", "stdarg.h": "va_start va_arg va_end va_copy",
-    "stdatomic.h": "atomic_fetch_add atomic_init ATOMIC_INT_LOCK_FREE atomic_flag_test_and_set",
-    "stdbool.h": "true false", "stddef.h": "NULL offsetof", "stdint.h": "INT64_MAX UINT8_C SIZE_MAX",
-    "signal.h": "signal raise SIG_DFL SIG_IGN SIG_ERR SIGABRT SIGFPE SIGILL SIGINT SIGSEGV SIGTERM",
-    "locale.h": "setlocale localeconv LC_ALL LC_COLLATE LC_CTYPE LC_MONETARY LC_NUMERIC LC_TIME",
-    "stdio.h": "remove rename tmpfile tmpnam fclose fflush fopen freopen setbuf setvbuf fprintf fscanf printf scanf "
-               "snprintf sprintf sscanf "
-    "vfprintf vfscanf vprintf vscanf vsnprintf vsprintf vsscanf fgetc fgets fputc fputs getc getchar putc putchar puts "
-    "ungetc "
-    "fread fwrite fgetpos fseek fsetpos ftell rewind clearerr feof ferror perror stdin stdout stderr EOF BUFSIZ "
-    "FILENAME_MAX "
-    "FOPEN_MAX L_tmpnam SEEK_CUR SEEK_END SEEK_SET TMP_MAX _IOFBF _IOLBF _IONBF",
-    "stdlib.h": "atof atoi atol atoll strtod strtof strtold strtol strtoll strtoul strtoull rand srand RAND_MAX "
-                "aligned_alloc calloc "
-    "free malloc realloc abort atexit at_quick_exit exit _Exit getenv quick_exit system bsearch qsort abs labs llabs "
-    "div "
-    "ldiv lldiv mblen mbtowc wctomb mbstowcs wcstombs EXIT_SUCCESS EXIT_FAILURE MB_CUR_MAX", "stdnoreturn.h": "",
-    "string.h": "memcpy memmove strcpy strncpy strcat strncat memcmp strcmp strcoll strncmp strxfrm memchr strchr "
-                "strcspn strpbrk "
-    "strrchr strspn strstr strtok memset strerror strlen",
-    "dirent.h": "opendir readdir closedir rewinddir scandir alphasort DT_REG DT_DIR",
-    "stdio_ext.h": "__freading __fwriting __fpending __fpurge __fseterr",
-    "strings.h": "strcasecmp strncasecmp", "tgmath.h": "",
-    "threads.h": "call_once mtx_destroy mtx_init mtx_lock mtx_trylock mtx_unlock thrd_create thrd_current thrd_equal "
-                 "thrd_exit thrd_sleep "
-    "thrd_yield ONCE_FLAG_INIT mtx_plain mtx_recursive mtx_timed thrd_timedout thrd_success thrd_busy thrd_error "
-    "thrd_nomem",
-    "time.h": "clock difftime mktime time timespec_get asctime ctime gmtime localtime strftime CLOCKS_PER_SEC TIME_UTC",
-    "uchar.h": "mbrtoc16 c16rtomb mbrtoc32 c32rtomb",
-    "wchar.h": "wcstod wcstof wcstold wcstol wcstoll wcstoul wcstoull wcscpy wcsncpy wmemcpy wmemmove wcscat wcsncat "
-               "wcscmp wcscoll wcsncmp "
-    "wcsxfrm wmemcmp wcschr wcscspn wcspbrk wcsrchr wcsspn wcsstr wcstok wmemchr wcslen wmemset wcsftime btowc wctob "
-    "mbsinit "
-    "mbrlen mbrtowc wcrtomb mbsrtowcs wcsrtombs WEOF WCHAR_MIN "
-    "fgetwc fgetws fputwc fputws fwide fwprintf fwscanf getwc getwchar putwc putwchar swprintf swscanf ungetwc "
-    "vfwprintf vfwscanf vswprintf vswscanf vwprintf vwscanf wprintf wscanf",
-    "wctype.h": "iswalnum iswalpha iswblank iswcntrl iswdigit iswgraph iswlower iswprint iswpunct iswspace iswupper "
-                "iswxdigit iswctype "
-    "wctype towlower towupper towctrans wctrans WEOF", "trax.h": "trax_thread",
-    "trax/parallel.h": "trax_parallel trax_parallel_for trax_parallel_reduce trax_run_tasks trax_barrier_wait",
-    "byteswap.h": "bswap_16 bswap_32 bswap_64", "endian.h": "htobe32 le16toh BYTE_ORDER",
-    "err.h": "err errx warn warnx verr vwarnx", "fnmatch.h": "fnmatch FNM_PATHNAME FNM_NOMATCH",
-    "libgen.h": "basename dirname", "malloc.h": "malloc_usable_size malloc memalign", "memory.h": "memcpy memset",
-    "search.h": "hsearch tsearch tfind tdelete twalk lfind lsearch insque remque", "sysexits.h": "EX_USAGE EX_CONFIG",
-    "fcntl.h": "open openat creat fcntl F_SETLK FD_CLOEXEC",
-    "unistd.h": "dup dup2 pipe pread pwrite truncate fdatasync readlink getpagesize fork execvp alarm link",
-    "pthread.h": "pthread_create pthread_join pthread_mutex_lock pthread_rwlock_rdlock pthread_cond_timedwait "
-                 "pthread_once pthread_key_delete PTHREAD_MUTEX_RECURSIVE",
-    "sys/select.h": "select FD_SETSIZE", "sys/resource.h": "getrusage", "sys/wait.h": "waitpid WNOHANG",
-    "sys/mman.h": "mmap munmap MAP_FAILED", "sys/ioctl.h": "ioctl", "termios.h": "tcgetattr ECHO",
-    "dlfcn.h": "dlopen dlerror", "pwd.h": "getpwuid",
-    "omp.h": "omp_get_thread_num omp_get_wtime omp_set_lock omp_test_nest_lock", }
+
+def read_headers():
+    """Returns the names of each header, as headers.txt has them."""
+    text = (pathlib.Path(__file__).parent / "headers.txt").read_text(encoding="ascii").replace("\n  ", " ")
+    text = re.sub(r"(\w+)\*", r"\1 \1f \1l", text)
+    return dict(re.findall(r"^([a-z].*):(.*)", text, re.M))
+
+
+HEADERS = read_headers()
 # Functions that C's headers have as well, but not for a program in plain C.
 MORE = {
     "stdio.h": "asprintf dprintf fdopen fileno fseeko getc_unlocked getdelim getline iprintf popen renameat setlinebuf",

@@ -8,6 +8,9 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../.."))
+from elf_files import ElfFile  # noqa: E402
+
 BIN, GDB = os.path.abspath(sys.argv[1]), sys.argv[2]
 HERE = os.path.dirname(os.path.abspath(__file__))
 FOUR = ("--set", "chip.tms=2", "--set", "chip.tps_per_tm=2")
@@ -109,17 +112,10 @@ def session(work, name, level, options, commands):
     run = subprocess.run([GDB, "-nx", "-batch", "-ex", "set pagination off", "-ex", f"target remote 127.0.0.1:{port}",
                           "-x", script, elf], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                          stderr=subprocess.STDOUT, timeout=120, env={**os.environ, "LC_ALL": "C"})
-    sim.kill() if sim.poll() is None and run.returncode else None
+    if sim.poll() is None and run.returncode:
+        sim.kill()
     sim.communicate(timeout=60)
     return run.stdout.decode()
-
-
-def section(elf, name):
-    """The offset of a section."""
-    start, size, count, names = struct.unpack_from("<I10xHHH", elf, 32)
-    headers = [struct.unpack_from("<10I", elf, start + size * i) for i in range(count)]
-    return next(at for word, _, _, _, at, *_ in headers
-                if elf[headers[names][4] + word:].startswith(name.encode() + b"\0"))
 
 
 def fault_of(work, name, options, change):
@@ -136,7 +132,7 @@ def fault_of(work, name, options, change):
 
 def set_versions(image, version):
     """Gives each CIE a version."""
-    at = section(image, ".debug_frame")
+    at = ElfFile(image).section(".debug_frame").offset
     while (length := struct.unpack_from("<I", image, at)[0]) and length < 4096:
         if struct.unpack_from("<I", image, at + 4)[0] == 0xFFFFFFFF:
             image[at + 8] = version

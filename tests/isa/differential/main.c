@@ -6,8 +6,7 @@
      isa-differential --count 300
      isa-differential --seed 4711 --count 1        that one
      isa-differential --count 100000 --jobs 2
-     isa-differential --count 300 --words FILE     runs nothing: writes the programs' words, and others, for
-   reassemble.py */
+     isa-differential --count 300 --words FILE     runs nothing: writes words for reassemble.py */
 #include "case.h"
 #include "words.h"
 

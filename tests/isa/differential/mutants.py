@@ -18,6 +18,7 @@ import tempfile
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../.."))
 import interrupts  # noqa: E402
+from progress import Progress  # noqa: E402
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 SECTION = re.compile(r"^### (?P<name>\S+)$(?:(?!^#).)*?(?:^IMM is bits (?P<immediate>.*?)$(?:(?!^#).)*?)?"
@@ -123,7 +124,7 @@ def main():
                       for text, name in changed[:1 if options.first else None]
                       if (section["name"], name) not in EQUIVALENT]
     cases = cases[::options.every]
-    noticed, unnoticed = 0, []
+    noticed, unnoticed, progress = 0, [], Progress(len(cases))
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         results = pool.map(lambda case: is_noticed(options, manual, *case[2:]), cases)
         for case, result in zip(cases, results):
@@ -132,8 +133,8 @@ def main():
             noticed += result
             if not result:
                 unnoticed.append(f"{case[0]}: {case[1]}: {case[4]}")
-            if sys.stderr.isatty():
-                print(f"\r{noticed} noticed, {len(unnoticed)} not, of {len(cases)} ", end="", file=sys.stderr)
+            progress.show(noticed + len(unnoticed), f"changes, {len(unnoticed)} not noticed")
+    progress.clear()
     for line in unnoticed:
         print(f"not noticed: {line}")
     print(f"{noticed} of {noticed + len(unnoticed)} changes of {len({case[0] for case in cases})} instructions noticed")

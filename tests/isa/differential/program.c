@@ -406,7 +406,7 @@ static void emit_fault(struct program *program) {
     emit_access_to(program, TRAX_OP_AINC,
                    any_between(TRAX_LOCAL_BASE, 0xFFFFFFFF) & (one_in(4) ? 0xFFFFFFFF : 0xFFFFFFFC));
     break;
-  case 6: /* a jump to nowhere, or to a pc that is none */
+  case 6: /* a jump to nowhere, or to data */
     emit_constant(program, reg, one_in(3) ? any_corner() : any_between(TEXT - 8, TEXT + 4 * MOST_WORDS));
     emit(program, I(JALR, any_destination(program), reg, any_immediate(TRAX_OP_JALR)));
     break;

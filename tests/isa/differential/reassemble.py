@@ -11,11 +11,15 @@ Targets of branches and jumps are printed as addresses and assembled as distance
 import argparse
 import array
 import os
+import pathlib
 import re
-import struct
 import subprocess
 import sys
 import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
+import elf_files  # noqa: E402
+from progress import Progress  # noqa: E402
 
 CHUNK = 1 << 18  # words of one object
 LINE = re.compile(r"^\s*([0-9a-f]+): ([0-9a-f]{8})\s+(.*?)\s*$")
@@ -43,21 +47,11 @@ def read_words(path):
 
 
 def text_section(path):
-    """The words of .text of an ELF32 object, which must have no relocations: every field is in its word."""
-    with open(path, "rb") as file:
-        data = file.read()
-    table, = struct.unpack_from("<I", data, 32)
-    size, count, names = struct.unpack_from("<HHH", data, 46)
-    sections = [struct.unpack_from("<10I", data, table + i * size) for i in range(count)]
-    words = None
-    for name, kind, _, _, offset, length, *_ in sections:
-        start = sections[names][4] + name
-        if data[start:data.index(b"\0", start)] == b".text":
-            words = array.array("I", data[offset:offset + length])
-        if kind in (4, 9) and length:
-            raise Failure(f"{path}: there are relocations")
-    if words is None:
-        raise Failure(f"{path}: there is no .text")
+    """The words of .text of an object, which must have no relocations: every field is in its word."""
+    elf = elf_files.ElfFile(pathlib.Path(path).read_bytes())
+    if any(section.kind in (elf_files.RELA, elf_files.REL) and section.size for section in elf.sections):
+        raise Failure(f"{path}: there are relocations")
+    words = array.array("I", elf.contents(elf.section(".text")))
     if sys.byteorder == "big":
         words.byteswap()
     return words
@@ -125,11 +119,11 @@ def main():
             "--words", path)
         all_words = read_words(path)
         words = array.array("I", dict.fromkeys(all_words))
-        different = 0
+        different, progress = 0, Progress(len(words))
         for begin in range(0, len(words), CHUNK):
             different += round_trip(options, directory, words[begin:begin + CHUNK])
-            if sys.stderr.isatty():
-                print(f"\r{min(begin + CHUNK, len(words))} of {len(words)} words ", end="", file=sys.stderr)
+            progress.show(min(begin + CHUNK, len(words)), "words")
+        progress.clear()
     print(f"{len(all_words)} words of {options.count} programs and all formats, {len(words)} of them different, "
           f"disassembled with and without aliases and assembled again: {different} differences")
     return different != 0

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The program trax-isa-model: options, exit statuses, signatures, images that are none.
+"""The program trax-isa-model: options, exit statuses, signatures, files that are not images.
 
   cli_test.py MODEL MC LD
 """

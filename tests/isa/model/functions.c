@@ -187,7 +187,7 @@ static void put_string(struct model_execution *execution, uint32_t address) {
       fputc((int)model_load(machine, execution->thread, (uint32_t)i, 1, false), machine->output);
 }
 
-/* There are no calls here: the answer is -38, as of a number that is none. */
+/* There are no calls here: the answer is -38, as for an unknown number. */
 static void host_call(struct model_execution *execution, uint32_t address) {
   const uint32_t last = address + 20;
   if (may(execution, address, 4, MODEL_STORE) && (last < address || !may(execution, last, 4, MODEL_STORE)))

@@ -1,7 +1,6 @@
 /* The language of the manual's semantics: a C statement over RD, RA, RB, IMM, PC and NEXT_PC, and values that it names
-   itself (uint32_t x = ...;). Operators have C's
-   precedence, conversions and types (32 and 64 bits, signed and unsigned); what C leaves undefined or to the
-   implementation is an error. */
+   itself (uint32_t x = ...;). Operators have C's precedence, conversions and types (32 and 64 bits, signed and
+   unsigned); what C leaves undefined or to the implementation is an error. */
 #ifndef TRAX_ISA_MODEL_SEMANTICS_H
 #define TRAX_ISA_MODEL_SEMANTICS_H
 

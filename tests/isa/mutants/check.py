@@ -23,6 +23,8 @@ import time
 from equivalent import EQUIVALENT
 
 SOURCE = pathlib.Path(__file__).resolve().parents[3]
+sys.path.insert(0, str(SOURCE / "tests"))
+from progress import Progress  # noqa: E402
 
 
 def write_tests(suite, path):
@@ -66,23 +68,6 @@ def select(mutants, options):
     return chosen[::options.every]
 
 
-class Progress:
-    """A line on a terminal: how many are done, and how long the rest takes."""
-
-    def __init__(self, total):
-        self.total, self.done, self.begin = total, 0, time.monotonic()
-
-    def step(self):
-        self.done += 1
-        if sys.stderr.isatty():
-            left = (time.monotonic() - self.begin) / self.done * (self.total - self.done)
-            print(f"\r{self.done} of {self.total} mutants, {left:.0f} s left ", end="", file=sys.stderr, flush=True)
-
-    def end(self):
-        if sys.stderr.isatty():
-            print("\r" + " " * 50 + "\r", end="", file=sys.stderr)
-
-
 def run(program, tests, memory_mib, numbers, options):
     """The image that noticed each mutant, "-" if none did."""
     progress, noticed = Progress(len(numbers)), {}
@@ -94,10 +79,11 @@ def run(program, tests, memory_mib, numbers, options):
         for line in process.stdout:
             number, image = line.rstrip("\n").split("\t")
             noticed[int(number)] = image
-            progress.step()
+            progress.show(len(noticed), "mutants")
     finally:
-        process.terminate() if process.poll() is None and len(noticed) < len(numbers) else None
-        progress.end()
+        if process.poll() is None and len(noticed) < len(numbers):
+            process.terminate()
+        progress.clear()
     if process.wait() or len(noticed) != len(numbers):
         sys.exit(f"{program}: status {process.returncode}, {len(noticed)} of {len(numbers)} mutants were tried")
     return noticed

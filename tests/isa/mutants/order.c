@@ -72,7 +72,7 @@ static uint32_t word_at(const struct trax_ref_tm *tm, uint32_t address) {
   return word;
 }
 
-/* The thread's store has reached its own cache; `others` too, of the same TM. */
+/* A word that this thread's cache has is memory's again. */
 static void refresh(const struct trax_ref_tm *tm, uint32_t tp, uint32_t address) {
   const uint32_t word = address & ~3u, slot = word / 4 % CACHED;
   if (cached[tm->number][tp][slot].address == word)

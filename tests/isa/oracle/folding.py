@@ -29,9 +29,9 @@ import tempfile
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent.parent / "fuzz"))
 import elf  # noqa: E402
+from elf_files import EXECINSTR  # noqa: E402
 
 QUIET, INFINITY = 0x7FC00000, 0x7F800000
-SHF_EXECINSTR = 4
 PIECE = 30000  # cases in a file: each is a section, and there can be 65,000
 
 # name: (operands, C, LLVM IR, result is a float; the oracle's operation, whether its operands are exchanged, whether it
@@ -147,7 +147,7 @@ def objects(path, cases):
     sections = elf.read(path)
     left = set()
     for flags, _, _, relocations in sections.values():
-        if flags & SHF_EXECINSTR:
+        if flags & EXECINSTR:
             left |= {int(found[1]) for _, _, symbol,
                      _ in relocations if (found := re.search(r"(?:^|\.)c(\d+)(?:\+0)?$", symbol))}
     values = {}

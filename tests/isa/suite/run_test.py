@@ -3,9 +3,10 @@
 
 Implementations that damage trax-sim's output; programs that expect something else; the installed suite."""
 
-import glob
 import os
+import pathlib
 import re
+import shlex
 import signal
 import subprocess
 import sys
@@ -14,24 +15,27 @@ import time
 
 from image import Image
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
+import interrupts  # noqa: E402
+
 RUN, SIM, BUILD = (os.path.abspath(path) for path in sys.argv[1:])
 SUITE = os.path.join(BUILD, "isa-suite")
 failures = 0
 
-# Each is given the words of the run's command; `sim` runs trax-sim, `signature` is its file.
+# What each does as an emulator: `sim` runs trax-sim, "$signature" is its file.
 BROKEN = {
-    "right": "sim",
-    "word": "sim; sed -i '3s/^......../0bad0bad/' $signature",
-    "last": "sim; sed -i '$d' $signature",
-    "longer": "sim; echo 00000000 >>$signature",
-    "fault": "sim; echo 'fault illegal pc 00001000 address 00000000' >>$signature",
-    "fault_pc": "sim; sed -i 's/pc [0-9a-f]*/pc 00000004/' $signature",
-    "nothing": "exit 3",
-    "silent": "sim >/dev/null",
-    "status": "sim; exit 7",
-    "hangs": "sleep 600",
-    "late": "case $image in */xor.elf) echo >$signature ;; *) sim ;; esac",
-    "empty": "sim; : >$signature",
+    "right": 'sim',
+    "word": 'sim; sed -i "3s/^......../0bad0bad/" "$signature"',
+    "last": 'sim; sed -i \'$d\' "$signature"',
+    "longer": 'sim; echo 00000000 >>"$signature"',
+    "fault": 'sim; echo "fault illegal pc 00001000 address 00000000" >>"$signature"',
+    "fault_pc": 'sim; sed -i "s/pc [0-9a-f]*/pc 00000004/" "$signature"',
+    "nothing": 'exit 3',
+    "silent": 'sim >/dev/null',
+    "status": 'sim; exit 7',
+    "hangs": 'sleep 600',
+    "late": 'case $image in */xor.elf) echo >"$signature" ;; *) sim ;; esac',
+    "empty": 'sim; : >"$signature"',
 }
 TEMPLATE = "{emulator} {signature} {image} {tms} {tps}"
 
@@ -39,18 +43,6 @@ TEMPLATE = "{emulator} {signature} {image} {tms} {tps}"
 def run(*words):
     done = subprocess.run([sys.executable, RUN, *words], capture_output=True, text=True, timeout=60)
     return done.returncode, done.stdout, done.stderr
-
-
-def has_child(pid):
-    """Seen at its fork: the runner itself does not know of it yet."""
-    for path in glob.glob("/proc/[0-9]*/stat"):
-        try:
-            with open(path) as file:
-                if int(file.read().rpartition(")")[2].split()[1]) == pid:
-                    return True
-        except OSError:  # it has ended
-            pass
-    return False
 
 
 def fail(message, *shown):
@@ -84,10 +76,10 @@ with tempfile.TemporaryDirectory() as folder:
     os.chdir(folder)
     for name, body in BROKEN.items():
         with open(name, "w") as file:
-            file.write(
-                f'#!/bin/sh\nsignature=$1\nsim() {{ {SIM} --set ray.units_per_group=1 --set chip.tms=$tms --set '
-                f'chip.tps_per_tm=$tps --set memory.size_mib=16 '
-                f'--signature $signature $image; }}\nimage=$2 tms=$3 tps=$4\n{body}\n')
+            file.write('#!/bin/sh\nsignature=$1 image=$2 tms=$3 tps=$4\n'
+                       f'sim() {{ {shlex.quote(SIM)} --set ray.units_per_group=1 --set chip.tms=$tms --set '
+                       'chip.tps_per_tm=$tps --set memory.size_mib=16 --signature "$signature" "$image"; }\n'
+                       f'{body}\n')
         os.chmod(name, 0o755)
     broken("right", 0, r"^sub +\d+ images +[\d,]+ cases  ok\n.*\d+ of \d+ images pass", "^sub")
     broken("word", 1, r"sub +\d+ images.*7 FAILED\n    sub: word 2 \(values\) is 0bad0bad, not [0-9a-f]{8}", "^sub$")
@@ -133,7 +125,8 @@ with tempfile.TemporaryDirectory() as folder:
                           text=True)
     if done.returncode or "pass" not in done.stdout:
         fail("the installed suite", done.stdout, done.stderr)
-    closed = subprocess.run(f"{RUN} --suite {SUITE} --coverage | head -1", shell=True, capture_output=True, text=True)
+    closed = subprocess.run(f"{shlex.join([RUN, '--suite', SUITE, '--coverage'])} | head -1", shell=True,
+                            capture_output=True, text=True)
     if closed.stderr or not closed.stdout.startswith("#"):
         fail("nobody reads", closed.stderr)
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP) * 3:
@@ -141,9 +134,9 @@ with tempfile.TemporaryDirectory() as folder:
                                         "--timeout", "600"], stdout=subprocess.PIPE,
                                        stderr=subprocess.PIPE)
         until = time.monotonic() + 60
-        # An interpreter that starts does not catch signals yet.
-        while not has_child(interrupted.pid) and time.monotonic() < until:
-            pass
+        # An interpreter that starts does not catch signals yet. At a child's fork the runner does not know of it yet.
+        while not interrupts.children(interrupted.pid) and time.monotonic() < until:
+            time.sleep(0.001)
         interrupted.send_signal(number)
         _, err = interrupted.communicate(timeout=60)
         if interrupted.returncode != -number or err:

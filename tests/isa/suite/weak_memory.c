@@ -197,7 +197,7 @@ static const uint8_t *cached(struct model_machine *machine, const struct model_t
   return line->bytes + address % LINE;
 }
 
-/* A word past the cache, whose owner has performed his stores to it. */
+/* Loads a word past the cache, after the thread's own stores to it were performed. */
 static uint32_t load_past(struct model_machine *machine, const struct model_thread *thread, uint32_t address) {
   if (broken() == LWNT_FRESH)
     return with_own(cached(machine, thread, address), &queues[thread->number], address, 4);

@@ -24,10 +24,10 @@ enum { CHUNK = 1024 };
    2^-23. */
 #define HOST_ERROR 0x1p-47
 
-/* Operands and results of one chunk. A function of one operand uses operand[0] alone. */
+/* Operands and results of one chunk, and the next operand, for the order of neighbours. A function of one operand uses
+   operand[0] alone. */
 struct chunk {
-  uint64_t
-      first; /* the number of the first operands in the whole sequence; one more follows, for the order of neighbours */
+  uint64_t first; /* its number in the whole sequence */
   uint32_t operand[3][CHUNK + 1];
   float got[CHUNK + 1];
   double want[CHUNK + 1];

@@ -1,9 +1,9 @@
 /* trax-accuracy: the accuracy of the runtime's binary32 functions. accuracy.py keeps the results.
 
-     trax-accuracy --sample N [FUNCTION...]  a row for the first N operands of a sequence that begins with special
-   values trax-accuracy --whole [FUNCTION...]     a row for all 2^32 operands, or 2^28 sets of several trax-accuracy
-   --results                 for each function the operands of --whole, and a hash of its results trax-accuracy --errors
-   the error for each line of standard input, "FUNCTION OPERAND..."
+     --sample N [FUNCTION...]   a row for the first N operands of a sequence that begins with special values
+     --whole [FUNCTION...]      a row for all 2^32 operands, or 2^28 sets of several
+     --results                  for each function the operands of --whole, and a hash of its results
+     --errors                   the error for each line of standard input, "FUNCTION OPERAND..."
 
    Exit status: 0, or 1 if the arguments are wrong or the host's functions are worse than assumed. */
 #include <errno.h>

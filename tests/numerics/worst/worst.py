@@ -1,9 +1,8 @@
 #!/usr/bin/env python3
 """The greatest errors of the binary64 functions, as docs/results/functions.md has them.
 
-    worst.py --measure [--count N] [--seed N]   searches (math64-worst; a few minutes on two idle cores), starting from
-                                                the operands in
-                                                found.csv, writes found.csv, then does what --update does
+    worst.py --measure [--count N] [--seed N]   searches (math64-worst; a few minutes on two idle cores), from the
+                                                operands in found.csv on, writes found.csv, then does what --update does
     worst.py --update                           writes the table of docs/results/functions.md from found.csv
     worst.py --check                            exit status 1 if the table is not that of found.csv
 
