@@ -187,9 +187,12 @@ STRICT = {"object_pairs_hook": refuse_duplicates, "parse_constant": refuse_const
 
 
 def read_json(path, limit=FILE_LIMIT, strict=True):
-    """The value of a file. strict: without duplicate keys, numbers that are not finite, and texts that no name can
-    have."""
-    data = read_bytes(path, limit)
+    return json_of(path, read_bytes(path, limit), strict)
+
+
+def json_of(path, data, strict=True):
+    """The value of a file's bytes. strict: without duplicate keys, numbers that are not finite, and texts that no name
+    can have."""
     try:
         value = json.loads(data.decode("utf-8"), **(STRICT if strict else {}))
         if strict:
