@@ -64,8 +64,7 @@ def renamed(lines, sweep):
 
 def name_of(run, varying):
     """Returns what tells a run from the others."""
-    parts = [run.variant, *(f"{key}={value}" for key, value in run.set.items())]
-    parts = [run.config, *(part for part in (run.variant or None, *parts[1:]) if part)]
+    parts = [part for part in (run.config, run.variant, *(f"{key}={value}" for key, value in run.set.items())) if part]
     for axis in ("scene", "program", "workload"):
         if axis in varying and getattr(run, axis):
             parts.insert(0, getattr(run, axis))
@@ -108,12 +107,14 @@ def groups(runs):
 
 
 def front(runs, cost):
-    """The runs that no other run beats or equals in rays at no higher cost, by increasing cost."""
+    """The runs that no other run beats, by more rays at no higher cost or as many at a lower one; by increasing
+    cost."""
     known = [run for run in runs if run.get(cost) is not None]
     best, chosen = None, []
     for run in sorted(known, key=lambda run: (run.get(cost), -run.get("mrps"))):
-        if best is None or run.get("mrps") > best:
-            best = run.get("mrps")
+        place = run.get(cost), run.get("mrps")
+        if best is None or place[1] > best[1] or place == best:
+            best = place
             chosen.append(run)
     return chosen
 

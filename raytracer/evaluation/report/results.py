@@ -177,6 +177,15 @@ class Run:
                                            self.mode) if part)
 
 
+def check_sweep(sweep, index):
+    for key in ("x", "y", "y_per", "reference"):
+        if not isinstance(sweep.get(key), (str, type(None))):
+            raise Problem(f"sweeps[{index}].{key} is {type(sweep[key]).__name__}, not a string")
+    variants = sweep.get("variants") or []
+    if not isinstance(variants, list) or not all(isinstance(name, str) for name in variants):
+        raise Problem(f"sweeps[{index}].variants is not a list of strings")
+
+
 class Results:
     def __init__(self, document, runs=None):
         if not isinstance(document, dict) or document.get("format") != FORMAT:
@@ -190,6 +199,8 @@ class Results:
             for index, entry in enumerate(document.get(key) or []):
                 if not isinstance(entry, dict):
                     raise Problem(f"{key}[{index}] is not an object")
+        for index, sweep in enumerate(document.get("sweeps") or []):
+            check_sweep(sweep, index)
         self.document, self.asked = document, {}
         self.runs = [Run(record, index, self.asked)
                      for index, record in enumerate(document.get("runs") or [])] if runs is None else runs
