@@ -106,7 +106,7 @@ class Planner:
         machine = point.chip_file, point.machine()
         order = []
         if point.program.specialised:  # made for a machine, as trax-render has it
-            order = order_options(self.tools.whole(*machine, "dcache.bytes"))
+            order = order_options(self.tools.value(*machine, "dcache.bytes"))
         key = "scene", point.scene, scene["folder"], tuple(scene["meshes"]), options, tuple(order)
         return self.once(
             key, lambda: plan_scene(self.out, self.tools, self.folder, scene, [*order, *options], self.hashes,
@@ -158,12 +158,12 @@ class Planner:
             return None
         chip = None
         if program.specialised:
-            chip = tuple(self.tools.whole(*machine, key) for key in ("chip.tms", "icache.bytes"))
+            chip = tuple(self.tools.value(*machine, key) for key in ("chip.tms", "icache.bytes"))
         again = ()
         if workload["rays"]:
             rest = tuple(without_option(rendered, "ray-order"))
             again = (*(word for word in rendered if word not in rest), "--set",
-                     f"dcache.bytes={self.tools.whole(*machine, 'dcache.bytes')}")
+                     f"dcache.bytes={self.tools.value(*machine, 'dcache.bytes')}")
             rendered = rest
         return Request(path, scene["view"], point.size, program, chip, rendered, sampling,
                        whole=point.mode == "quick" or point.error or point.hits, rays=workload["rays"], again=again)

@@ -87,7 +87,7 @@ def write_plan(out, sweep, keys, tools, statistics):
     for point in sweep.points:
         key, reason = keys[point]
         scene, workload = sweep.scenes[point.scene], sweep.workloads[point.workload]
-        order = order_options(tools.whole(point.chip_file, point.machine(),
+        order = order_options(tools.value(point.chip_file, point.machine(),
                                           "dcache.bytes")) if point.program.specialised else []
         imported = point.options("trax-scene", workload)
         points.append({

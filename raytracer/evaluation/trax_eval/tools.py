@@ -1,6 +1,7 @@
 """The programs beside trax-eval."""
 
 import functools
+import json
 import os
 import pathlib
 import re
@@ -141,13 +142,13 @@ class Tools:
             raise Problem(run.stderr.strip().removeprefix("trax-sim: error: ") or "trax-sim failed")
         return run.stdout
 
-    def whole(self, chip, settings, key):
-        """A value of that machine which is a whole number: "dcache.bytes"."""
+    def value(self, chip, settings, key):
+        """The value of a key of that machine, such as "dcache.bytes"."""
         section, name = key.split(".")
-        return int(
-            re.search(rf"^{section}: {{.*?^ *{name} = (\d+);", self.configuration(chip, settings),
+        return json.loads(
+            re.search(rf"^{section}: {{.*?^ *{name} = (.*?);", self.configuration(chip, settings),
                       re.MULTILINE | re.DOTALL).group(1))
 
     def shape(self, chip, settings):
         """(TMs, TPs of each) of that chip."""
-        return self.whole(chip, settings, "chip.tms"), self.whole(chip, settings, "chip.tps_per_tm")
+        return self.value(chip, settings, "chip.tms"), self.value(chip, settings, "chip.tps_per_tm")
