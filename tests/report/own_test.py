@@ -75,6 +75,21 @@ class OwnTest(unittest.TestCase):
             on = [identity for identity, cost, _ in own.COSTS if run.key in by_cost[cost]]
             self.assertEqual(row[-1].shown, ", ".join(on))
 
+    def test_other_rays_have_a_front_of_their_own(self):
+        """Two samples a pixel are not a faster chip. Options of the tree are designs of the same picture."""
+        made = example.own()
+        changes = {"trax-render --samples": 2}, {"trax-scene --leaf": 1, "fpu.compare_units": True}
+        for run, more in zip(made["runs"], changes):
+            run["set"] |= more
+        self.assertIn("fpu.compare_units=true", self.make(made))
+        runs = [run for run in self.results.runs if run.done]
+        self.assertEqual([(key[2:-1], len(some)) for key, some in own.groups(runs).items()],
+                         [(("trax-render --samples=2", ), 1), ((), 4)])
+        for count in (own.MOST_FRONTS, own.MOST_FRONTS + 1):
+            made["runs"] = [{**run, "key": f"{seed}-{run['key']}", "set": {**run["set"], "trax-render --seed": seed}}
+                            for seed in range(count) for run in example.own()["runs"][:2]]
+            self.assertEqual('id="front-area"' in self.make(made), count == own.MOST_FRONTS)
+
     def test_moments(self):
         """A sequence: a picture of each moment, of many some; and bars tell moments from each other."""
         frames = [frame / 2 for frame in range(20)]

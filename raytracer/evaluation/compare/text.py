@@ -1,5 +1,7 @@
 """A comparison as text."""
 
+from trax_eval.util import shown
+
 from .figures import SECTIONS
 from .runs import is_number
 
@@ -15,7 +17,7 @@ def number(value, signed=False):
     if value is None:
         return "-"
     if not is_number(value):
-        return str(value).lower() if isinstance(value, bool) else str(value)
+        return shown(value)
     sign = "+" if signed and value > 0 else ""
     if isinstance(value, int) or abs(value) >= 1000 or value == 0:
         return f"{sign}{value:,.0f}"

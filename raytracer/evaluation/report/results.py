@@ -5,7 +5,7 @@ import copy
 import math
 import pathlib
 
-from trax_eval.util import Problem, read_json
+from trax_eval.util import Problem, read_json, shown
 
 HERE = pathlib.Path(__file__).resolve().parent
 FORMAT = "trax-eval-results"
@@ -172,7 +172,7 @@ class Run:
         return self.size[0] * self.size[1] / seconds / (1280 * 720)
 
     def name(self):
-        changed = "".join(f", {key} = {value}" for key, value in sorted(self.set.items()))
+        changed = "".join(f", {key} = {shown(value)}" for key, value in sorted(self.set.items()))
         return ", ".join(part for part in (self.scene, self.config + changed, self.program, self.workload, self.variant,
                                            self.mode) if part)
 
@@ -287,8 +287,7 @@ class Results:
         for run in runs:
             for key in {key for other in runs for key in other.machine} - set(run.set):
                 value = run.machine.get(key)
-                seen.setdefault(key, set()).add(
-                    str(value).lower() if isinstance(value, bool) else None if value is None else str(value))
+                seen.setdefault(key, set()).add(None if value is None else shown(value))
         return sorted((key, *values) for key, values in seen.items() if len(values) == 1 and None not in values)
 
 

@@ -12,7 +12,7 @@ from .names import check_report
 from .programs import Program, build
 from .scenes import import_scenes, order_options, plan_scene
 from .sweep import CHIPS, TAKEN, option_of, option_words, without_option
-from .util import Problem, hash_value, nearest, read_sealed
+from .util import Problem, hash_value, nearest, read_sealed, shown
 
 
 def check_names(options, sweeps):
@@ -215,6 +215,6 @@ class Planner:
 
 
 def label(point):
-    changes = "".join(f" {key}={value}" for key, value in point.settings)
+    changes = "".join(f" {key}={shown(value)}" for key, value in point.settings)
     machine = point.chip + (f" ({point.variant})" if point.variant else changes)
     return " ".join(part for part in (point.scene, machine, point.program.name, point.workload, point.size) if part)

@@ -11,7 +11,7 @@ import tempfile
 import time
 
 from .interrupts import held
-from .util import Problem, hash_file
+from .util import Problem, hash_file, shown
 
 POLL_SECONDS = 0.05
 
@@ -136,7 +136,7 @@ class Tools:
         """The whole configuration of a chip with changes (a tuple of (key, value)), as a file for trax-sim --config."""
         command = [self.path("trax-sim"), "--config", chip]
         for key, value in settings:
-            command += ["--set", f"{key}={str(value).lower() if isinstance(value, bool) else value}"]
+            command += ["--set", f"{key}={shown(value)}"]
         run = run_tool([*command, "--print-config"])
         if run.returncode != 0:
             raise Problem(run.stderr.strip().removeprefix("trax-sim: error: ") or "trax-sim failed")

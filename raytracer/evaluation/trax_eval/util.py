@@ -24,6 +24,11 @@ def complain(program, problem, kind="error", colour="1;31"):
     print(f"{program}: {begin}{kind}: {end}{problem}", file=sys.stderr, flush=True)
 
 
+def shown(value):
+    """A value of a key as trax-sim reads it."""
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
 def nearest(word, names):
     """"; did you mean NAME?", or nothing if no name is near."""
     found = difflib.get_close_matches(word, names, 1, 0.75)
