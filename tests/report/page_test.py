@@ -532,6 +532,8 @@ class ReportTest(unittest.TestCase):
             bad = copy.deepcopy(good)
             bad["sweeps"][0][key] = value
             self.refused(json.dumps(bad), rf"sweeps\[0\]\.{key} {message}")
+        self.refused('{"format": "trax-eval-results", "version": 2, "scenes": [{"name": []}]}',
+                     r"scenes\[0\]\.name is list, not a string")
         self.refused("[" * 100000, "is nested too deeply")
         self.refused(json.dumps(good), "table1.csv: cannot be read", "--paper", self.folder)
         for name in ("table1", "table2", "table3"):

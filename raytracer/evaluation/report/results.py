@@ -70,7 +70,7 @@ class Run:
         self.stats, self.values = table("stats"), table("values")
         self.host_seconds = number(record.get("host_seconds"))
         size = record.get("size")
-        good = isinstance(size, list) and len(size) == 2 and all(isinstance(n, int) and n > 0 for n in size)
+        good = isinstance(size, list) and len(size) == 2 and all(type(n) is int and n > 0 for n in size)
         self.size = tuple(size) if good else None
         experiments = record.get("experiments") or []
         if not isinstance(experiments, list):
@@ -199,6 +199,8 @@ class Results:
             for index, entry in enumerate(document.get(key) or []):
                 if not isinstance(entry, dict):
                     raise Problem(f"{key}[{index}] is not an object")
+                if not isinstance(entry.get("name"), (str, type(None))):
+                    raise Problem(f"{key}[{index}].name is {type(entry['name']).__name__}, not a string")
         for index, sweep in enumerate(document.get("sweeps") or []):
             check_sweep(sweep, index)
         self.document, self.asked = document, {}
