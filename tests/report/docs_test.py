@@ -179,7 +179,7 @@ class DocsTest(unittest.TestCase):
         self.page.write_text(page_of("table2-era"))
         good = {"format": "trax-eval-results", "version": 2, "tables": []}
         for change, message in (
-                *(({"tables": [{"experiments": [], "names": ["source"], "runs": [[source]]}]}, "no .source. of the list")
+                *(({"tables": [{"experiments": [], "names": ["source"], "runs": [[source]]}]}, "no .source. of the")
                   for source in (9, -1, 0.5, "0", True)),
                 ({"sources": [7]}, ".sources. is no list of objects"),
                 ({"sweeps": [7]}, ".sweeps. is no list of objects"),
