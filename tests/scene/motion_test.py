@@ -353,6 +353,9 @@ def test_sequence_of_a_file():
     refused('error: no file and no preset "9x9"', "trax-render", "walks.gltf", *words[:4], "-o", "x", "--config", "9x9")
     refused('error: dcache.bytes is "1e999", not', "trax-render", "walks.gltf", *words, "-o", "x", "--set",
             "dcache.bytes=1e999")
+    refused("--help ends trax-render before", "trax-eval", "frames", "--help")
+    for some in ((), ("-o", "x"), ("--frames", "2", "-o", "x", "--at", "0"), ("--frames", "2", "--at", "0:1")):
+        refused("expected trax-render's words: ", "trax-eval", "frames", "walks.gltf", *some)
     check(not pathlib.Path("x").exists(), "a refused sequence leaves nothing")
     refused("walks.gltf: is no folder", "trax-render", "walks.gltf", *words, "-o", "walks.gltf")
     call("trax-render", "walks.gltf", "--at", "1:1", "--frames", "2", "-q", "--size", "8x6", "--no-refit", "-o", "still")

@@ -43,6 +43,8 @@ class Sequence:
         words, self.meshes = tools.words("trax-render", arguments)
         given = [word[2:].partition("=") for word in words]
         self.values = {name: value for name, _, value in given}
+        if not {"frames", "output"} <= self.values.keys() or ":" not in self.values.get("at", ""):
+            raise Problem("expected trax-render's words: --frames, --at X:Y and -o")
         chip = self.values.get("config", "4x32")
         self.chip = os.path.abspath(chip) if os.path.isfile(chip) else chip
         settings = tuple(value.partition("=")[::2] for name, _, value in given if name == "set")

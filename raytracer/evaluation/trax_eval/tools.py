@@ -120,6 +120,8 @@ class Tools:
         if run.returncode != 0:
             raise Problem(run.stderr.strip().removeprefix(f"{name}: error: ") or f"{name} failed")
         words = run.stdout.split("\0")[:-1]
+        if "--" not in words:
+            raise Problem(f"{shlex.join(arguments)} ends {name} before it does anything")
         end = words.index("--")
         return words[:end], words[end + 1:]
 
