@@ -16,6 +16,7 @@ import pathlib
 import random
 import shutil
 import signal
+import struct
 import subprocess
 import sys
 import time
@@ -74,6 +75,11 @@ class Place:
         shutil.rmtree(self.folder, ignore_errors=True)
 
 
+def deep_glb():
+    text = b"[" * 100000
+    return b"glTF" + struct.pack("<III4s", 2, 0, len(text), b"JSON") + text + bytes(4) + b"BIN\0"
+
+
 def test_hash(program, scratch):
     turned = [(c, a, b) for a, b, c in reversed(MESH)]
     shuffled = random.Random(1).sample(MESH, len(MESH))
@@ -113,6 +119,12 @@ def test_sources(program, scratch, server):
         "/mesh.zip": zipped([("other/mesh.obj", obj(MESH)), ("b.txt", b"")]), "/draco.glb": draco_glb(MESH, scratch),
         "/digits.obj": obj(MESH, "%.6f"), "/broken.ply.gz": gzip.compress(ply(MESH))[:300]
     }
+    whole = zipped([("mesh.obj", obj(MESH))])
+    name, flags = whole.rindex(b"mesh.obj"), whole.rindex(b"PK\1\2") + 8
+    server.files |= {
+        "/lost.zip": whole[:60] + whole[90:], "/deep.glb": deep_glb(),
+        "/name.zip": whole[:flags] + b"\0\x08" + whole[flags + 2:name] + b"\xff" + whole[name + 1:]
+    }
     at = server.address
     digest = {"sha256": hashlib.sha256(npm).hexdigest()}
     package = {"npm": "@some/mesh@1.0.2", "member": "package/models/mesh.ply.gz"}
@@ -131,6 +143,9 @@ def test_sources(program, scratch, server):
         ({"url": f"{at}/tree.tar.gz", "member": "a/none.ply"}, "holds no a/none.ply"),
         ({"url": f"{at}/tree.tar.gz", "member": "a/link.ply"}, "holds no a/link.ply"),
         ({"url": f"{at}/cut.tar.gz", "member": "mesh.ply"}, "damaged"), ({"url": f"{at}/broken.ply.gz"}, "damaged"),
+        ({"url": f"{at}/lost.zip", "member": "mesh.obj"}, "damaged: a place outside of it"),
+        ({"url": f"{at}/name.zip", "member": "mesh.obj"}, "damaged: 'utf-8'"),
+        ({"url": f"{at}/deep.glb", "draco": True}, "no GLB file with meshes packed by Draco"),
         ({"url": f"{at}/moved.ply", "draco": True}, "no GLB file"), ({"url": f"{at}/digits.obj"}, "--alike"),
         ({"npm": "mesh@1.0.0", "member": "m.ply"}, "npm ended with status 3: 404 Not Found"),
         (package | {"sha256": "0" * 64}, "another file (SHA-256"), ({"url": "http://127.0.0.1:1/a.ply"}, "refused"),

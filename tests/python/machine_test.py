@@ -72,6 +72,17 @@ def test_page_has_the_sources_of_the_installation(manifest, tmp_path, monkeypatc
     assert mine == other and any(name.endswith("/traverse.h") for name in mine)
 
 
+def test_page_has_the_sources_of_given_folders(tmp_path, monkeypatch):
+    for folder in ("source", "program"):
+        (tmp_path / folder).mkdir()
+    (tmp_path / "source/one.c").write_text("int main(void) { return 0; }\n")
+    program, page = trax.compile(tmp_path / "source/one.c", output=tmp_path / "program/one.elf"), tmp_path / "one.html"
+    monkeypatch.chdir(tmp_path / "program")
+    for folders, names in (([], []), ([tmp_path / "source"], ["one.c"])):
+        trax.Machine(program).run(explore=page, source_folders=folders)
+        assert [name for name in map(os.path.basename, unpack(page)[0]["sources"]) if name == "one.c"] == names
+
+
 def test_picture_is_that_of_trax_render(manifest, tmp_path):
     assert trax.Machine(manifest).config["chip.tms"] == trax.Config("4x32")["chip.tms"]  # the manifest's
     run = trax.Machine(manifest, "1x32").run()
@@ -130,6 +141,7 @@ def test_errors_have_places(programs, manifest):
         trax.Machine("no-such.elf")
     with pytest.raises(trax.TraxError, match="memory.latency"):
         trax.Config("4x32", {"memory.latency": 3})
+    assert trax.Config("4x32", {"fpu.compare_units": numpy.bool_(True)})["fpu.compare_units"] is True
     with pytest.raises(trax.TraxError, match="chip.tms"):
         trax.Machine(programs["triple"], "4x32", {"chip.tms": 0})
     machine = trax.Machine(programs["triple"])
@@ -137,8 +149,14 @@ def test_errors_have_places(programs, manifest):
         machine.bind("nothing", b"1234")
     with pytest.raises(trax.TraxError, match="-1"):
         machine.bind("data", -1)
-    with pytest.raises(trax.TraxError, match="no option"):
-        machine.run(explode="x.html")
+    for name, value in (("explode", "x.html"), ("source_folder_count", 20), ("part_count", 1), ("story_places", None),
+                        ("note", "x")):
+        with pytest.raises(trax.TraxError, match="no option"):
+            machine.run(explore="page.html", **{name: value})
+    with pytest.raises(trax.TraxError, match="'no-folder' is no folder"):
+        machine.run(explore="x.html", source_folders=["no-folder"])
+    with pytest.raises(trax.TraxError, match="zero byte"):
+        trax.Machine(f"{programs['triple']}\0x")
     with pytest.raises(trax.TraxError, match="engine"):
         trax.Machine(programs["triple"]).run(engine="steam")
     with pytest.raises(trax.TraxError, match="undeclared"):
@@ -146,8 +164,9 @@ def test_errors_have_places(programs, manifest):
         with open(source, "w", encoding="utf-8") as file:
             file.write("int main(void) { return x; }")
         trax.compile(source, output=source + ".elf")
-    with pytest.raises(trax.TraxError, match="no-such.ply"):
-        trax.prepare("no-such.ply", folder="nowhere")
+    for name in ("no-such.ply", os.fsdecode(b"no-such.ply\xff")):
+        with pytest.raises(trax.TraxError, match="no-such.ply"):
+            trax.prepare(name, folder="nowhere")
     with pytest.raises(trax.TraxError, match="--paths"):
         trax.prepare("no-such.ply", folder="nowhere", options=("--paths", "many"))
 

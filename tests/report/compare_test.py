@@ -38,7 +38,7 @@ from compare.difference import compare, flat  # noqa: E402
 from compare.figures import SECTIONS, Figures  # noqa: E402
 from compare.page import without  # noqa: E402
 from compare.runs import HOST, Run  # noqa: E402
-from compare.text import is_empty, percent, print_comparison  # noqa: E402
+from compare.text import is_empty, part, print_comparison  # noqa: E402
 from trax_eval.pictures import png, read_png  # noqa: E402
 from trax_eval.tools import Tools  # noqa: E402
 from trax_eval.util import Problem  # noqa: E402
@@ -362,6 +362,31 @@ class Files(Scratch):
         self.assertEqual(compare(a, far, FIGURES)[0]["cycles"]["within_noise"], False)
         self.assertEqual(compare(far, a, FIGURES)[0]["cycles"]["interval"], [-5500, -4500])
         self.assertIsNone(compare(self.runs["a"], self.runs["a"], FIGURES)[0]["cycles"]["within_noise"])
+        for runs, said in (((a, near), "A and B are sampled: the difference is -400 to +600 with 95 %"),
+                           ((a, self.runs["a"]), "A is sampled: "), ((self.runs["a"], a), "B is sampled: ")):
+            lines = []
+            print_comparison(compare(*runs, FIGURES)[0], False, lines.append)
+            self.assertTrue(any(line.startswith(said) for line in lines), lines)
+
+    def test_many_times_as_long(self):
+        """The shares of contributions add up to that of the difference; only a whole run has a factor."""
+        short = copy.deepcopy(self.runs["a"].stats)
+        short |= {"cycles": 100, "thread_cycles": 3200, "causes": {"issued": 1000, "halted": 2200}}
+        long = short | {"cycles": 500000, "thread_cycles": 16000000, "causes": {"wait_memory": 16000000}}
+        lines = []
+        print_comparison(compare(self.run_of(short), self.run_of(long, "long.json"), FIGURES)[0], False, lines.append)
+        text = "\n".join(lines)
+        self.assertIn("B takes 499,900 cycles more than A (x 5,000).", text)
+        shares = re.findall(r"([+-][\d.,]+) %  ", text[:text.index("Functions and")])
+        self.assertEqual((len(shares), sum(float(share.replace(",", "")) for share in shares)), (3, 499900))
+
+    def test_names_without_control_characters(self):
+        stats = copy.deepcopy(self.runs["a"].stats)
+        other = self.run_of(stats | {"\x1b[31m\n": 1, "program": "\x1b]0;x"}, "odd\udcff.json")
+        lines = []
+        print_comparison(compare(self.runs["a"], other, FIGURES)[0], True, lines.append)
+        self.assertEqual([line for line in lines if not line.isprintable()], [])
+        self.assertIn("\\x1b[31m\\x0a", "\n".join(lines))
 
     def test_folders(self):
         for name, runs in (("before", ("a", "b")), ("after", ("b", "a"))):
@@ -433,7 +458,9 @@ class Files(Scratch):
         for place, key, value in ((page["names"], function, 7), (last[5], 0, 10**400), (last[5], 0, "1"),
                                   (page["picture"], "width", -1), (page["picture"], "height", 0),
                                   (page, "ray_kinds", 3), (page, "names", {}),
-                                  *((page, "ray_kinds", text) for text in (*kinds, "a,b\n1,2\n"))):
+                                  *((page, "ray_kinds", text)
+                                    for text in (*kinds, "a,b\n1,2\n", "kind,rays\nprimary,1\n")),
+                                  (page, "picture", {"width": 10**9, "height": 10**9, "columns": [None]})):
             kept, place[key] = place[key], value
             packed = base64.b64encode(zlib.compress(json.dumps(page).encode())).decode()
             (self.place / "forged.html").write_text(begin + packed + end)
@@ -456,6 +483,10 @@ class Files(Scratch):
 
     def test_program(self):
         """The command in a process of its own."""
+        with subprocess.Popen(["cat", self.folder / "a.json"], stdout=subprocess.PIPE) as source:
+            pipe = subprocess.run([BIN / "trax-sim", "compare", "/dev/stdin", self.folder / "b.json"],
+                                  stdin=source.stdout, capture_output=True, text=True)
+        self.assertIn("A  /dev/stdin: 1x32, ", pipe.stdout, pipe.stderr)
         for words, status in (((self.folder / "a.json", self.folder / "b.json"), 0), (("none.json", "x"), 1)):
             run = subprocess.run([BIN / "trax-sim", "compare", *words], cwd=self.place, capture_output=True, text=True)
             here = self.command(*words, status=status, folder=self.place)
@@ -563,7 +594,7 @@ class Page(PageTests, Scratch):
         for name in ("causes", "functions", "lines"):
             rows = self.cells(f"{name}-table")
             self.assertEqual([(row[0], row[5].replace("\u2212", "-")) for row in rows],
-                             [(row["name"], percent(row["difference"] / found["cycles"]["a"])) for row in found[name]])
+                             [(row["name"], part(row["difference"] / found["cycles"]["a"])) for row in found[name]])
         self.assertEqual(self.cells("configuration-table"),
                          [["chip.tms", "1", "2"], ["dcache.bytes", "16,384", "32,768"]])
         self.assertEqual(self.browser.run("document.querySelectorAll('#pictures img').length"), 1)

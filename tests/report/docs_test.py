@@ -100,6 +100,8 @@ class DocsTest(unittest.TestCase):
                 self.assertEqual({other: other.read_text() for other in good if other != path},
                                  {other: text for other, text in good.items() if other != path})
             path.write_text(good[path])
+        svg.write_bytes(b"\xff")
+        self.assertEqual(self.docs("--check", self.page)[0], 1)
         svg.unlink()
         self.assertEqual(self.docs("--check", self.page)[0], 1)
         self.page.write_text(good[self.page].replace("| 4x32 |", "| 4x33 |", 1))
@@ -169,6 +171,23 @@ class DocsTest(unittest.TestCase):
             self.assertEqual(self.docs(results, self.folder / f"{name}.md")[0], 1, name)
         self.assertEqual(self.docs(results)[0], 1)
         self.assertEqual(self.docs(self.folder / "page.txt")[0], 1)
+        status, said = self.docs("--bogus")
+        self.assertEqual((status, said.count("\n")), (1, 1))
+        self.assertRegex(said, "^trax-eval docs: error: the following arguments are required")
+
+    def test_wrong_data(self):
+        self.page.write_text(page_of("table2-era"))
+        good = {"format": "trax-eval-results", "version": 2, "tables": []}
+        for change, message in (
+                *(({"tables": [{"experiments": [], "names": ["source"], "runs": [[source]]}]}, "no .source. of the")
+                  for source in (9, -1, 0.5, "0", True)),
+                ({"sources": [7]}, ".sources. is no list of objects"),
+                ({"sweeps": [7]}, ".sweeps. is no list of objects"),
+                ({"scenes": [{"name": []}]}, r"scenes\[0\].name is list, not a string")):
+            self.data.write_text(json.dumps(good | change))
+            status, said = self.docs("--check", self.page)
+            self.assertEqual((status, said.count("\n")), (1, 1))
+            self.assertRegex(said, message)
 
     def test_stranger(self):
         """The tables that somebody else's sweep describes stand in all three, with the same figures, and each has a
@@ -345,7 +364,7 @@ class DocsTest(unittest.TestCase):
         for name in ("one", "two"):
             (self.folder / f"{name}.md").write_text("<!-- trax-eval data: both.json -->\n" +
                                                     page_of("table2-era" if name == "one" else "plot fpu-sharing"))
-        (self.folder / "three.md").write_text("No block.\n")
+        (self.folder / "three.md").write_bytes(b"No block, and no UTF-8: \xff\n")
         self.assertEqual(self.docs(self.results(example.complete()), self.folder), (0, ""))
         self.assertEqual(self.docs("--check", self.folder), (0, ""))
         self.assertTrue((self.folder / "both-fpu-sharing.svg").exists())

@@ -57,21 +57,38 @@ class OwnTest(unittest.TestCase):
         self.assertEqual(self.headings(self.make(made)), ["What does bandwidth buy?", "Runs", "Configurations"])
 
     def test_fronts(self):
-        """Against the definition: no other run has more rays for less."""
-        self.make(example.own())
+        """Against the definition: no other run has more rays for less. Of equal runs all are on the front."""
+        made = example.own()
+        made["runs"].append({**made["runs"][0], "key": "twin", "config": "1x31"})
+        self.make(made)
         runs = [run for run in self.results.runs if run.done]
         for _, cost, _ in own.COSTS:
             expected = [one for one in runs if not any(
-                other.get(cost) <= one.get(cost) and other.get("mrps") >= one.get("mrps") and other is not one
-                for other in runs)]
+                other.get(cost) <= one.get(cost) and other.get("mrps") >= one.get("mrps") and
+                (other.get(cost), other.get("mrps")) != (one.get(cost), one.get("mrps")) for other in runs)]
             self.assertCountEqual([run.key for run in own.front(runs, cost)], [run.key for run in expected], cost)
             self.assertLess(len(expected), len(runs) + (cost == "memory.bandwidth_gbps"))
         rows = own.front_table(runs).rows
-        self.assertEqual(len(rows), 5)
+        self.assertEqual(len(rows), 6)
         by_cost = {cost: {run.key for run in own.front(runs, cost)} for _, cost, _ in own.COSTS}
         for run, row in zip(runs, rows):
             on = [identity for identity, cost, _ in own.COSTS if run.key in by_cost[cost]]
             self.assertEqual(row[-1].shown, ", ".join(on))
+
+    def test_other_rays_have_a_front_of_their_own(self):
+        """Two samples a pixel are not a faster chip. Options of the tree are designs of the same picture."""
+        made = example.own()
+        changes = {"trax-render --samples": 2}, {"trax-scene --leaf": 1, "fpu.compare_units": True}
+        for run, more in zip(made["runs"], changes):
+            run["set"] |= more
+        self.assertIn("fpu.compare_units=true", self.make(made))
+        runs = [run for run in self.results.runs if run.done]
+        self.assertEqual([(key[2:-1], len(some)) for key, some in own.groups(runs).items()],
+                         [(("trax-render --samples=2", ), 1), ((), 4)])
+        for count in (own.MOST_FRONTS, own.MOST_FRONTS + 1):
+            made["runs"] = [{**run, "key": f"{seed}-{run['key']}", "set": {**run["set"], "trax-render --seed": seed}}
+                            for seed in range(count) for run in example.own()["runs"][:2]]
+            self.assertEqual('id="front-area"' in self.make(made), count == own.MOST_FRONTS)
 
     def test_moments(self):
         """A sequence: a picture of each moment, of many some; and bars tell moments from each other."""

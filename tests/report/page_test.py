@@ -495,7 +495,9 @@ class ReportTest(unittest.TestCase):
         self.assertNotIn("Nothing was measured.", self.text)
 
     def test_hostile(self):
-        for made in (example.hostile(), example.hostile_own()):
+        nameless = example.own()
+        nameless["runs"][0] |= {"scene": "", "program": ""}
+        for made in (example.hostile(), example.hostile_own(), nameless):
             self.check_hostile(self.make(made))
 
     def check_hostile(self, page):
@@ -523,6 +525,15 @@ class ReportTest(unittest.TestCase):
             bad = copy.deepcopy(good)
             bad["runs"][1][key] = value
             self.refused(json.dumps(bad), rf"runs\[1\]\.{key} {message}")
+        for key, value, message in (("x", [], "is list, not a string"), ("y", 2.5, "is float, not a string"),
+                                    ("y_per", {"a": 1}, "is dict, not a string"),
+                                    ("variants", [[]], "is not a list of strings"),
+                                    ("variants", 3, "is not a list of strings")):
+            bad = copy.deepcopy(good)
+            bad["sweeps"][0][key] = value
+            self.refused(json.dumps(bad), rf"sweeps\[0\]\.{key} {message}")
+        self.refused('{"format": "trax-eval-results", "version": 2, "scenes": [{"name": []}]}',
+                     r"scenes\[0\]\.name is list, not a string")
         self.refused("[" * 100000, "is nested too deeply")
         self.refused(json.dumps(good), "table1.csv: cannot be read", "--paper", self.folder)
         for name in ("table1", "table2", "table3"):

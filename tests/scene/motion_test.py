@@ -338,7 +338,8 @@ def test_sequence():
 def test_sequence_of_a_file():
     """glTF moves between its keys; --no-refit, a file's camera and other options are passed on."""
     animated("walks.gltf")
-    words = ["--at", "0:1", "--frames", "3", "-q", "--size", "16x9", "--material", "mirror", "--set", "chip.tms=1"]
+    words = ["--at", "0:0x1p0", "--frames", "3", "-q", "--size", "16x9", "--material", "mirror", "--set",
+             "chip.tms=01"]
     call("trax-render", "walks.gltf", *words, "--no-refit", "--samples", "2", "-o", "turns")
     rows = frames("turns")
     check({key: row["at"] for key, row in rows.items()} ==
@@ -348,7 +349,18 @@ def test_sequence_of_a_file():
     refused("--frames with --at X:Y needs -o FOLDER", "trax-render", "walks.gltf", *words)
     refused("needs --frames N", "trax-render", "walks.gltf", "--at", "0:1", "-o", "x")
     refused("not with --stats", "trax-render", "walks.gltf", *words, "-o", "x", "--stats", "x.json")
+    refused("too far apart", "trax-render", "walks.gltf", *words, "-o", "x", "--at=-1e308:1e308")
+    refused('error: no file and no preset "9x9"', "trax-render", "walks.gltf", *words[:4], "-o", "x", "--config", "9x9")
+    refused('error: dcache.bytes is "1e999", not', "trax-render", "walks.gltf", *words, "-o", "x", "--set",
+            "dcache.bytes=1e999")
+    refused("--help ends trax-render before", "trax-eval", "frames", "--help")
+    for some in ((), ("-o", "x"), ("--frames", "2", "-o", "x", "--at", "0"), ("--frames", "2", "--at", "0:1")):
+        refused("expected trax-render's words: ", "trax-eval", "frames", "walks.gltf", *some)
+    check(not pathlib.Path("x").exists(), "a refused sequence leaves nothing")
     refused("walks.gltf: is no folder", "trax-render", "walks.gltf", *words, "-o", "walks.gltf")
+    call("trax-render", "walks.gltf", "--at", "1:1", "--frames", "2", "-q", "--size", "8x6", "--no-refit", "-o", "still")
+    one, other = (pathlib.Path(f"still/frame-000{number}.png").read_bytes() for number in (1, 2))
+    check(one == other and len(frames("still")) == 2, "two frames of one moment")
     refused("--no-refit is for", "trax-render", "walks.gltf", "--at", "0", "--no-refit", "-o", "x.png")
     refused("'x' is neither", "trax-render", "walks.gltf", "--at", "0:x", "-o", "x")
     refused("wave-06.obj: cannot be read", "trax-render", "wave-%02d.obj", "--at", "5:6", "--frames", "2", "-q",

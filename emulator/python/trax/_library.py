@@ -65,8 +65,11 @@ def check(status, error):
 
 
 def encoded(path):
-    """A path as the bytes that the library opens."""
-    return os.fsencode(path)
+    """A path or word as the bytes that the library reads up to a zero."""
+    text = os.fsencode(path)
+    if b"\0" in text:
+        raise TraxError(f"{path!r} has a zero byte")
+    return text
 
 
 class Memory:

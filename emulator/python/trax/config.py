@@ -4,6 +4,8 @@ import collections.abc
 import json
 import re
 
+import numpy
+
 from ._library import check, encoded, ffi, lib, new_error, printed
 
 
@@ -39,7 +41,7 @@ class Config(collections.abc.MutableMapping):
         return other
 
     def __setitem__(self, key, value):
-        text = str(value).lower() if isinstance(value, bool) else str(value)
+        text = str(value).lower() if isinstance(value, (bool, numpy.bool_)) else str(value)
         error = new_error()
         check(lib.trax_config_set(self.handle, key.encode(), text.encode(), error), error)
 

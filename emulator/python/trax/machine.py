@@ -16,6 +16,10 @@ from .picture import Picture
 from .tools import call, sources
 
 
+# The options of an explanation: their types in C by their names.
+TYPES = {name: field.type.cname for name, field in ffi.typeof("struct trax_explain_options").fields}
+
+
 def flat(statistics, before=""):
     """{"dcache.hits": ...} of an object of objects; lists are left out."""
     found = {}
@@ -168,7 +172,8 @@ class Machine:
         engine: "fast", "reference", "functional" or "simt"; None: as trax-sim chooses. threads: of the host, 0 for all
         processors; results do not depend on it. max_cycles: 0 for no limit. input: an open file, the standard input of
         the program. progress: called about ten times a second with (cycle, instructions, items). explain: files to
-        write, by the names of trax-sim's options, such as explore="run.html" or profile="profile.txt".
+        write, by the names of trax-sim's options, such as explore="run.html" or profile="profile.txt"; source_folders:
+        a list of folders whose files the page may contain.
         Errors: Fault, Stuck, Interrupted, TraxError. Ctrl-C ends it by KeyboardInterrupt."""
         error, keep = new_error(), []
         if self._ran:
@@ -217,7 +222,7 @@ class Machine:
         inputs = [*self._inputs, *inputs, *([explain["against"]] if "against" in explain else [])]
         known = {identity(file) for file in inputs}
         for name, path in explain.items():
-            if isinstance(path, int) or name in ("item_buffer", "title", "against"):
+            if TYPES.get(name) != "char *" or name in ("item_buffer", "title", "against"):
                 continue
             which = identity(path)
             if which is not None and which in known:
@@ -228,19 +233,21 @@ class Machine:
         if not explain:
             return ffi.NULL
         options, report = ffi.new("struct trax_explain_options *"), ffi.new("struct trax_explain **")
+        keep.append(options)
         for name, value in explain.items():
-            if not hasattr(options, name):
-                raise TraxError(f"run has no option \"{name}\"")
-            if isinstance(value, (int, bool)):
-                setattr(options, name, value)
-            else:
+            kind = TYPES.get(name)
+            if name == "source_folders":
+                continue
+            if kind == "char *":
                 keep.append(ffi.new("char[]", encoded(value)))
                 setattr(options, name, keep[-1])
-        if folder := sources():
+            elif kind and kind.isidentifier() and not name.endswith("_count"):  # counts are of arrays
+                setattr(options, name, value)
+            else:
+                raise TraxError(f"run has no option \"{name}\"")
+        for folder in (*explain.get("source_folders", ()), *([sources()] if sources() else [])):
             keep.append(ffi.new("char[]", encoded(folder)))
-            options.source_folders[options.source_folder_count] = keep[-1]
-            options.source_folder_count += 1
-        keep.append(options)
+            check(lib.trax_explain_add_source_folder(options, keep[-1], error), error)
         check(lib.trax_explain_check_against(options, error), error)
         options.against = ffi.NULL
         check(lib.trax_explain_begin(report, self._handle, options, error), error)

@@ -38,7 +38,8 @@ def sources():
 
 def call(name, *arguments):
     """Runs a program; TraxError with what it says if it fails."""
-    done = subprocess.run([tool(name), *map(os.fspath, arguments)], capture_output=True, text=True, check=False)
+    done = subprocess.run([tool(name), *map(os.fspath, arguments)], capture_output=True, text=True, errors="replace",
+                          check=False)
     if done.returncode:
         raise TraxError(done.stderr.strip() or f"{name} ended with status {done.returncode}")
     return done.stdout

@@ -4,11 +4,12 @@ that the report is about them alone."""
 
 import csv
 import io
+import math
 import os
 import pathlib
 import re
 
-from trax_eval.refits import AT, FROM, NAME
+from trax_eval.refits import AT, FROM, NAME, moment
 from trax_eval.sweep import read_sweep
 from trax_eval.tools import run_tool
 from trax_eval.util import Problem, check_files, read_json, write_file, write_json
@@ -29,20 +30,11 @@ BOTH = ("smooth", )
 
 def moments(text, count):
     """count moments from X to Y of the text "X:Y"; whole ones as whole numbers."""
-    first, last = map(float, text.split(":"))
+    first, last = map(moment, text.split(":"))
+    if not math.isfinite(last - first):
+        raise Problem(f"--at: {text} are too far apart")
     found = [first + (last - first) * i / (count - 1) for i in range(count)]
     return [int(one) if one == int(one) else one for one in found]
-
-
-def setting(text):
-    """(key, value) of --set."""
-    key, _, value = text.partition("=")
-    if value in ("true", "false"):
-        return key, value == "true"
-    try:
-        return key, float(value) if re.search(r"[.eE]", value) else int(value, 0)
-    except ValueError:
-        return key, value
 
 
 class Sequence:
@@ -51,7 +43,13 @@ class Sequence:
         words, self.meshes = tools.words("trax-render", arguments)
         given = [word[2:].partition("=") for word in words]
         self.values = {name: value for name, _, value in given}
-        self.settings = dict(setting(value) for name, _, value in given if name == "set")
+        if not {"frames", "output"} <= self.values.keys() or ":" not in self.values.get("at", ""):
+            raise Problem("expected trax-render's words: --frames, --at X:Y and -o")
+        chip = self.values.get("config", "4x32")
+        self.chip = os.path.abspath(chip) if os.path.isfile(chip) else chip
+        settings = tuple(value.partition("=")[::2] for name, _, value in given if name == "set")
+        tools.configuration(self.chip, settings)  # before anything is written
+        self.settings = {key: tools.value(self.chip, settings, key) for key, _ in settings}
         self.folder = pathlib.Path(self.values["output"])
         self.moments = moments(self.values["at"], int(self.values["frames"]))
         self.scene, self.render, self.view = [], [], []
@@ -101,7 +99,7 @@ class Sequence:
         variants = [{"name": NEW, AT: self.moments}]
         if self.refits():
             variants.append({"name": REFITTED, AT: self.moments, FROM: self.moments[0]})
-        chip, paths = self.values.get("config", "4x32"), []
+        paths = []
         for name, (title, figure) in CURVES.items():
             if name == "curve-rebuild" and not self.refits():
                 continue
@@ -111,7 +109,7 @@ class Sequence:
                     "name": re.sub(r"%(0\d)?d|\W+", "-", pathlib.Path(self.meshes[0]).stem).strip("-") or "frames",
                     "meshes": [mesh if mesh.startswith("generate:") else os.path.abspath(mesh)
                                for mesh in self.meshes], "view": view
-                }], "programs": "program.json", "chips": os.path.abspath(chip) if os.path.isfile(chip) else chip,
+                }], "programs": "program.json", "chips": self.chip,
                 "size": self.values.get("size", "1280x720"), "set": variants, "reference": NEW, "x": AT, "y": figure,
                 "table": {"rows": AT, "columns": "variant", "values": [figure]}
             })
@@ -122,22 +120,27 @@ class Sequence:
         name = f"frame-{number:04d}" + ("" if variant == NEW else f"-{variant}")
         return self.folder / f"{name}.png", self.folder / f"{name}.json"
 
+    def write_frame(self, number, run, point):
+        """Writes the files of a finished frame, and returns its row of frames.csv."""
+        picture, statistics = self.outputs(number, point["variant"])
+        if point["variant"] == NEW:
+            write_file(picture, (self.folder / run["picture"]).read_bytes())
+        write_json(statistics, read_json(self.folder / run["json"])["statistics"])
+        stats, values = run["stats"], run["values"]
+        return [number, point["set"][AT], point["variant"], stats["cycles"], stats["rays"], stats["mrps"],
+                values["bytes_per_ray"], values.get("scene.bvh.sah_nodes"),
+                values.get(NAME) if point["variant"] == REFITTED else None]
+
     def write_frames(self, results):
-        """Writes the files of each finished frame, and a row of frames.csv for each run."""
+        """Writes the files of all finished frames, and frames.csv."""
         rows = []
         for run in results["runs"]:
             for point in run["points"]:
                 if run["status"] != "done" or point["experiment"] != next(iter(CURVES)):
                     continue
-                number = self.moments.index(point["set"][AT]) + 1
-                picture, statistics = self.outputs(number, point["variant"])
-                if point["variant"] == NEW:
-                    write_file(picture, (self.folder / run["picture"]).read_bytes())
-                write_json(statistics, read_json(self.folder / run["json"])["statistics"])
-                stats, values = run["stats"], run["values"]
-                rows.append([number, point["set"][AT], point["variant"], stats["cycles"], stats["rays"],
-                             stats["mrps"], values["bytes_per_ray"], values.get("scene.bvh.sah_nodes"),
-                             values.get(NAME) if point["variant"] == REFITTED else None])
+                for number, moment_of in enumerate(self.moments, 1):
+                    if moment_of == point["set"][AT]:
+                        rows.append(self.write_frame(number, run, point))
         text = io.StringIO()
         columns = ["frame", "at", "tree", "cycles", "rays", "mrps", "bytes_per_ray", "sah_nodes", NAME]
         csv.writer(text, lineterminator="\n").writerows([columns, *sorted(rows, key=lambda row: (row[0], row[2]))])

@@ -6,6 +6,8 @@ const signed = (value, text = whole) => typeof value !== "number" ? "" : (value 
 const cyclesText = (value) => typeof value !== "number" ? "" : Math.abs(value) < 10 ? digits(value) : whole(value);
 const finePercent = (share) => `${(100 * share).toFixed(2)} %`;
 const shareText = (share) => typeof share !== "number" ? "" : Math.abs(share) < 10 ? signed(share, finePercent) : `\u00d7 ${digits(1 + share)}`;
+// A contribution, of A's cycles: it may be many times as great, with either sign.
+const partText = (share) => typeof share !== "number" ? "" : Math.abs(share) < 10 ? signed(share, finePercent) : `${signed(100 * share)} %`;
 const shownValue = (value, unit = "") => value === undefined || value === null ? "" : valueText(value, unit);
 const shownChange = (value, unit) => signed(value, unit === "fraction" ? finePercent : (size) => shownValue(size, unit));
 const relativeOf = ({ a, b }) => typeof a === "number" && typeof b === "number" && a ? (b - a) / Math.abs(a) : undefined;
@@ -31,7 +33,7 @@ function drawContributions(id, title, rows, run, named) {
                                changeBar(row.difference / most, named       ? colourOf(row.name)
                                                                 : row.cause ? colourOf(row.cause)
                                                                             : "var(--bar)"),
-                               [ shareText(run.cycles.a ? row.difference / run.cycles.a : undefined), row.difference ],
+                               [ partText(run.cycles.a ? row.difference / run.cycles.a : undefined), row.difference ],
                                (Math.abs(row.difference) < limit ? "within the noise; " : "") +
                                    (row.meaning ??
                                     (row.cause ? `${row.cause} ${signed(row.cause_difference, cyclesText)}` : ""))]));
@@ -47,7 +49,8 @@ function drawHead(run) {
                                                                signed(run.causes[0].difference, cyclesText)) ]
                                                       : []));
   const notes = run.warnings.map((text) => element("li", { class: "bad" }, text));
-  if (cycles.interval) notes.push(element("li", {}, `The runs are sampled: the difference is ${signed(cycles.interval[0])} to ` +
+  if (cycles.interval) notes.push(element("li", {}, `${cycles.sampled.join(" and ")} ${cycles.sampled.length === 1 ? "is" : "are"} ` +
+    `sampled: the difference is ${signed(cycles.interval[0])} to ` +
     `${signed(cycles.interval[1])} with 95 % confidence${cycles.within_noise ? ", which is within the noise" : ""}. ` +
     "The parts are estimates without intervals."));
   at("brief").replaceChildren(...notes);

@@ -31,13 +31,15 @@ def cycles_of(a, b):
     """The difference of cycles. An interval of sampled runs takes their errors as independent."""
     difference, interval = b["cycles"] - a["cycles"], None
     ends = [run["interval"] or [run["cycles"], run["cycles"]] for run in (a, b)]
-    if any(low != high for low, high in ends):
+    sampled = [which for which, (low, high) in zip("AB", ends) if low != high]
+    if sampled:
         below = math.hypot(ends[0][1] - a["cycles"], b["cycles"] - ends[1][0])
         above = math.hypot(a["cycles"] - ends[0][0], ends[1][1] - b["cycles"])
         interval = [difference - below, difference + above]
     return {
         "a": a["cycles"], "b": b["cycles"], "difference": difference,
         "relative": difference / a["cycles"] if a["cycles"] else None, "interval": interval,
+        "sampled": sampled,
         "within_noise": interval and interval[0] <= 0 <= interval[1]
     }
 

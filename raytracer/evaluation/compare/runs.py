@@ -8,7 +8,7 @@ import re
 import zlib
 
 from trax_eval.pictures import read_rgb
-from trax_eval.util import FILE_LIMIT, STRICT, Problem, read_bytes, read_json
+from trax_eval.util import FILE_LIMIT, STRICT, Problem, json_of, read_bytes, read_json
 
 TINIEST, LARGEST = 1e-100, 1e100  # quotients and sums of such numbers are finite
 HOST = ("host_seconds", "instructions_per_host_second")  # figures of the host, which no comparison is about
@@ -74,9 +74,10 @@ class Run:
             self.stats = self.take_page(self.path)
             check_statistics(path, self.stats)
         else:
-            if not read_bytes(self.path).lstrip().startswith(b"{"):
+            data = read_bytes(self.path)  # once: it may be a pipe
+            if not data.lstrip().startswith(b"{"):
                 raise Problem(f"{path}: is neither a file of --stats nor, as NAME.html, a page of --explore")
-            self.stats = read_json(self.path)
+            self.stats = json_of(path, data)
             check_statistics(path, self.stats)
             self.take_neighbours()
 
@@ -127,9 +128,10 @@ class Run:
                 for place, value in enumerate(values):
                     before = channel[place] = (before + value) & 255
                 channels[name] = channel
+        planes = [channels[name] for name in ("red", "green", "blue")]
         pixels = bytearray(3 * width * height)
-        for place, name in enumerate(("red", "green", "blue")):
-            pixels[place::3] = channels[name]
+        for place, plane in enumerate(planes):
+            pixels[place::3] = plane
         self.picture, self.costs = (width, height, bytes(pixels)), costs
 
 
@@ -178,7 +180,7 @@ def read_kinds(text):
     kinds = {row["kind"]: {name: float(value) if "." in value or "e" in value else int(value)
                            for name, value in row.items() if name not in ("kind", "part")}
              for row in rows if row["kind"] not in ("rest", "all")}
-    if not all(is_figure(value) for row in kinds.values() for value in row.values()):
+    if not all({"rays", "thread_cycles"} <= row.keys() and all(map(is_figure, row.values())) for row in kinds.values()):
         raise ValueError("a kind of rays has a figure that no run can have")
     return kinds if rows else None
 

@@ -1,16 +1,23 @@
 """A comparison as text."""
 
+from trax_eval.util import shown
+
 from .figures import SECTIONS
 from .runs import is_number
 
 MOST = 8  # rows of a table without --all
 
 
+def plain(out):
+    """`out` for lines with names of files that others may have written: without control characters."""
+    return lambda line: out("".join(letter if letter.isprintable() else f"\\x{ord(letter):02x}" for letter in line))
+
+
 def number(value, signed=False):
     if value is None:
         return "-"
     if not is_number(value):
-        return str(value).lower() if isinstance(value, bool) else str(value)
+        return shown(value)
     sign = "+" if signed and value > 0 else ""
     if isinstance(value, int) or abs(value) >= 1000 or value == 0:
         return f"{sign}{value:,.0f}"
@@ -22,9 +29,21 @@ def cycles(value, signed=False):
 
 
 def percent(share):
+    """A relative difference, of a great one the factor."""
     if share is None:
         return ""
-    return f"{100 * share:+.2f} %" if abs(share) < 10 else f"x {1 + share:.3g}"
+    return f"{100 * share:+.2f} %" if abs(share) < 10 else f"x {significant(1 + share)}"
+
+
+def significant(value):
+    return f"{value:,.0f}" if abs(value) >= 1000 else f"{value:.3g}"
+
+
+def part(share):
+    """A contribution, of A's cycles. It may be many times as great, with either sign."""
+    if share is None:
+        return ""
+    return f"{100 * share:+.2f} %" if abs(share) < 10 else f"{100 * share:+,.0f} %"
 
 
 def relative(row):
@@ -70,9 +89,10 @@ def head(out, comparison):
         out(f"B takes {cycles(abs(found['difference']))} cycles {less} than A{f' ({share})' if share else ''}.")
     if found["interval"]:
         low, high = (cycles(end, True) for end in found["interval"])
-        out(f"The runs are sampled: the difference is {low} to {high} with 95 % confidence" +
+        whose = f"{' and '.join(found['sampled'])} {'is' if len(found['sampled']) == 1 else 'are'} sampled"
+        out(f"{whose}: the difference is {low} to {high} with 95 % confidence" +
             (", which is within the noise." if found["within_noise"] else ".") +
-            " Their parts are estimates without intervals; ~ marks parts that are smaller than this noise.")
+            " The parts are estimates without intervals; ~ marks parts that are smaller than this noise.")
     out("")
 
 
@@ -86,7 +106,7 @@ def contributions(out, comparison, name, title, every):
         return
     whole, limit = comparison["cycles"]["a"], noise(comparison)
     rows = [(row["name"], cycles(row["a"]), cycles(row["b"]), cycles(row["difference"], True),
-             percent(row["difference"] / whole if whole else None),
+             part(row["difference"] / whole if whole else None),
              ("~ " if abs(row["difference"]) < limit else "") +
              (row["meaning"] if "meaning" in row else f"{row['cause']} {cycles(row['cause_difference'], True)}"
               if "cause" in row else "")) for row in comparison[name]]
@@ -128,6 +148,7 @@ def is_empty(comparison):
 
 
 def print_comparison(comparison, every, out=print):
+    out = plain(out)
     head(out, comparison)
     if is_empty(comparison):
         out("Nothing differs.")
@@ -159,7 +180,9 @@ def print_comparison(comparison, every, out=print):
 
 
 def print_folders(folders, out=print):
-    out(f"A  {folders['a']}\nB  {folders['b']}\n")
+    out = plain(out)
+    for line in (f"A  {folders['a']}", f"B  {folders['b']}", ""):
+        out(line)
     rows = []
     for name, one in folders["runs"].items():
         found, parts = one["cycles"], one["causes"]

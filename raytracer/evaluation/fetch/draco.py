@@ -34,7 +34,7 @@ def packed_meshes(data):
                 if min(begin, length) < 0 or begin + length > len(binary):
                     raise Failed("the GLB file ends too early")
                 yield binary[begin:begin + length]
-    except (KeyError, IndexError, TypeError, AttributeError, ValueError) as error:
+    except (KeyError, IndexError, TypeError, AttributeError, ValueError, RecursionError) as error:
         raise Failed(f"no GLB file with meshes packed by Draco: {error!r}") from error
 
 

@@ -1,5 +1,6 @@
 """Takes one file out of an archive or a packed file. Nothing else of an archive is written anywhere."""
 
+import errno
 import gzip
 import lzma
 import pathlib
@@ -12,7 +13,8 @@ from .problems import Failed
 LIMIT = 1 << 30  # bytes of an unpacked file, as of trax-scene
 CHUNK = 1 << 18
 DAMAGE = (tarfile.TarError, zipfile.BadZipFile, EOFError, lzma.LZMAError, zlib.error, gzip.BadGzipFile,
-          NotImplementedError, RuntimeError)  # the last two: a zip file that is encrypted or packed in an unknown way
+          UnicodeDecodeError,  # a name in a zip file
+          NotImplementedError, RuntimeError)  # a zip file that is encrypted or packed in an unknown way
 
 
 def copy(source, path, name):
@@ -55,6 +57,10 @@ def take(archive, member, path):
         (take_from_zip if zipfile.is_zipfile(archive) else take_from_tar)(archive, member, path)
     except DAMAGE as error:
         raise Failed(f"{archive.name}: damaged: {error}") from error
+    except OSError as error:
+        if error.errno != errno.EINVAL:  # zipfile seeks a place before the file's first byte
+            raise
+        raise Failed(f"{archive.name}: damaged: a place outside of it") from error
 
 
 def unpacked(path):

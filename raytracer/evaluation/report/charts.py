@@ -34,7 +34,7 @@ def _styles(results, groups, by_scene):
     """(colour, mark) of each group (scene, program, other parts of its label). On the whole page a program has one
     colour and one mark, and a scene one colour. The first that differs of scene, program and other parts has the
     colour, the rest the mark."""
-    scenes, programs = results.scenes(), results.programs()
+    scenes, programs = [*results.scenes(), ""], [*results.programs(), ""]  # of a run by hand neither may be known
     others = [*dict.fromkeys(group[2] for group in groups)]
     several = len({group[1] for group in groups}) > 1
     marks = [(program, others[0]) for program in programs]

@@ -41,6 +41,15 @@ def _kept(run, names, source):
     return {**kept, "source": source}
 
 
+def check_sources(document, runs):
+    for kind in ("sources", "sweeps"):
+        if not all(isinstance(entry, dict) for entry in document.get(kind) or []):
+            raise ValueError(f'"{kind}" is no list of objects')
+    count = max(1, len(document.get("sources") or []))
+    if not all(type(number) is int and 0 <= number < count for number in (run.get("source", 0) for run in runs)):
+        raise ValueError('a run has no "source" of the list')
+
+
 def read_data(path):
     """A page's file of results: its runs stand as tables, each with the names of its columns."""
     document, runs = read_json(path), []
@@ -58,6 +67,7 @@ def read_data(path):
                         place = place.setdefault(key, {})
                     place[path_of[-1]] = value
                 runs.append(run)
+        check_sources(document, runs)
         return {**{name: value for name, value in document.items() if name != "tables"}, "runs": runs}
     except (AttributeError, KeyError, TypeError, ValueError) as error:
         raise Problem(f"{path}: is no file that trax-eval docs wrote: {error!r}") from None

@@ -18,7 +18,7 @@ import pathlib
 import re
 import sys
 
-from trax_eval.util import Problem, check_files, complain, write_file
+from trax_eval.util import Parser, Problem, check_files, complain, write_file
 
 from . import choices, estimates, fronts, rays, simd, tables
 from .charts import all_figures, sweep_figure
@@ -179,7 +179,7 @@ def pages_of(names):
     for name in names:
         folder = pathlib.Path(name)
         pages += [Page(path) for path in sorted(folder.glob("*.md"))
-                  if MARK.search(path.read_text(encoding="utf-8"))] if folder.is_dir() else [Page(name)]
+                  if MARK.search(path.read_text(encoding="utf-8", errors="replace"))] if folder.is_dir() else [Page(name)]
     return pages
 
 
@@ -204,7 +204,7 @@ def write_pages(pages, paper, check):
         for path, figure in files.items():
             if not check:
                 write_file(path, figure)
-            elif not path.exists() or figure != path.read_text(encoding="utf-8"):
+            elif not path.exists() or figure.encode() != path.read_bytes():
                 stale.append(f"{path}: is not what {page.data} gives; trax-eval docs {page.path} writes it")
         if not check and text != page.text:
             write_file(page.path, text)
@@ -212,8 +212,8 @@ def write_pages(pages, paper, check):
 
 
 def new_parser():
-    parser = argparse.ArgumentParser(prog="trax-eval docs", description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser(prog="trax-eval docs", description=__doc__,
+                    formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("files", nargs="+", metavar="RESULTS.json or PAGE.md")
     parser.add_argument("--check", action="store_true",
                         help="write nothing; status 1 if a block is not what the file gives")
@@ -223,8 +223,8 @@ def new_parser():
 
 
 def main(arguments=None):
-    options = new_parser().parse_args(arguments)
     try:
+        options = new_parser().parse_args(arguments)
         sources, paper = [name for name in options.files if name.endswith(".json")], Paper(HERE.parent / "paper")
         wrong = [
             name for name in options.files if not name.endswith((".json", ".md")) and not pathlib.Path(name).is_dir()

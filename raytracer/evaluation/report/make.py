@@ -20,7 +20,7 @@ from .claims import AGREES, DIFFERS, FITTED, NOT_MEASURED, UNKNOWN, claims, medi
 from .markup import Html, el, join, table
 from .paper import Paper
 from .plots import draw, shapes
-from .results import number, read_results
+from .results import number, read_results, shown
 from .table import seconds
 
 MOST_MOMENTS = 8  # of a scene, whose pictures the page has
@@ -150,7 +150,7 @@ def configurations(results):
         if not isinstance(configuration, dict):
             continue
         items = tuple(
-            (key, repr(value) if number(value) is None else f"{value:g}" if isinstance(value, float) else str(value))
+            (key, f"{value:g}" if isinstance(value, float) and number(value) is not None else shown(value))
             for key, value in flat(configuration))
         if items not in numbers:
             numbers[items] = len(numbers) + 1

@@ -4,11 +4,13 @@ import copy
 import pathlib
 import re
 
+from trax_eval.sweep import option_of
+
 from . import tables
 from .charts import CAUSES, STYLES, shares
 from .markup import el, join, table
 from .plots import Bars, Lines, Series, draw
-from .results import Results, ratio
+from .results import Results, ratio, shown
 from .sweeps import TITLES, interval_text
 from .table import Cell, Table, figure, words
 
@@ -29,7 +31,10 @@ LABELS = {
 # Costs of a rate: identity, statistic, title.
 COSTS = [("area", "values.area_units", "Rays and area"), ("power", "energy.average_power", "Rays and power"),
          ("bandwidth", "memory.bandwidth_gbps", "Rays and off-chip bandwidth in use")]
-MOST_BARS, MOST_LETTERS, LEAST_LETTERS = 40, 24, 5
+MOST_BARS, MOST_LETTERS, LEAST_LETTERS, MOST_FRONTS = 40, 24, 5, 16
+# Options of trax-scene and trax-render that change how a picture is made, but none of its rays; "sample-" begins some.
+DESIGN = re.compile("nodes|leaf|splits|passes|depth|traversal-cost|cache-lines|tree|tree-triangles|tree-boxes|refit"
+                    "|refit-from|instances|flatten|unpack-limit|ray-order|queues|no-specialise|mark-rays|sample-.*")
 
 
 def sweeps(results):
@@ -64,12 +69,11 @@ def renamed(lines, sweep):
 
 def name_of(run, varying):
     """Returns what tells a run from the others."""
-    parts = [run.variant, *(f"{key}={value}" for key, value in run.set.items())]
-    parts = [run.config, *(part for part in (run.variant or None, *parts[1:]) if part)]
+    parts = [run.config, run.variant, *(f"{key}={shown(value)}" for key, value in run.set.items())]
     for axis in ("scene", "program", "workload"):
         if axis in varying and getattr(run, axis):
             parts.insert(0, getattr(run, axis))
-    return ", ".join(dict.fromkeys(parts))
+    return ", ".join(dict.fromkeys(part for part in parts if part))
 
 
 def varying(runs):
@@ -98,37 +102,46 @@ def one_of_each(results):
     return Results(results.document, runs)
 
 
+def content(run):
+    """The options of a run that decide what is rendered, as texts."""
+    options = {key: option_of(key) for key in run.set}
+    return tuple(f"{key}={shown(run.set[key])}" for key, option in sorted(options.items())
+                 if option and not DESIGN.fullmatch(option[1]))
+
+
 def groups(runs):
-    """The runs that are best known and render the same: by scene, workload and size."""
+    """The runs that are best known and render the same: by scene, workload, options and size."""
     found = {}
     for run in best_known(runs):
         if run.get("mrps") is not None:
-            found.setdefault((run.scene, run.workload, run.size), []).append(run)
+            found.setdefault((run.scene, run.workload, *content(run), run.size), []).append(run)
     return found
 
 
 def front(runs, cost):
-    """The runs that no other run beats or equals in rays at no higher cost, by increasing cost."""
+    """The runs that no other run beats, by more rays at no higher cost or as many at a lower one; by increasing
+    cost."""
     known = [run for run in runs if run.get(cost) is not None]
     best, chosen = None, []
     for run in sorted(known, key=lambda run: (run.get(cost), -run.get("mrps"))):
-        if best is None or run.get("mrps") > best:
-            best = run.get("mrps")
+        place = run.get(cost), run.get("mrps")
+        if best is None or place[1] > best[1] or place == best:
+            best = place
             chosen.append(run)
     return chosen
 
 
 def front_figures(runs):
-    axes = varying(runs)
-    for identity, cost, heading in COSTS:
+    axes, found = varying(runs), groups(runs)
+    for identity, cost, heading in COSTS if len(found) <= MOST_FRONTS else ():
         series = []
-        for place, (group, some) in enumerate(groups(runs).items()):
+        for place, (group, some) in enumerate(found.items()):
             points = sorted((run.get(cost), run.get("mrps"), f"{name_of(run, axes)}: {run.get('mrps'):.4g} MRPS, "
                              f"{run.get(cost):.4g}") for run in some if run.get(cost) is not None)
             if len({point[0] for point in points}) < 2:
                 continue
             style, mark = STYLES[place % len(STYLES)]
-            named = ", ".join(part for part in group[:2] if part)
+            named = ", ".join(part for part in group[:-1] if part)
             series.append(Series(named, style, points, mark, line=False))
             best = [(run.get(cost), run.get("mrps"), name_of(run, axes)) for run in front(some, cost)]
             series.append(Series(f"front of {named} (dashed)", style, best, mark, dashed=True))

@@ -4,7 +4,7 @@ with `ray_kinds` or `ray_cycles` have."""
 from .charts import STYLES
 from .machines import SWEEPS
 from .plots import Bars, Lines, Series
-from .results import mean
+from .results import mean, shown
 from .sweeps import by_kind
 from .table import Table, figure, number, percent, share, words
 
@@ -85,7 +85,7 @@ def kinds_table(results):
     columns += [(name, "n") for _, name, _ in SHARES]
     rows = []
     for group in groups(results):
-        name = ", ".join([group.chip, *(f"{key} = {value}" for key, value in group.settings)])
+        name = ", ".join([group.chip, *(f"{key} = {shown(value)}" for key, value in group.settings)])
         counts = [run.get(f"values.rays.{group.kind}.count") for run in group.runs]
         rows.append([
             words(group.workload),

@@ -5,7 +5,7 @@ import copy
 import math
 import pathlib
 
-from trax_eval.util import Problem, read_json
+from trax_eval.util import Problem, read_json, shown
 
 HERE = pathlib.Path(__file__).resolve().parent
 FORMAT = "trax-eval-results"
@@ -70,7 +70,7 @@ class Run:
         self.stats, self.values = table("stats"), table("values")
         self.host_seconds = number(record.get("host_seconds"))
         size = record.get("size")
-        good = isinstance(size, list) and len(size) == 2 and all(isinstance(n, int) and n > 0 for n in size)
+        good = isinstance(size, list) and len(size) == 2 and all(type(n) is int and n > 0 for n in size)
         self.size = tuple(size) if good else None
         experiments = record.get("experiments") or []
         if not isinstance(experiments, list):
@@ -172,9 +172,18 @@ class Run:
         return self.size[0] * self.size[1] / seconds / (1280 * 720)
 
     def name(self):
-        changed = "".join(f", {key} = {value}" for key, value in sorted(self.set.items()))
+        changed = "".join(f", {key} = {shown(value)}" for key, value in sorted(self.set.items()))
         return ", ".join(part for part in (self.scene, self.config + changed, self.program, self.workload, self.variant,
                                            self.mode) if part)
+
+
+def check_sweep(sweep, index):
+    for key in ("x", "y", "y_per", "reference"):
+        if not isinstance(sweep.get(key), (str, type(None))):
+            raise Problem(f"sweeps[{index}].{key} is {type(sweep[key]).__name__}, not a string")
+    variants = sweep.get("variants") or []
+    if not isinstance(variants, list) or not all(isinstance(name, str) for name in variants):
+        raise Problem(f"sweeps[{index}].variants is not a list of strings")
 
 
 class Results:
@@ -190,6 +199,10 @@ class Results:
             for index, entry in enumerate(document.get(key) or []):
                 if not isinstance(entry, dict):
                     raise Problem(f"{key}[{index}] is not an object")
+                if not isinstance(entry.get("name"), (str, type(None))):
+                    raise Problem(f"{key}[{index}].name is {type(entry['name']).__name__}, not a string")
+        for index, sweep in enumerate(document.get("sweeps") or []):
+            check_sweep(sweep, index)
         self.document, self.asked = document, {}
         self.runs = [Run(record, index, self.asked)
                      for index, record in enumerate(document.get("runs") or [])] if runs is None else runs
@@ -276,8 +289,7 @@ class Results:
         for run in runs:
             for key in {key for other in runs for key in other.machine} - set(run.set):
                 value = run.machine.get(key)
-                seen.setdefault(key, set()).add(
-                    str(value).lower() if isinstance(value, bool) else None if value is None else str(value))
+                seen.setdefault(key, set()).add(None if value is None else shown(value))
         return sorted((key, *values) for key, values in seen.items() if len(values) == 1 and None not in values)
 
 

@@ -8,7 +8,7 @@ import math
 
 from trax_eval.table_spec import AS, descriptions
 
-from .results import deviation, mean, number, ratio
+from .results import deviation, mean, number, ratio, shown
 from .table import Cell, Table, between, duration, figure, percent, share
 
 
@@ -127,7 +127,7 @@ class Axes:
     def value(run, key):
         value = getattr(run, "kind", "") if key == "kind" else run.axis(key)
         if isinstance(value, bool):
-            return str(value).lower()
+            return shown(value)
         if isinstance(value, float) and value.is_integer():
             return int(value)  # as a sweep has it
         return value if isinstance(value, (str, int, float)) else ""

@@ -3,7 +3,7 @@ output and docs."""
 
 from .charts import CAUSES, shares
 from .claims import AGREES, DIFFERS, FITTED, UNKNOWN, speedup
-from .results import deviation, mean, ratio
+from .results import deviation, mean, ratio, shown
 from .sweeps import interval_text
 from .sweeps import makers as any_makers
 from .table import EMPTY, Cell, Table, duration, figure, percent, seconds, share, words
@@ -322,7 +322,7 @@ def run_table(results, paper, link, configurations):
     rows = []
     for run in results.runs:
         off = deviation(run.get("mrps"), results.published(paper, run.scene, run.config) if not run.set else None)
-        changed = ", ".join(f"{key} = {value}" for key, value in sorted(run.set.items()))
+        changed = ", ".join(f"{key} = {shown(value)}" for key, value in sorted(run.set.items()))
         place, simulated = configurations.get(run.index), run.get("seconds")
         files = [(text, address) for text, path in (("JSON", run.json), ("CSV", run.csv), ("picture", run.picture))
                  if (address := link(path))]

@@ -45,7 +45,7 @@ ENGINES = {"exact": "fast", "quick": "quick"}
 
 def engine_of(tools, point):
     """Machines whose TPs are lanes of warps have an engine of their own (docs/simt.md)."""
-    if point.mode == "exact" and tools.whole(point.chip_file, point.machine(), "simt.width") > 1:
+    if point.mode == "exact" and tools.value(point.chip_file, point.machine(), "simt.width") > 1:
         return "simt"
     return ENGINES[point.mode]
 

@@ -12,7 +12,7 @@ from .names import check_report
 from .programs import Program, build
 from .scenes import import_scenes, order_options, plan_scene
 from .sweep import CHIPS, TAKEN, option_of, option_words, without_option
-from .util import Problem, hash_value, nearest, read_sealed
+from .util import Problem, hash_value, nearest, read_sealed, shown
 
 
 def check_names(options, sweeps):
@@ -106,7 +106,7 @@ class Planner:
         machine = point.chip_file, point.machine()
         order = []
         if point.program.specialised:  # made for a machine, as trax-render has it
-            order = order_options(self.tools.whole(*machine, "dcache.bytes"))
+            order = order_options(self.tools.value(*machine, "dcache.bytes"))
         key = "scene", point.scene, scene["folder"], tuple(scene["meshes"]), options, tuple(order)
         return self.once(
             key, lambda: plan_scene(self.out, self.tools, self.folder, scene, [*order, *options], self.hashes,
@@ -158,12 +158,12 @@ class Planner:
             return None
         chip = None
         if program.specialised:
-            chip = tuple(self.tools.whole(*machine, key) for key in ("chip.tms", "icache.bytes"))
+            chip = tuple(self.tools.value(*machine, key) for key in ("chip.tms", "icache.bytes"))
         again = ()
         if workload["rays"]:
             rest = tuple(without_option(rendered, "ray-order"))
             again = (*(word for word in rendered if word not in rest), "--set",
-                     f"dcache.bytes={self.tools.whole(*machine, 'dcache.bytes')}")
+                     f"dcache.bytes={self.tools.value(*machine, 'dcache.bytes')}")
             rendered = rest
         return Request(path, scene["view"], point.size, program, chip, rendered, sampling,
                        whole=point.mode == "quick" or point.error or point.hits, rays=workload["rays"], again=again)
@@ -215,6 +215,6 @@ class Planner:
 
 
 def label(point):
-    changes = "".join(f" {key}={value}" for key, value in point.settings)
+    changes = "".join(f" {key}={shown(value)}" for key, value in point.settings)
     machine = point.chip + (f" ({point.variant})" if point.variant else changes)
     return " ".join(part for part in (point.scene, machine, point.program.name, point.workload, point.size) if part)

@@ -11,7 +11,7 @@ from .pictures import pixels_that_differ
 from .refits import add_rebuilding
 from .scenes import order_options
 from .sweep import CHIPS, option_of
-from .util import Problem, hash_value, read_json, read_sealed, remark, write_json, write_sealed
+from .util import Problem, hash_value, read_json, read_sealed, remark, shown, write_json, write_sealed
 from .values import ratio, values_of
 
 FORMAT, VERSION = "trax-eval-results", 2
@@ -87,7 +87,7 @@ def write_plan(out, sweep, keys, tools, statistics):
     for point in sweep.points:
         key, reason = keys[point]
         scene, workload = sweep.scenes[point.scene], sweep.workloads[point.workload]
-        order = order_options(tools.whole(point.chip_file, point.machine(),
+        order = order_options(tools.value(point.chip_file, point.machine(),
                                           "dcache.bytes")) if point.program.specialised else []
         imported = point.options("trax-scene", workload)
         points.append({
@@ -119,7 +119,7 @@ def repeat_command(point, result):
     made."""
     machine = ["--config", point.get("chip_file", point["config"])]
     for name, value in point["machine"].items():
-        machine += ["--set", f"{name}={str(value).lower() if isinstance(value, bool) else value}"]
+        machine += ["--set", f"{name}={shown(value)}"]
     if not point.get("plain", True):
         return shlex.join([
             "trax-sim", f"inputs/{hash_value(result['job']['inputs'])}/manifest.json", *machine, "--stats", "stats.json"

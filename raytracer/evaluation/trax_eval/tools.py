@@ -1,6 +1,7 @@
 """The programs beside trax-eval."""
 
 import functools
+import json
 import os
 import pathlib
 import re
@@ -10,7 +11,7 @@ import tempfile
 import time
 
 from .interrupts import held
-from .util import Problem, hash_file
+from .util import Problem, hash_file, shown
 
 POLL_SECONDS = 0.05
 
@@ -119,6 +120,8 @@ class Tools:
         if run.returncode != 0:
             raise Problem(run.stderr.strip().removeprefix(f"{name}: error: ") or f"{name} failed")
         words = run.stdout.split("\0")[:-1]
+        if "--" not in words:
+            raise Problem(f"{shlex.join(arguments)} ends {name} before it does anything")
         end = words.index("--")
         return words[:end], words[end + 1:]
 
@@ -135,19 +138,19 @@ class Tools:
         """The whole configuration of a chip with changes (a tuple of (key, value)), as a file for trax-sim --config."""
         command = [self.path("trax-sim"), "--config", chip]
         for key, value in settings:
-            command += ["--set", f"{key}={str(value).lower() if isinstance(value, bool) else value}"]
+            command += ["--set", f"{key}={shown(value)}"]
         run = run_tool([*command, "--print-config"])
         if run.returncode != 0:
             raise Problem(run.stderr.strip().removeprefix("trax-sim: error: ") or "trax-sim failed")
         return run.stdout
 
-    def whole(self, chip, settings, key):
-        """A value of that machine which is a whole number: "dcache.bytes"."""
+    def value(self, chip, settings, key):
+        """The value of a key of that machine, such as "dcache.bytes"."""
         section, name = key.split(".")
-        return int(
-            re.search(rf"^{section}: {{.*?^ *{name} = (\d+);", self.configuration(chip, settings),
+        return json.loads(
+            re.search(rf"^{section}: {{.*?^ *{name} = (.*?);", self.configuration(chip, settings),
                       re.MULTILINE | re.DOTALL).group(1))
 
     def shape(self, chip, settings):
         """(TMs, TPs of each) of that chip."""
-        return self.whole(chip, settings, "chip.tms"), self.whole(chip, settings, "chip.tps_per_tm")
+        return self.value(chip, settings, "chip.tms"), self.value(chip, settings, "chip.tps_per_tm")

@@ -24,6 +24,11 @@ def complain(program, problem, kind="error", colour="1;31"):
     print(f"{program}: {begin}{kind}: {end}{problem}", file=sys.stderr, flush=True)
 
 
+def shown(value):
+    """A value of a key as trax-sim reads it."""
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
 def nearest(word, names):
     """"; did you mean NAME?", or nothing if no name is near."""
     found = difflib.get_close_matches(word, names, 1, 0.75)
@@ -187,9 +192,12 @@ STRICT = {"object_pairs_hook": refuse_duplicates, "parse_constant": refuse_const
 
 
 def read_json(path, limit=FILE_LIMIT, strict=True):
-    """The value of a file. strict: without duplicate keys, numbers that are not finite, and texts that no name can
-    have."""
-    data = read_bytes(path, limit)
+    return json_of(path, read_bytes(path, limit), strict)
+
+
+def json_of(path, data, strict=True):
+    """The value of a file's bytes. strict: without duplicate keys, numbers that are not finite, and texts that no name
+    can have."""
     try:
         value = json.loads(data.decode("utf-8"), **(STRICT if strict else {}))
         if strict:
