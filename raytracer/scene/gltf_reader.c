@@ -2,6 +2,7 @@
    offset is checked here before anything is read. */
 #include "gltf.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -65,7 +66,8 @@ void gltf_decode_name(char *name) {
   char *to = name;
   for (const char *from = name; *from; from++) {
     unsigned byte;
-    if (from[0] == '%' && from[1] && from[2] && sscanf(from + 1, "%2x", &byte) == 1 && byte > 0) {
+    if (from[0] == '%' && isxdigit((unsigned char)from[1]) && isxdigit((unsigned char)from[2]) &&
+        sscanf(from + 1, "%2x", &byte) == 1 && byte > 0) {
       *to++ = (char)byte;
       from += 2;
     } else {

@@ -59,7 +59,7 @@ static bool take_string(struct header *header, char text[16]) {
 
 static trax_status take_type(struct scene_npy *npy, struct header *header, enum scene_npy_kind kind,
                              trax_error *error) {
-  char type[16];
+  char type[16] = {0};
   if (!take_string(header, type))
     return wrong(header, "the type of the elements, as '<i4',", error);
   npy->is_float = strcmp(type, "<f4") == 0;

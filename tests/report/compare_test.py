@@ -223,8 +223,8 @@ class Properties(Scratch):
             stats = copy.deepcopy(original)
             *way, last = (int(part) if part.isdecimal() else part for part in name.split("."))
             owner = stats
-            for part in way:
-                owner = owner[part]
+            for step in way:
+                owner = owner[step]
             value = owner[last]
             owner[last] = chance.choice([value + 1, value * 2 + 3]) if type(value) in (int, float) else \
                 not value if isinstance(value, bool) else f"{value}!"

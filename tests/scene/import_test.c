@@ -275,6 +275,9 @@ static void test_gltf(void **state) {
   snprintf(json, sizeof json, "%s\"buffers\":[{\"byteLength\":36,\"uri\":\"gltf.bin\"}]}", gltf_start);
   test_file("gltf.bin", gltf_positions, sizeof gltf_positions);
   check_gltf(test_text("outside.gltf", json));
+  snprintf(json, sizeof json, "%s\"buffers\":[{\"byteLength\":36,\"uri\":\"50%% be%%2D%%-1.bin\"}]}", gltf_start);
+  test_file("50% be-%-1.bin", gltf_positions, sizeof gltf_positions);
+  check_gltf(test_text("percent.gltf", json));
 
   int length = snprintf(json, sizeof json, "%s\"buffers\":[{\"byteLength\":36}]}", gltf_start);
   while (length % 4)

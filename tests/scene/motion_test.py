@@ -358,7 +358,8 @@ def test_sequence_of_a_file():
         refused("expected trax-render's words: ", "trax-eval", "frames", "walks.gltf", *some)
     check(not pathlib.Path("x").exists(), "a refused sequence leaves nothing")
     refused("walks.gltf: is no folder", "trax-render", "walks.gltf", *words, "-o", "walks.gltf")
-    call("trax-render", "walks.gltf", "--at", "1:1", "--frames", "2", "-q", "--size", "8x6", "--no-refit", "-o", "still")
+    call("trax-render", "walks.gltf", "--at", "1:1", "--frames", "2", "-q", "--size", "8x6", "--no-refit", "-o",
+         "still")
     one, other = (pathlib.Path(f"still/frame-000{number}.png").read_bytes() for number in (1, 2))
     check(one == other and len(frames("still")) == 2, "two frames of one moment")
     refused("--no-refit is for", "trax-render", "walks.gltf", "--at", "0", "--no-refit", "-o", "x.png")

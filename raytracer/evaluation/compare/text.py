@@ -163,9 +163,9 @@ def print_comparison(comparison, every, out=print):
     if "pictures" in comparison:
         pictures(out, comparison["pictures"])
     hidden = 0
-    for name, title, _, shown in SECTIONS:
+    for name, title, _, always in SECTIONS:
         rows = comparison["sections"][name]
-        if not every and not shown:
+        if not every and not always:
             hidden += len(rows)
         elif rows:
             table(out, title, ("", "A", "B", "difference", "", ""), [

@@ -178,8 +178,9 @@ def pages_of(names):
     pages = []
     for name in names:
         folder = pathlib.Path(name)
-        pages += [Page(path) for path in sorted(folder.glob("*.md"))
-                  if MARK.search(path.read_text(encoding="utf-8", errors="replace"))] if folder.is_dir() else [Page(name)]
+        paths = [path for path in sorted(folder.glob("*.md"))
+                 if MARK.search(path.read_text(encoding="utf-8", errors="replace"))] if folder.is_dir() else [name]
+        pages += map(Page, paths)
     return pages
 
 
