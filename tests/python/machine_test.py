@@ -261,7 +261,7 @@ def test_interrupt_from_another_thread(programs):
 @pytest.mark.parametrize("text", ["trax.Machine(path).run()", "trax.sweep(path, ['1x32', '2x32', '4x32'], jobs=2)"])
 def test_control_c(programs, text):
     script = textwrap.dedent(f"""\
-        import sys, trax
+        import pandas, sys, trax  # a signal that comes while the first is being imported is lost
         path = sys.argv[1]
         print("begun", flush=True)
         {text}

@@ -35,7 +35,7 @@ function linesOfEnd(all) {
   const took = `, which was begun in cycle ${whole(last.begin)} and took ${whole(last.end - last.begin)}.`;
   return [
     alone >= stats.cycles / 100 ? element("li", {}, "The last ", element("b", {}, `${whole(alone)} cycles`), " wait for ", pixel, took) :
-      element("li", {}, `The last to end, ${whole(alone)} cycles after all others, was `, pixel, took),
+      element("li", {}, `The last to end, ${whole(alone)} ${alone === 1 ? "cycle" : "cycles"} after all others, was `, pixel, took),
     element("li", {}, `After cycle ${whole(begun)} no further pixel was begun: threads that had ended theirs had nothing to do in `,
       element("b", {}, percent(idle / stats.thread_cycles)), " of all thread-cycles."),
   ];
