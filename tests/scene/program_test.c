@@ -152,6 +152,11 @@ static void test_refusals(void **state) {
       {{nan, "-o", scene}, "nan.obj: 1 of 1 triangles have a vertex that is NaN"},
       {{good, "-o", nowhere}, "where.trax: cannot be written"},
       {{"--check", good}, "triangle.obj: not a scene file"},
+      {{"--check", good, "--write-triangles", nowhere}, "--check takes neither --tree nor --write-triangles"},
+      {{good, "-o", scene, "--refit-from", "0"}, "--refit-from needs --at, and excludes --refit"},
+      {{good, "-o", scene, "--at=1", "--refit-from=0", "--refit", good}, "--refit-from needs --at, and excludes"},
+      {{good, "-o", scene, "--at=1", "--refit-from=0", "--splits"}, "--refit-from builds a tree without splits"},
+      {{good, "-o", scene, "--animation", "run"}, "--animation without --at"},
   };
   unsigned files = count_files();
   for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
