@@ -138,6 +138,21 @@ static void store_again_and_again(struct program *program) {
       emit(program, NOP);
   }
 }
+/* A word in every other cycle, which the stores before it combine with. */
+static void count_up(struct program *program) {
+  for (unsigned i = 0; i < 80; i++) {
+    emit(program, I(ADDI, 4, 4, 1));
+    emit(program, S(SW, 4, 10, WORD));
+  }
+}
+static void add_up_past_cache(struct program *program) {
+  emit(program, I(ADDI, 6, 0, 0));
+  for (unsigned i = 0; i < 6; i++) {
+    emit(program, I(LWNT, 5, 10, WORD));
+    emit(program, R(ADD, 6, 6, 5));
+  }
+  emit(program, S(SW, 6, 11, 0));
+}
 static void print(struct program *program) {
   emit(program, I(ADDI, 5, 4, 'a'));
   emit(program, T(5, TRAX_TRAP_PUTC));
@@ -188,6 +203,13 @@ static const struct scenario scenarios[] = {
     {"an increment of what has been loaded ahead since a first write", true, {increment, add_up}},
     {"a store of it by itself and another, between stores to local memory", true, {add_up_locally, add_up, store_word}},
     {"an increment and stores of what decides a path", true, {choose, increment, NULL, store_again_and_again}},
+    {"stores by a higher TP of what has been loaded ahead", true, {add_up, NULL, NULL, count_up}},
+    {"loads past the cache of what a higher TP stores in the same cycle",
+     true,
+     {add_up_past_cache, NULL, NULL, count_up}},
+    {"loads past the cache of what a lower TP stores in the same cycle",
+     true,
+     {count_up, NULL, NULL, add_up_past_cache}},
     {"output", false, {print, print, print}},
     {"a fault, and stores that must not happen", false, {fault, store_for_long}},
     {"a fault of a higher TM, and stores", false, {store_for_long, fault}},
