@@ -108,6 +108,14 @@ static void add_up(struct program *program) {
   }
   emit(program, S(SW, 6, 11, 0));
 }
+/* And one of another line. */
+static void add_up_two(struct program *program) {
+  for (unsigned i = 0; i < 60; i++) {
+    emit(program, I(LW, 5, i % 2 ? 10 : 11, i % 2 ? WORD : 12));
+    emit(program, R(ADD, 6, 6, 5));
+  }
+  emit(program, S(SW, 6, 11, 0));
+}
 /* And writes a word of local memory of which it reads what was there. */
 static void add_up_locally(struct program *program) {
   for (unsigned i = 0; i < 60; i++) {
@@ -200,6 +208,7 @@ static const struct scenario scenarios[] = {
     {"a store of what has been loaded ahead by itself and another", false, {add_up, add_up, store_word}},
     {"a store of what has been loaded ahead between stores to local memory", false, {add_up_locally, store_word}},
     {"a store of what has been loaded ahead since a first write", true, {add_up, store_word}},
+    {"a store of what has been loaded ahead between loads of another line", true, {add_up_two, store_word}},
     {"an increment of what has been loaded ahead since a first write", true, {increment, add_up}},
     {"a store of it by itself and another, between stores to local memory", true, {add_up_locally, add_up, store_word}},
     {"an increment and stores of what decides a path", true, {choose, increment, NULL, store_again_and_again}},
@@ -249,6 +258,7 @@ static void write_program(struct program *program, const struct scenario *scenar
     if (scenario->written) {
       emit(program, S(SW, 0, 10, OTHER));
       emit(program, S(SW, 0, 10, WORD)); /* the data are random */
+      emit(program, S(SW, 0, 11, 12));
     }
     emit(program, U(LUI, 4, (int32_t)(numbers[tm % 3] >> 16)));
     emit(program, I(ORI, 4, 4, (int32_t)(numbers[tm % 3] & 0x7FF)));
