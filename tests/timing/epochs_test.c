@@ -89,6 +89,14 @@ static void add_up(struct program *program) {
   }
   emit(program, S(SW, 6, 11, 0));
 }
+/* And one of another line. */
+static void add_up_two(struct program *program) {
+  for (unsigned i = 0; i < 60; i++) {
+    emit(program, I(LW, 5, i % 2 ? 10 : 11, i % 2 ? WORD : 12));
+    emit(program, R(ADD, 6, 6, 5));
+  }
+  emit(program, S(SW, 6, 11, 0));
+}
 /* And writes a word of local memory of which it reads what was there. */
 static void add_up_locally(struct program *program) {
   for (unsigned i = 0; i < 60; i++) {
@@ -118,6 +126,21 @@ static void store_again_and_again(struct program *program) {
     for (unsigned j = 0; j < 12; j++)
       emit(program, NOP);
   }
+}
+/* A word in every other cycle, which the stores before it combine with. */
+static void count_up(struct program *program) {
+  for (unsigned i = 0; i < 80; i++) {
+    emit(program, I(ADDI, 4, 4, 1));
+    emit(program, S(SW, 4, 10, WORD));
+  }
+}
+static void add_up_past_cache(struct program *program) {
+  emit(program, I(ADDI, 6, 0, 0));
+  for (unsigned i = 0; i < 6; i++) {
+    emit(program, I(LWNT, 5, 10, WORD));
+    emit(program, R(ADD, 6, 6, 5));
+  }
+  emit(program, S(SW, 6, 11, 0));
 }
 static void print(struct program *program) {
   emit(program, I(ADDI, 5, 4, 'a'));
@@ -166,9 +189,20 @@ static const struct scenario scenarios[] = {
     {"a store of what has been loaded ahead by itself and another", false, {add_up, add_up, store_word}},
     {"a store of what has been loaded ahead between stores to local memory", false, {add_up_locally, store_word}},
     {"a store of what has been loaded ahead since a first write", true, {add_up, store_word}},
+    {"a store of what has been loaded ahead between loads of another line", true, {add_up_two, store_word}},
     {"an increment of what has been loaded ahead since a first write", true, {increment, add_up}},
     {"a store of it by itself and another, between stores to local memory", true, {add_up_locally, add_up, store_word}},
     {"an increment and stores of what decides a path", true, {choose, increment, NULL, store_again_and_again}},
+    {"stores by a higher TP of what has been loaded ahead", true, {add_up, NULL, NULL, count_up}},
+    {"a store past the cache by a higher TP of what has been loaded ahead",
+     true,
+     {add_up, NULL, NULL, store_past_cache}},
+    {"loads past the cache of what a higher TP stores in the same cycle",
+     true,
+     {add_up_past_cache, NULL, NULL, count_up}},
+    {"loads past the cache of what a lower TP stores in the same cycle",
+     true,
+     {count_up, NULL, NULL, add_up_past_cache}},
     {"output", false, {print, print, print}},
     {"a fault, and stores that must not happen", false, {fault, store_for_long}},
     {"a fault of a higher TM, and stores", false, {store_for_long, fault}},
@@ -206,6 +240,7 @@ static void write_program(struct program *program, const struct scenario *scenar
     if (scenario->written) {
       emit(program, S(SW, 0, 10, OTHER));
       emit(program, S(SW, 0, 10, WORD)); /* the data are random */
+      emit(program, S(SW, 0, 11, 12));
     }
     emit(program, U(LUI, 4, (int32_t)(numbers[tm % 3] >> 16)));
     emit(program, I(ORI, 4, 4, (int32_t)(numbers[tm % 3] & 0x7FF)));

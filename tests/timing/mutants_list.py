@@ -153,7 +153,6 @@ MUTANTS = [
     ("fast/time/grant.h", "at_once = tm->buffer && !(tm->ready & tm->executes_at_issue)", "at_once = tm->buffer"),
     ("fast/time/grant.h", "if (at_once && tm->heads.at[number] < tm->heads.last[number] &&", "if (at_once &&"),
     ("fast/time/grant.h", "trax_fast_find_readers(tm, store->address, bit))) {", "0)) {"),
-    ("fast/time/grant.h", "      *slow ^= bit;\n", ""),
     ("fast/time/grant.h", "(requesters & (requesters - 1)) || unit->free_from)", "(requesters & (requesters - 1)))"),
     ("fast/time/grant.h", "  trax_arbiter_to_back(&unit->arbiter[trax_first(requesters) / unit->kind.group_size], "
      "trax_first(requesters));\n", ""),
@@ -524,7 +523,8 @@ MUTANTS = [
     ("fast/tm/queue.c", "x->completion < y->completion", "x->completion > y->completion"),
     ("fast/tm/queue.c", "x->number < y->number", "x->number > y->number"),
     # Every part of the snapshot is copied.
-    ("machine/snapshot.c", "  return snapshot->count * part / parts;", "  return snapshot->count * part / parts - part / 2;"),
+    ("machine/snapshot.c", "  return snapshot->count * part / parts;",
+     "  return snapshot->count * part / parts - part / 2;"),
     # A TM sees its own stores.
     ("machine/overlay.h", "  old ^= (old ^ new) & trax_overlay_mask(written);", "  old = new;"),
     ("machine/overlay.h", "if (__builtin_expect(bytes == sizeof value, true))", "if (true)"),

@@ -383,22 +383,24 @@ static void a_byte_before_its_word(void **state) {
   expect_as_reference(&config, program, sizeof program / 4);
 }
 
-/* A TP's burst has loaded a word ahead when the other TP has it written: by the host, which answers a call there, or by
-   a store to what the host has filled (compare.c). */
+/* A TP's burst has loaded a word ahead when the other TP has it written: by the host, which answers a call there, also
+   after a store to its block, or by a store to what the host has filled (compare.c). */
 static void a_write_behind_a_load_ahead(void **state) {
   (void)state;
   struct trax_config config = bench_near(1, 2);
   config.icache.ports_per_bank = 64;
-  for (int filled = 0; filled < 2; filled++) {
+  for (int kind = 0; kind < 3; kind++) {
+    const bool filled = kind == 1;
     const int32_t place = filled ? DATA_BYTES / 4 : 0;
-    uint32_t words[33] = {U(LUI, 1, 1),
+    uint32_t words[34] = {U(LUI, 1, 1),
+                          kind == 2 ? S(SW, 0, 1, 12) : NOP,
                           U(RDSR, 2, TRAX_SR_THREAD),
                           B(BNE, 2, 0, 16),
                           NOP,
                           filled ? S(SW, 1, 1, place) : T(1, TRAX_TRAP_HOST),
                           HALT};
-    size_t count = 6;
-    while (count < 30)
+    size_t count = 7;
+    while (count < 31)
       words[count++] = NOP;
     words[count++] = I(LW, 5, 1, place);
     words[count++] = S(SW, 5, 1, 64);
