@@ -182,18 +182,35 @@ class Heat(Programs):
 
 
 class HostThreads(Programs):
+    def count(self, name, text):
+        """The profile on three threads of the host has each of the run's thread-cycles once."""
+        self.compile(name, text)
+        self.run_sim("--quiet", "--config", "4x32", "--host-threads", "3", "--profile-folded", "f", "--stats", "stats",
+                     name)
+        cycles = json.loads((self.folder / "stats").read_text())["thread_cycles"]
+        self.assertEqual(sum(self.folded("f").values()), cycles)
+
     def test_each_passage_once(self):
-        """Threads of the host share the batches of passages: none is counted twice, and none is left out."""
-        self.compile("loop", """volatile unsigned x[64];
+        """They share the batches of passages."""
+        self.count("loop", """volatile unsigned x[64];
             int main(void) {
               unsigned sum = 0;
               for (unsigned i = 0; i < 400000; i++) sum += x[i % 64];
               return sum;
             }""")
-        self.run_sim("--quiet", "--config", "4x32", "--host-threads", "3", "--profile-folded", "f", "--stats", "stats",
-                     "loop")
-        cycles = json.loads((self.folder / "stats").read_text())["thread_cycles"]
-        self.assertEqual(sum(self.folded("f").values()), cycles)
+
+    def test_epochs_that_are_given_up(self):
+        """TMs write words that others have loaded, again and again."""
+        self.count("races", """#include <trax.h>
+            volatile unsigned x[64];
+            int main(void) {
+              unsigned sum = 0;
+              for (unsigned i = 0; i < 20000; i++) {
+                sum += x[i % 64];
+                if (i % 997 == 0) x[i % 64] = trax_thread();
+              }
+              return sum == 1;
+            }""")
 
 
 class Stacks(Programs):
