@@ -64,7 +64,7 @@ MUTANTS = [
     ("profile.c", "inst.rd && passage->next_pc != pc + 4)", "inst.rd)"),
     ("profile.c", "index = trax_passage_index(passage, charged->at - 1u);", ";"),
     ("profile.c", "      of = thread->latest_context;\n", ""),
-    ("profile.c", "profile->record_count >= MAX_RECORDS || ", ""),
+    ("profile.c", "profile->record_count >= MAX_RECORDS || ", "", "explain_programs"),
     # Heat, traces, rays.
     ("heat.c", "      count(local, op, 0, -counts->outcomes[outcome]);\n", ""),
     ("heat.c", "address >> LINE_SHIFT & (LINES_PER_PAGE - 1)", "address >> LINE_SHIFT & (LINES_PER_PAGE / 2 - 1)",
