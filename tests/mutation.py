@@ -103,10 +103,11 @@ def relinked(folder, build, objects, source, text, tests, *options):
 
 
 def linked(folder, build, tests, made):
-    """Links one test after the other with these objects."""
+    """Links one test after the other with these objects: by its name, or another program by its path in the build."""
     for test in tests:
         if not (folder / test).exists():
-            link_as(build, f"tests/bin/{test}", folder / test, made)
+            (folder / test).parent.mkdir(exist_ok=True)
+            link_as(build, test if "/" in test else f"tests/bin/{test}", folder / test, made)
         yield folder / test
 
 

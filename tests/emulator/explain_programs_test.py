@@ -170,17 +170,64 @@ class Waits(Programs):
         self.expect([(1, "(local memory)", 2, "wait_local", 2)], "--set", "tp.local_latency_cycles=3")
 
 
+class Heat(Programs):
+    def test_lines(self):
+        """Two lines that are 48,000 bytes apart."""
+        self.compile("lines", """volatile unsigned a[16384] __attribute__((aligned(65536)));
+            int main(void) { return a[0] + a[12000] + a[12001]; }""")
+        self.run_sim("--quiet", "--heat-lines", "lines.csv", "lines")
+        rows = csv.DictReader((self.folder / "lines.csv").read_text().splitlines())
+        self.assertEqual([(row["offset"], row["loads"]) for row in rows if row["object"] == "a"],
+                         [("0", "1"), ("48000", "2")])
+
+
+class HostThreads(Programs):
+    def count(self, name, text):
+        """The profile on three threads of the host has each of the run's thread-cycles once."""
+        self.compile(name, text)
+        self.run_sim("--quiet", "--config", "4x32", "--host-threads", "3", "--profile-folded", "f", "--stats", "stats",
+                     name)
+        cycles = json.loads((self.folder / "stats").read_text())["thread_cycles"]
+        self.assertEqual(sum(self.folded("f").values()), cycles)
+
+    def test_each_passage_once(self):
+        """They share the batches of passages."""
+        self.count("loop", """volatile unsigned x[64];
+            int main(void) {
+              unsigned sum = 0;
+              for (unsigned i = 0; i < 400000; i++) sum += x[i % 64];
+              return sum;
+            }""")
+
+    def test_epochs_that_are_given_up(self):
+        """TMs write words that others have loaded, again and again."""
+        self.count("races", """#include <trax.h>
+            volatile unsigned x[64];
+            int main(void) {
+              unsigned sum = 0;
+              for (unsigned i = 0; i < 20000; i++) {
+                sum += x[i % 64];
+                if (i % 997 == 0) x[i % 64] = trax_thread();
+              }
+              return sum == 1;
+            }""")
+
+
 class Stacks(Programs):
     def many_stacks(self, text, all_of):
         """As many stacks as calls are not kept; what is kept adds up."""
         self.compile("many", text)
         plain = self.run_sim("--stats", "stats", "many")[1]
-        cycles = json.loads((self.folder / "stats").read_text())["thread_cycles"]
-        reports = ["--profile", "p", "--profile-folded", "f", "--explore", "x"]
+        stats = json.loads((self.folder / "stats").read_text())
+        cycles = stats["thread_cycles"]
+        reports = ["--profile", "p", "--profile-folded", "f", "--explore", "x", "--heat", "h"]
         self.assertLess(self.run_sim("--quiet", *reports, "many")[1] - plain, 200 << 20)
         self.assertLess(self.run_sim("--profile-sample", "s", "many")[1] - plain, 8 << 20)
         folded = self.folded("f")
         self.assertEqual(sum(folded.values()), cycles)
+        heat = list(csv.DictReader((self.folder / "h").read_text().splitlines()))
+        for name in "hits", "misses", "merged":
+            self.assertEqual(sum(int(row[name]) for row in heat), stats["dcache"][name], name)
         data, _ = unpack(self.folder / "x")
         self.assertEqual(data["folded"], (self.folder / "f").read_text())
         table = {

@@ -349,11 +349,13 @@ def main(directory):
         equal(read(directory / "busy-fast", name), read(directory / "busy-reference", name), "a busy unit:", name)
     # A hit is waited for, too, if it takes several cycles: by the instruction that uses it.
     for engine in "reference", "fast":
-        run(directory / f"hits-{engine}", engine, *machine, "--set", "dcache.hit_latency_cycles=3", files=["waits"])
+        run(directory / f"hits-{engine}", engine, *machine, "--set", "dcache.hit_latency_cycles=3",
+            files=["waits", "profile"])
         hits = {(row["function"], row["object"]) for row in rows(directory / f"hits-{engine}", "waits")
                 if row["wait_dcache_hit"] != "0"}
         check({("alternate", "even"), ("alternate", "odd"), ("divide", "divisor")} <= hits, "waits for hits:", hits)
         check(all(function in ("alternate", "divide", "inlined") for function, _ in hits), "waits for hits:", hits)
+    equal(read(directory / "hits-fast", "profile"), read(directory / "hits-reference", "profile"), "bubbles by line")
     run(directory / "plain", "fast", *machine, files=[])
     stats = json.loads(read(directory / "fast", "stats.json"))
     plain = json.loads(read(directory / "plain", "stats.json"))

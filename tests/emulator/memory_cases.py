@@ -17,7 +17,7 @@ typedef unsigned word;
 static volatile unsigned sink;
 static volatile int at;
 static void *volatile kept;
-static void **volatile table;
+static void **volatile table, **volatile stale;
 static _Thread_local void *own;
 static char *volatile escaped;
 
@@ -136,7 +136,12 @@ def never_written():
                "free(p);"), None
     yield "", "char *p = malloc(6); OPAQUE(p); p[3] = 0; sink = strlen(p); free(p);", BRANCH
     yield "", "word *p = calloc(4, 4); if (p[2]) sink = 1; free(p);", None
+    yield "", "signed char *p = malloc(4); OPAQUE(p); int s = p[1]; OPAQUE(s); if (s >> 8) sink = 1; free(p);", BRANCH
+    # A byte of a pointer, which is the same in both, makes it no pointer to the other block.
+    yield "", ("byte *a = aligned_alloc(256, 256), *b = aligned_alloc(256, 256); byte *volatile w = a; OPAQUE(b);"
+               "*(volatile byte *)&w = (byte)(word)b; sink = w[0]; free(a); free(b);"), None
     yield "", "word *p = block(8); p = realloc(p, 16); OPAQUE(p); if (p[1] == 1) sink = 1; free(p);", None
+    yield "", "word *p = block(20000); p = realloc(p, 40000); OPAQUE(p); if (p[3000] == 1) sink = 1; free(p);", None
     yield "", "word *p = block(8); p = realloc(p, 16); OPAQUE(p); if (p[3] == 1) sink = 1; free(p);", BRANCH
     for index, finding in (("n - 1", None), ("n", OUTSIDE)):
         yield "", ("byte *p = malloc(20); OPAQUE(p); unsigned n = malloc_usable_size(p); fill(p, n); "
@@ -203,6 +208,8 @@ def fatal():
     # The address of the access that faults is an error itself: CWE-457.
     yield "word **p = malloc(8); OPAQUE(p); *p[1] = 5;", ADDRESS
     yield "word *p = block(8); OPAQUE(p); at = 1 << 28; int i = at; sink = p[i];", OUTSIDE
+    # A freed block of which nobody uses the memory again keeps no other one.
+    yield "void **p = malloc(64); p[9] = block(44); stale = p; free(p);", LEAK
 
 
 def batch():

@@ -32,15 +32,17 @@ TESTS += [(10, "", "timing-engines-test", *ENGINES, "fast-translated", "--count"
           (15, "reference", "timing-bandwidth-test")]
 TESTS += [(120, "", "timing-engines-test", *ENGINES, engine, "--count", "200")
           for engine in ("fast-translated", "fast")]
+FIRST = {"merge": "timing-epochs-test", "store_buffer": "timing-epochs-test", "written": "timing-epochs-test"}
 PARTS = {"fast": "fast", "translate": "fast", "reference": "reference"}  # the others are parts of both engines
-BY_COMPARISON = ("timing-engines", "timing-ahead", "timing-state", "timing-epochs", "timing-checkpoint", "timing-translated")
+BY_COMPARISON = tuple(f"timing-{name}" for name in ("engines", "ahead", "state", "epochs", "checkpoint", "translated"))
 
 
 def tests_of(mutant):
-    """Those of its part; first the one that is known to notice it."""
+    """Those of its part; first the one that is known to notice it, or those of its file."""
     part = PARTS.get(mutant.file.split("/")[0], "")
+    first = mutant.case or FIRST.get(pathlib.Path(mutant.file).stem)
     return sorted((test for test in TESTS if not test[1] or not part or test[1] == part),
-                  key=lambda test: test[2] != mutant.case)
+                  key=lambda test: test[2] != first)
 
 
 def with_templates(folder, build, source, text, tests):

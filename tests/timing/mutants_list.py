@@ -635,6 +635,7 @@ MUTANTS = [
     ("fast/observe.c", "  return count < 64 ? found & (((uint64_t)1 << count) - 1) : found;", "  return found;"),
     ("fast/time/refusals.h", "((*some & most) == most) | ((*some | most) == UINT8_MAX)", "(*some & most) == most"),
     ("fast/time/refusals.h", "((*some & most) == most) | ((*some | most) == UINT8_MAX)", "(*some | most) == UINT8_MAX"),
+    ("fast/time/refusals.h", "- trax_fast_bytes_of(lower >> i);", "- trax_fast_bytes_of(lower);"),
     ("engine/run.c", "    run->engine->tell(run->chip);", "    (void)run;"),
     ("fast/time/issue.h", "trax_fast_tell_steps(tm, number, last + 1, tp->resume_pc);",
      "trax_fast_tell_steps(tm, number, last, tp->resume_pc);"),
