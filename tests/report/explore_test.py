@@ -592,7 +592,7 @@ class Page(PageTests, Scratch):
         self.load("whole")
         lines = self.browser.run("Array.from(document.querySelectorAll('#brief li'), li => li.textContent)")
         begins = (f"The last {alone:,} cycles wait for" if alone >= stats["cycles"] / 100 else
-                  f"The last to end, {alone:,} cycles after all others, was")
+                  f"The last to end, {alone:,} {'cycle' if alone == 1 else 'cycles'} after all others, was")
         self.assertIn(f"{begins} pixel ({last['place'] % WIDTH}, {last['place'] // WIDTH}), which was begun in cycle "
                       f"{last['begin']:,} and took {last['end'] - last['begin']:,}.", lines)
         self.assertIn(f"After cycle {before:,} no further pixel was begun: threads that had ended theirs had nothing "
