@@ -65,7 +65,7 @@ static ALWAYS_INLINE void trax_fast_count_bytes(uint8_t *bytes, const bool wide,
    TPs' banks. A vector has the banks whose numbers differ in their low bits. */
 #define TRAX_FAST_REFUSE(NAME, LANE, ARBITER, MOST_BANKS)                                                              \
   static ALWAYS_INLINE LANE NAME(void *rr_masks, uint64_t requesters, const uint64_t *plane) {                         \
-    enum { BANKS = TRAX_FAST_VECTOR / sizeof(LANE) };                                                                  \
+    enum { BANKS = TRAX_FAST_VECTOR / sizeof(LANE), BITS = __builtin_ctz(MOST_BANKS) /* of a number */ };              \
     typedef LANE lanes __attribute__((vector_size(TRAX_FAST_VECTOR), may_alias));                                      \
     typedef ARBITER arbiters __attribute__((vector_size(TRAX_FAST_VECTOR), may_alias));                                \
     const lanes none = {0};                                                                                            \
@@ -76,7 +76,7 @@ static ALWAYS_INLINE void trax_fast_count_bytes(uint8_t *bytes, const bool wide,
       low &= (none + (LANE)plane[k]) ^ (lanes)((number & (LANE)1 << k) == 0);                                          \
     _Pragma("GCC unroll 8") for (unsigned first = 0; first < MOST_BANKS; first += BANKS) {                             \
       LANE high = ~(LANE)0;                                                                                            \
-      _Pragma("GCC unroll 4") for (unsigned k = 0; 1u << k < MOST_BANKS; k++) {                                        \
+      _Pragma("GCC unroll 4") for (unsigned k = 0; k < BITS; k++) {                                                    \
         high &= 1u << k < BANKS ? ~(LANE)0 : (LANE)(first >> k & 1 ? plane[k] : ~plane[k]);                            \
       }                                                                                                                \
       const lanes requesting = low & (none + high);                                                                    \
